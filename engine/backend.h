@@ -1,0 +1,42 @@
+// Backend: where finished layers go. One interface for files, image stacks and machines.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/layer.h"
+
+namespace lamella {
+
+/// What a back-end made of one layer, ready to be written. Back-ends derive their own payload.
+struct LayerProduct {
+    virtual ~LayerProduct() = default;
+    double area = 0;  ///< solid area of the layer, mm^2
+};
+
+/// The range of layers a run makes: [first, last).
+struct LayerRange {
+    int first = 0;
+    int last = 0;
+    int count() const { return last - first; }
+};
+
+/// A destination of layers. `render` is called for several layers at once; the rest comes from one thread, in
+/// order: begin, write for each layer by ascending index, then end. A back-end that is destroyed before `end`
+/// leaves what it has written under its unfinished name, so that a later run can continue it.
+class Backend {
+  public:
+    virtual ~Backend() = default;
+    /// Opens the output. Returns the first layer that is still missing: range.first, or later when `resume`
+    /// is set and an unfinished output of the same job (Job::identity) and range exists. Throws InputError
+    /// when the output exists already or belongs to another job, FaultError when it cannot be made.
+    virtual int begin(const Job& job, LayerRange range, bool resume) = 0;
+    /// Computes what will be written of a layer. Thread-safe, pure.
+    virtual std::unique_ptr<LayerProduct> render(const Layer& layer) const = 0;
+    /// Writes one layer. Throws FaultError when that fails.
+    virtual void write(const Layer& layer, LayerProduct& product) = 0;
+    /// Completes the output and gives it its final name.
+    virtual void end() = 0;
+};
+
+}  // namespace lamella

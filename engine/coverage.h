@@ -1,0 +1,26 @@
+// Coverage: how much of each pixel a layer fills, as runs of equal grey values.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/runs.h"
+
+namespace lamella {
+
+/// `length` consecutive pixels of one grey value (0 empty, 255 full).
+struct GreyRun {
+    std::uint32_t length;
+    std::uint8_t value;
+    friend bool operator==(const GreyRun&, const GreyRun&) = default;
+};
+
+/// Antialiased coverage of the band's pixel rows from the runs of its sub-lines: exact along the lines, the
+/// mean of `band.sub` lines across. The rows follow each other without a break; each sums to band.hi -
+/// band.lo pixels, and a run never spans two rows. Appends to `out`.
+void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out);
+
+/// Black and white: a pixel is 255 when its centre lies in a run of the row's only line (band.sub must be 1).
+void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out);
+
+}  // namespace lamella

@@ -1,0 +1,69 @@
+// Field, a 3D implicit solid, and SliceField, the same solid in one plane: the seam that every shape
+// implements.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/geometry.h"
+#include "engine/runs.h"
+
+namespace lamella {
+
+class Scratch;
+class SliceContext;
+class Field;
+using FieldPtr = std::shared_ptr<const Field>;
+
+/// What a field's value says about the distance to its surface.
+enum class Metric : std::uint8_t {
+    exact,  ///< the signed Euclidean distance, mm
+    bound,  ///< |value| never exceeds the distance
+    sign    ///< only the sign holds
+};
+
+/// A regular lattice of sample points in a layer's plane: point (i, j) lies at origin + (i * step.x, j *
+/// step.y).
+struct Tile {
+    dvec2 origin{0};
+    dvec2 step{1};
+    int nx = 0;
+    int ny = 0;
+};
+
+/// A solid in one plane. Immutable once made; any thread may ask it.
+class SliceField {
+  public:
+    virtual ~SliceField() = default;
+    /// The solid runs of every line of the band, clipped to it, appended to a cleared `out`.
+    virtual void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const = 0;
+    /// Encloses every value over the rectangle.
+    virtual Interval range(const Rect& r) const = 0;
+    /// The field's value at every point of the tile, row by row: out[j * nx + i].
+    virtual void sample(const Tile& tile, std::span<float> out) const = 0;
+    /// Encloses the solid part of the plane, mm; empty when there is none.
+    virtual Rect bounds() const = 0;
+};
+
+/// A 3D implicit solid: negative inside, positive outside. Immutable and thread-safe.
+class Field : public std::enable_shared_from_this<Field> {
+  public:
+    virtual ~Field() = default;
+    /// The field at one point, mm. NaN counts as outside.
+    virtual double value(dvec3 p) const = 0;
+    /// The field at many points; out has the size of points.
+    virtual void values(std::span<const dvec3> points, std::span<double> out) const;
+    /// Encloses every value over the box. The default derives it from the centre's value and the metric.
+    virtual Interval range(const Box& box) const;
+    virtual Metric metric() const { return Metric::bound; }
+    /// The solid grown (d > 0) or shrunk (d < 0) by d mm in true 3D distance; null where there is no closed
+    /// form.
+    virtual FieldPtr offset(double d) const;
+    /// The solid in the plane at height z, owned by the context. The default samples `value`.
+    /// Callers use SliceContext::slice, which works each pair (field, z) out once.
+    virtual const SliceField& slice(SliceContext& context, double z) const;
+    /// Encloses the solid, mm; sides may be infinite.
+    virtual Box bounds() const = 0;
+};
+
+}  // namespace lamella

@@ -1,0 +1,67 @@
+// Points, boxes and intervals: the vocabulary that every other header speaks. Lengths are millimetres.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace lamella {
+
+using dvec2 = glm::dvec2;
+using dvec3 = glm::dvec3;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A closed range of values; empty when lo > hi.
+struct Interval {
+    double lo = infinity;
+    double hi = -infinity;
+
+    bool empty() const { return !(lo <= hi); }
+    bool contains(double v) const { return lo <= v && v <= hi; }
+    double width() const { return hi - lo; }
+};
+
+/// An axis-aligned rectangle in a layer's plane, mm; empty when a lower corner exceeds the upper one.
+struct Rect {
+    dvec2 lo{infinity};
+    dvec2 hi{-infinity};
+
+    bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y); }
+    dvec2 size() const { return hi - lo; }
+    dvec2 center() const { return (lo + hi) * 0.5; }
+};
+
+/// An axis-aligned box, mm; empty when a lower corner exceeds the upper one.
+struct Box {
+    dvec3 lo{infinity};
+    dvec3 hi{-infinity};
+
+    bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+    dvec3 size() const { return hi - lo; }
+    dvec3 center() const { return (lo + hi) * 0.5; }
+    Rect rect() const { return {{lo.x, lo.y}, {hi.x, hi.y}}; }
+    bool contains(dvec3 p) const {
+        return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;
+    }
+    void include(dvec3 p) {
+        lo = glm::min(lo, p);
+        hi = glm::max(hi, p);
+    }
+};
+
+inline Rect unite(const Rect& a, const Rect& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
+inline Rect intersect(const Rect& a, const Rect& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
+inline Box unite(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
+inline Box intersect(const Box& a, const Box& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
+inline Box grown(const Box& b, double by) { return {b.lo - by, b.hi + by}; }
+inline Rect grown(const Rect& r, double by) { return {r.lo - by, r.hi + by}; }
+
+/// Distance from a point to a box, 0 inside.
+inline double distance(const Box& b, dvec3 p) {
+    const dvec3 d = glm::max(glm::max(b.lo - p, p - b.hi), dvec3(0.0));
+    return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+}  // namespace lamella

@@ -1,0 +1,57 @@
+// A layer, the unit that is streamed, and the job that the layers belong to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/contours.h"
+#include "engine/field.h"
+#include "engine/slice_context.h"
+
+namespace lamella {
+
+/// What is printed: a solid and how it is cut into layers. Layer i spans [z0 + i h, z0 + (i + 1) h] and is
+/// cut at its mid-height.
+struct Job {
+    std::string name = "part";   ///< short name for file names and headers
+    FieldPtr part;               ///< the solid, in its own coordinates, mm
+    Box bounds;                  ///< finite bounds of the part, mm
+    double layer_height = 0.05;  ///< h, mm
+    int layer_count = 0;
+    std::string identity;  ///< hash of recipe and inputs: two jobs with equal identity make the same bytes
+
+    double z0() const { return bounds.lo.z; }
+    /// Height of the cutting plane of layer i, in part coordinates, mm.
+    double plane(int i) const { return z0() + (i + 0.5) * layer_height; }
+};
+
+/// Number of layers of height h (mm) that a part of this height (mm) needs.
+int count_layers(double part_height, double h);
+
+/// One layer in flight. Pure: it depends on the job and the index alone. Used by one thread at a time.
+class Layer {
+  public:
+    Layer(const Job& job, int index);
+
+    int index() const { return index_; }
+    double z() const { return z_; }                  ///< cutting plane in part coordinates, mm
+    double thickness() const { return thickness_; }  ///< mm
+    /// Height of the layer's top over the build plate, mm.
+    double top() const { return (index_ + 1) * thickness_; }
+    const SliceField& part() const { return *part_; }
+
+    void spans(const RowBand& band, SpanRows& out) const { part_->spans(band, scratch_, out); }
+    std::vector<Contour> contours(double tolerance) const {
+        return trace_contours(*part_, tolerance, scratch_);
+    }
+
+  private:
+    int index_;
+    double z_;
+    double thickness_;
+    SliceContext context_;
+    mutable Scratch scratch_;
+    const SliceField* part_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,109 @@
+// Runs: a row of a layer as a sorted list of solid intervals with sub-pixel ends (dexels; thesis 2.1.2).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/geometry.h"
+
+namespace lamella {
+
+/// The direction in which the lines of a band run.
+enum class Axis : std::uint8_t { x, y };
+
+/// Run ends per pitch: a run coordinate is a fixed-point number with 8 fractional bits.
+inline constexpr int run_unit = 256;
+
+/// A solid interval of a line, half-open, in 1/256 of the band's pitch along the line. Never empty.
+struct Run {
+    std::int32_t begin;
+    std::int32_t end;
+    friend bool operator==(const Run&, const Run&) = default;
+};
+
+/// A set of parallel lines in a layer's plane: `count` pixel rows (or columns) of `sub` lines each.
+///
+/// Run coordinate u lies at along_origin + u / 256 * along_pitch; sub-line k of row i lies at
+/// across_origin + (i + (k + 1/2) / sub) * across_pitch. Pitches may be negative (mirrored displays).
+/// Pixel (i, j) therefore covers run coordinates [256 j, 256 (j + 1)) of row i.
+struct RowBand {
+    Axis axis = Axis::x;       ///< direction of the lines
+    double along_origin = 0;   ///< mm, where run coordinate 0 lies
+    double along_pitch = 1;    ///< mm per pixel along the lines
+    double across_origin = 0;  ///< mm, lower edge of row 0
+    double across_pitch = 1;   ///< mm from row to row
+    int first = 0;             ///< first row
+    int count = 0;             ///< number of rows
+    int sub = 1;               ///< lines per row
+    int lo = 0;                ///< runs are clipped to pixels [lo, hi)
+    int hi = 0;
+
+    int lines() const { return count * sub; }
+    /// Position of line `l` of the band (0 <= l < lines()), mm across.
+    double line(int l) const {
+        const int row = first + l / sub;
+        return across_origin + (row + (l % sub + 0.5) / sub) * across_pitch;
+    }
+    /// Position of run coordinate u, mm along.
+    double along(double u) const { return along_origin + u * (along_pitch / run_unit); }
+    /// Run coordinate (not rounded) of a position along the lines, mm.
+    double coordinate(double p) const { return (p - along_origin) * (run_unit / along_pitch); }
+    /// The part of the plane that the band covers, mm.
+    Rect rect() const;
+};
+
+/// Rounds a run coordinate to the nearest unit, halves upward, saturating far outside any band.
+inline std::int32_t round_run(double u) {
+    constexpr double limit = 1 << 30;
+    return static_cast<std::int32_t>(std::floor(std::min(std::max(u, -limit), limit) + 0.5));
+}
+
+/// The runs of a band, line by line: sorted, disjoint, not touching. Lines are appended in order.
+class SpanRows {
+  public:
+    SpanRows() { starts_.push_back(0); }
+
+    void clear() {
+        runs_.clear();
+        starts_.assign(1, 0);
+    }
+    std::size_t lines() const { return starts_.size() - 1; }
+    std::span<const Run> line(std::size_t l) const {
+        return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};
+    }
+    std::span<const Run> runs() const { return runs_; }
+
+    /// Adds a run to the line being built; runs come sorted by begin; one that meets the last is joined with
+    /// it.
+    void push(std::int32_t begin, std::int32_t end) {
+        if (begin >= end) return;
+        if (runs_.size() > starts_.back() && begin <= runs_.back().end) {
+            runs_.back().end = std::max(runs_.back().end, end);
+        } else {
+            runs_.push_back({begin, end});
+        }
+    }
+    /// Ends the line being built.
+    void end_line() { starts_.push_back(static_cast<std::uint32_t>(runs_.size())); }
+    void append_line(std::span<const Run> runs) {
+        runs_.insert(runs_.end(), runs.begin(), runs.end());
+        end_line();
+    }
+    /// Sum of the lengths of all runs, in run units.
+    std::int64_t total_length() const;
+
+    friend bool operator==(const SpanRows&, const SpanRows&) = default;
+
+  private:
+    std::vector<Run> runs_;
+    std::vector<std::uint32_t> starts_;
+};
+
+/// Line-by-line set operations; `out` must be another object than the operands.
+void unite(const SpanRows& a, const SpanRows& b, SpanRows& out);
+void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out);
+void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out);
+
+}  // namespace lamella
