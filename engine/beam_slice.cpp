@@ -2,6 +2,8 @@
 #include "engine/beam_slice.h"
 
 #include "engine/beam_rows.h"
+#include "engine/line_frame.h"
+#include "engine/slice_context.h"
 
 namespace lamella {
 namespace {
@@ -25,24 +27,6 @@ Interval extent(const Beam& beam, const Interval& part, int axis) {
     const double d = beam.b[axis] - beam.a[axis], reach = std::max(beam.ra, beam.rb);
     const double p = beam.a[axis] + d * part.lo, q = beam.a[axis] + d * part.hi;
     return {std::min(p, q) - reach, std::max(p, q) + reach};
-}
-
-/// Lines of the band (counted from its first line) that an interval across meets; an empty range when none.
-struct LineRange {
-    int first;
-    int last;
-};
-
-LineRange lines_across(const RowBand& band, const Interval& across) {
-    // Line l lies at across_origin + (first + (l + 1/2) / sub) * across_pitch.
-    const double per_mm = band.sub / band.across_pitch;
-    const double base = band.across_origin * per_mm;
-    const double p = across.lo * per_mm - base, q = across.hi * per_mm - base;
-    const double offset = static_cast<double>(band.first) * band.sub + 0.5;
-    const double lo = std::ceil(std::min(p, q) - offset), hi = std::floor(std::max(p, q) - offset) + 1;
-    const double lines = band.lines();
-    return {static_cast<int>(std::min(std::max(lo, 0.0), lines)),
-            static_cast<int>(std::min(std::max(hi, 0.0), lines))};
 }
 
 void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lines, double z,
@@ -78,8 +62,8 @@ BeamRows::BeamRows(std::vector<Beam> beams, double z) : z_(z) {
         bounds_ = unite(bounds_, Rect{{extent_x_.back().lo, extent_y_.back().lo},
                                       {extent_x_.back().hi, extent_y_.back().hi}});
     }
-    rows_ = BandIndex(extent_y_, lo_x);
-    columns_ = BandIndex(extent_x_, lo_y);
+    rows_ = IntervalIndex(extent_y_, lo_x);
+    columns_ = IntervalIndex(extent_x_, lo_y);
 }
 
 void BeamRows::collect(const RowBand& band, RunCollector& runs) const {
@@ -117,19 +101,12 @@ void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowB
     const double s = (part.lo + part.hi) * 0.5 * length;
     const dvec3 reference = beam.a + axis * s;
     const double radius = beam.ra - s * sine, z = z_ - reference.z;
-    const double line_pitch = band.across_pitch / band.sub;
-    // The reference line is counted from row 0 of the whole layer, so that a line gives the same run in every
-    // band.
-    const double reference_line =
-        std::floor((reference[across_axis] - band.across_origin) / line_pitch - 0.5);
-    const double reference_position = band.across_origin + (reference_line + 0.5) * line_pitch;
-    const double unit = band.coordinate(reference[along_axis]), unit0 = std::floor(unit);
+    const LineFrame frame = line_frame(band, dvec2(reference));
 
     BeamRowParameters p;
-    p.line0 = static_cast<float>(reference_position - reference[across_axis]);
-    p.line_pitch = static_cast<float>(line_pitch);
-    p.first =
-        static_cast<std::int32_t>(static_cast<double>(band.first) * band.sub + lines.first - reference_line);
+    p.line0 = static_cast<float>(frame.line0);
+    p.line_pitch = static_cast<float>(frame.line_pitch);
+    p.first = frame.first + lines.first;
     p.ux = static_cast<float>(axis[along_axis]);
     p.uy = static_cast<float>(axis[across_axis]);
     p.z = static_cast<float>(z);
@@ -148,9 +125,9 @@ void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowB
     p.bx = static_cast<float>(second[along_axis]);
     p.by = static_cast<float>(second[across_axis]);
     p.bh = static_cast<float>(beam.rb * beam.rb - (z - second.z) * (z - second.z));
-    p.scale = static_cast<float>(run_unit / band.along_pitch);
-    p.shift = static_cast<float>(unit - unit0);
-    p.unit0 = static_cast<std::int32_t>(std::min(std::max(unit0, -1e9), 1e9));
+    p.scale = static_cast<float>(frame.scale);
+    p.shift = static_cast<float>(frame.shift);
+    p.unit0 = frame.unit0;
 
     const int count = lines.last - lines.first;
     const auto out = runs.add(lines.first, count);

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <vector>
 
-#include "engine/band_index.h"
 #include "engine/beam.h"
+#include "engine/interval_index.h"
 #include "engine/run_collector.h"
 #include "engine/tile_walk.h"
 
@@ -30,7 +30,7 @@ class BeamRows {
     std::vector<Beam> beams_;
     double z_;
     std::vector<Interval> extent_x_, extent_y_;
-    BandIndex rows_, columns_;
+    IntervalIndex rows_, columns_;
     Rect bounds_;
 };
 
