@@ -230,8 +230,11 @@ std::vector<Contour> trace_contours(const SliceField& slice, double tolerance, S
     const Rect bounds = slice.bounds();
     if (bounds.empty()) return {};
     const double pitch = contour_pitch(tolerance);
-    // The lattice stands on multiples of the pitch, so that a part's neighbours do not move its contours.
-    const dvec2 from = glm::floor(bounds.lo / pitch) - 1.0, to = glm::ceil(bounds.hi / pitch) + 1.0;
+    // The lattice stands on multiples of the pitch less an odd fraction: a part's neighbours do not move its
+    // contours, and faces at round coordinates do not fall on lattice lines.
+    constexpr double fraction = 0.382;
+    const dvec2 from = glm::floor(bounds.lo / pitch) - 1.0 - fraction,
+                to = glm::ceil(bounds.hi / pitch) + 2.0 - fraction;
     constexpr double most_cells = 1 << 22;
     if (!(to.x - from.x < most_cells && to.y - from.y < most_cells)) {
         throw InputError("the contour tolerance of " + std::to_string(tolerance) +

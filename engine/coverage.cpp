@@ -85,7 +85,10 @@ std::vector<std::uint8_t> grey_table(int sub) {
     return table;
 }
 
-/// Four times the area of the solid part of a cell, in run units squared, by its border arcs and chords.
+/// Twice the area of a whole cell, in run units squared.
+constexpr std::int64_t full_cell = 2 * run_unit * run_unit;
+
+/// Twice the area of the solid part of a cell, in run units squared, by its border arcs and chords.
 std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> crossings) {
     const std::int64_t x0 = std::int64_t{cell.i} * run_unit, y0 = std::int64_t{cell.j} * run_unit;
     const std::int64_t corner_x[4] = {run_unit, run_unit, 0, 0}, corner_y[4] = {0, run_unit, run_unit, 0};
@@ -156,40 +159,40 @@ void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>&
 
 void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch,
                     std::vector<GreyRun>& out) {
-    // The lattice's cells are the band's pixels, with a ring of pixels round it that keeps the grid's void
-    // border away. A mirrored band is a lattice of negative pitch: the same cells, seen from the other side.
+    // A pixel is 2 x 2 lattice cells, so that a chord's deviation from a curve stays small against the pixel.
+    // A ring of pixels round the band keeps the grid's void border away. A mirrored band is a lattice of
+    // negative pitch.
+    constexpr int split = 2;
     const bool rows = band.axis == Axis::x;
-    const dvec2 origin = on_band(band, (band.lo - 1.0) * run_unit, band.first - 1.0);
+    const int width = band.hi - band.lo + 2, height = band.count + 2;
     const dvec2 pitch =
         rows ? dvec2(band.along_pitch, band.across_pitch) : dvec2(band.across_pitch, band.along_pitch);
-    const int width = band.hi - band.lo + 2, height = band.count + 2;
-    const Grid grid{origin, pitch, rows ? width : height, rows ? height : width};
+    const Grid grid{on_band(band, (band.lo - 1.0) * run_unit, band.first - 1.0), pitch / double(split),
+                    split * (rows ? width : height), split * (rows ? height : width)};
     const Lattice lattice(slice, grid, scratch);
 
-    constexpr std::int64_t full = 2 * run_unit * run_unit;
-    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(grid.columns) *
-                                     static_cast<std::size_t>(grid.rows));
-    for (int j = 1; j + 1 < grid.rows; ++j) {
-        std::uint8_t* row =
-            pixels.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.columns);
+    const auto columns = static_cast<std::size_t>(grid.columns / split);
+    std::vector<std::int64_t> area(columns * static_cast<std::size_t>(grid.rows / split));
+    for (int j = 0; j < grid.rows; ++j) {
+        std::int64_t* const row = area.data() + static_cast<std::size_t>(j / split) * columns;
         int from = 0;
         const auto fill = [&](int to) {
-            if (to > from && lattice.solid(from, j)) std::fill(row + from, row + to, std::uint8_t{255});
+            if (to <= from || !lattice.solid(from, j)) return;
+            for (int i = from; i < to; ++i) row[i / split] += full_cell;
         };
         lattice.visit_cells(j, [&](const Lattice::Cell& cell) {
             fill(cell.i);
-            const std::int64_t area = solid_area(cell, lattice.crossings());
-            row[cell.i] = static_cast<std::uint8_t>((area * 255 + full / 2) / full);
+            row[cell.i / split] += solid_area(cell, lattice.crossings());
             from = cell.i + 1;
         });
         fill(grid.columns);
     }
+    constexpr std::int64_t full = full_cell * split * split;
     for (int r = 1; r + 1 < height; ++r) {
         RowWriter row(out, band.hi - band.lo);
         for (int p = 1; p + 1 < width; ++p) {
-            const int i = rows ? p : r, j = rows ? r : p;
-            row.push(1, pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.columns) +
-                               static_cast<std::size_t>(i)]);
+            const auto i = static_cast<std::size_t>(rows ? p : r), j = static_cast<std::size_t>(rows ? r : p);
+            row.push(1, static_cast<std::uint8_t>((area[j * columns + i] * 255 + full / 2) / full));
         }
     }
 }

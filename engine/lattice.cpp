@@ -154,24 +154,25 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
 }
 
 void Lattice::mend(std::vector<std::int32_t>& column, int i) const {
+    // Stretches of nodes that the column gets wrong are turned over as a whole: a face that lies on the
+    // column's line may make all of it wrong. A crossing near an end of the stretch moves over the node;
+    // elsewhere one is put beside it.
+    const std::vector<std::int32_t> before = column;
+    const auto wrong = [&](int j) {
+        const auto place = std::lower_bound(before.begin(), before.end(), j * run_unit);
+        return ((place - before.begin()) % 2 == 1) != solid(i, j);
+    };
     for (int j = 1; j < grid_.rows; ++j) {
-        const std::int32_t node = j * run_unit;
-        const auto place = std::lower_bound(column.begin(), column.end(), node);
-        const bool inside = (place - column.begin()) % 2 == 1;
-        if (inside == solid(i, j)) continue;
-        const bool has_below = place != column.begin(), has_above = place != column.end();
-        const std::int32_t below = has_below ? node - *(place - 1) : run_unit;
-        const std::int32_t above = has_above ? *place - node : run_unit;
-        if (std::min(below, above) > near_node) {
-            toggle(column, node - 1);
-            toggle(column, node + 1);
-        } else if (below <= above) {
-            toggle(column, node - below);
-            toggle(column, node + 1);
-        } else {
-            toggle(column, node + above);
-            toggle(column, node - 1);
-        }
+        if (!wrong(j)) continue;
+        const std::int32_t first = j * run_unit;
+        while (j + 1 < grid_.rows && wrong(j + 1)) ++j;
+        const std::int32_t last = j * run_unit;
+        const auto below = std::lower_bound(before.begin(), before.end(), first);
+        const auto above = std::lower_bound(before.begin(), before.end(), last);
+        const bool near_below = below != before.begin() && first - *(below - 1) <= near_node;
+        const bool near_above = above != before.end() && *above - last <= near_node;
+        toggle(column, near_below ? *(below - 1) : first - 1);
+        toggle(column, near_above ? *above : last + 1);
     }
 }
 
