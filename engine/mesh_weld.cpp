@@ -97,14 +97,15 @@ std::vector<std::uint32_t> joined(const TriangleMesh& mesh, const Border& border
         return v;
     };
     const auto reach = [&](std::uint32_t v) {
-        return keep_detail ? std::min(tolerance, 0.25 * border.shortest_edge[v]) : tolerance;
+        return keep_detail ? std::min(tolerance, 0.1 * border.shortest_edge[v]) : tolerance;
     };
     const VertexGrid grid(mesh, border.vertices, tolerance);
     for (const std::uint32_t v : border.vertices) {
         grid.around(mesh.vertices[v], [&](std::uint32_t other) {
-            const double apart = length(mesh.vertices[other] - mesh.vertices[v]);
             const std::uint32_t a = find(v);
             const std::uint32_t b = find(other);
+            // Measured between those that stay, so that a row of close corners cannot drift into one.
+            const double apart = length(mesh.vertices[b] - mesh.vertices[a]);
             if (a == b || apart > std::min(reach(v), reach(other))) return;
             root[std::max(a, b)] = std::min(a, b);
             ++weld.joined;

@@ -14,7 +14,7 @@ struct BorderWeld {
 
 /// Joins vertices of open edges that lie closer together than 1e-6 of the bounding box's diagonal, then 1e-5,
 /// then 1e-4; a step is kept only where it leaves fewer open edges. From the second step on no corner moves
-/// by more than a quarter of its shortest edge, so detail does not collapse. Triangles that shrink to a line
+/// by more than a tenth of its shortest edge, so detail does not collapse. Triangles that shrink to a line
 /// are removed.
 BorderWeld weld_borders(TriangleMesh& mesh);
 
