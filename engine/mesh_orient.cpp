@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "engine/mesh_edges.h"
 #include "engine/mesh_rays.h"
 
 namespace lamella {
@@ -143,10 +142,10 @@ std::size_t agree_on_sides(TriangleMesh& mesh) {
     return count;
 }
 
-BodyVolumes body_volumes(const TriangleMesh& mesh) {
+BodyVolumes body_volumes(const TriangleMesh& mesh, const MeshEdges& edges) {
     BodyVolumes out;
     std::size_t count = 0;
-    out.body = MeshEdges(mesh.triangles, mesh.vertices.size()).bodies(count);
+    out.body = edges.bodies(count);
     out.volume.assign(count, 0.0);
     out.area.assign(count, 0.0);
     // Volumes are taken about a corner of each body: far from its body, the sum would lose its digits.

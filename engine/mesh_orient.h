@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "engine/mesh.h"
+#include "engine/mesh_edges.h"
 
 namespace lamella {
 
@@ -18,7 +21,7 @@ struct BodyVolumes {
     std::vector<double> volume;       ///< mm3, of each body; negative where it faces inwards
     std::vector<double> area;         ///< mm2, of each body
 };
-BodyVolumes body_volumes(const TriangleMesh& mesh);
+BodyVolumes body_volumes(const TriangleMesh& mesh, const MeshEdges& edges);
 
 /// Turns every body of a closed mesh that is inside out. A body that faces inwards and lies inside another
 /// one is a cavity and stays; the bodies inside one that had to be turned turn with it. Returns how many

@@ -42,15 +42,17 @@ class Repair {
 
     SolidMesh run() {
         drop_invalid();
-        was_soup_ = MeshEdges(triangles(), vertex_count()).edges().size() == 3 * triangles().size();
+        const MeshEdges edges(triangles(), vertex_count());
+        was_soup_ = edges.edges().size() == 3 * triangles().size();
         TriangleMesh& mesh = out_.mesh;
-        if (MeshEdges(triangles(), vertex_count()).is_oriented_manifold()) {
-            finish(TriangleMesh());
+        out_.oriented_manifold = edges.is_oriented_manifold();
+        if (out_.oriented_manifold) {
+            finish(body_volumes(mesh, edges), TriangleMesh());
         } else {
             const TriangleMesh original = mesh;
             note_duplicates(drop_duplicates(mesh, BackToBack::cancel));
             mend();
-            finish(original);
+            finish(body_volumes(mesh, MeshEdges(triangles(), vertex_count())), original);
         }
         return std::move(out_);
     }
@@ -108,9 +110,8 @@ class Repair {
         }
     }
 
-    void finish(const TriangleMesh& original) {
+    void finish(BodyVolumes bodies, const TriangleMesh& original) {
         TriangleMesh& mesh = out_.mesh;
-        BodyVolumes bodies = body_volumes(mesh);
         drop_sheets(bodies);
         if (triangles().empty() && !original.triangles.empty()) {
             // Some modellers list every face twice, once for each side: then everything cancelled.
@@ -120,7 +121,7 @@ class Repair {
                 out_.notes.clear();
                 say("the surface is there twice, once facing each way; one copy was kept");
                 mend();
-                bodies = body_volumes(mesh);
+                bodies = body_volumes(mesh, MeshEdges(triangles(), vertex_count()));
                 drop_sheets(bodies);
             } else {
                 triangles().clear();
@@ -138,8 +139,10 @@ class Repair {
         const double diagonal = diagonal_of(mesh);
         if (triangles().size() < 4 || !(volume > least_volume * diagonal * diagonal * diagonal)) refuse();
         drop_unused_vertices(mesh);
+        // What was one at first still is: only whole bodies have been turned or left out.
         out_.oriented_manifold =
-            out_.caps == 0 && MeshEdges(triangles(), vertex_count()).is_oriented_manifold();
+            out_.caps == 0 &&
+            (out_.oriented_manifold || MeshEdges(triangles(), vertex_count()).is_oriented_manifold());
     }
 
     void note_caps() {
@@ -185,7 +188,7 @@ class Repair {
         }
         triangles().resize(kept);
         out_.caps = kept_caps;
-        bodies = body_volumes(out_.mesh);
+        bodies = body_volumes(out_.mesh, MeshEdges(triangles(), vertex_count()));
     }
 
     [[noreturn]] void refuse() const {

@@ -32,6 +32,8 @@ inline TriangleMesh box_mesh(dvec3 lo, dvec3 hi) {
     return mesh;
 }
 
+inline TriangleMesh unit_box_at(double x) { return box_mesh(dvec3(x, 0.0, 0.0), dvec3(x + 1.0, 1.0, 1.0)); }
+
 inline void append(TriangleMesh& mesh, const TriangleMesh& other, bool reversed = false) {
     const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
