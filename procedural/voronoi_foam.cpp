@@ -93,7 +93,7 @@ FieldPtr VoronoiFoam::offset(double d) const {
 }
 
 const SliceField& VoronoiFoam::slice(SliceContext& context, double z) const {
-    return context.make<BeamSlice>(beams_at(z), z);
+    return context.make<BeamSlice>(*this, beams_at(z), z);
 }
 
 std::vector<Beam> VoronoiFoam::beams_at(double z) const {
