@@ -26,15 +26,16 @@ struct PlaceKey {
 /// A hash of the key, the same in every process.
 std::size_t hash_value(const PlaceKey& key);
 
-/// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds never
-/// shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock is
-/// held while a value is computed.
+/// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds
+/// never shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock
+/// is held while a value is computed.
 ///
-/// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves, mm).
+/// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves,
+/// mm).
 ///
-/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. When it does, the
-/// values farthest in z from the last request, and among those the least recently used, go first, until three
-/// quarters are left. Values still held by callers live on until released.
+/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. When it does,
+/// the values farthest in z from the last request, and among those the least recently used, go first, until
+/// three quarters are left. Values still held by callers live on until released.
 template <typename Value>
 class CellCache {
   public:

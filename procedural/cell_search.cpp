@@ -11,8 +11,8 @@ namespace lamella {
 namespace {
 
 constexpr double safe_side = 1 + 1e-9;
-constexpr int margin = 4;         // octants gathered beyond the box on every side
-constexpr int block_radius = 2;   // octants on each side that are visited by distance
+constexpr int margin = 4;          // octants gathered beyond the box on every side
+constexpr int block_radius = 2;    // octants on each side that are visited by distance
 constexpr double nowhere = 1e150;  // where empty octants keep their seed; its square is finite
 
 double square(dvec3 v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
@@ -55,9 +55,8 @@ bool cell_among(std::span<const Seed> seeds, std::size_t own, double half_side, 
 
 void TreeSearch::push(const Visit& visit) {
     heap_.push_back(visit);
-    std::push_heap(heap_.begin(), heap_.end(), [](const Visit& a, const Visit& b) {
-        return a.distance_squared > b.distance_squared;
-    });
+    std::push_heap(heap_.begin(), heap_.end(),
+                   [](const Visit& a, const Visit& b) { return a.distance_squared > b.distance_squared; });
 }
 
 const SeedBlock& TreeSearch::block(glm::i64vec3 index) {
@@ -102,9 +101,8 @@ void TreeSearch::cell(const Seed& own, VoronoiCell& cell) {
     push({0, nullptr, 0});
     while (!heap_.empty()) {
         const Visit visit = heap_.front();
-        std::pop_heap(heap_.begin(), heap_.end(), [](const Visit& a, const Visit& b) {
-            return a.distance_squared > b.distance_squared;
-        });
+        std::pop_heap(heap_.begin(), heap_.end(),
+                      [](const Visit& a, const Visit& b) { return a.distance_squared > b.distance_squared; });
         heap_.pop_back();
         if (visit.distance_squared >= 4 * cell.reach_squared() * safe_side) break;
         if (visit.block == nullptr) {

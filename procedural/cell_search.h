@@ -1,4 +1,5 @@
-// Which seeds clip a cell, and in which order: from a list, best first over the tree, or in rings of a lattice.
+// Which seeds clip a cell, and in which order: from a list, best first over the tree, or in rings of a
+// lattice.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@
 
 namespace lamella {
 
-/// The cell of seeds[own] within a cube of the given half side about it; identifiers are indices into `seeds`.
-/// Seeds are clipped by distance, then key. Of equal positions the lowest key has the cell; false (and no cell)
-/// for the others.
+/// The cell of seeds[own] within a cube of the given half side about it; identifiers are indices into
+/// `seeds`. Seeds are clipped by distance, then key. Of equal positions the lowest key has the cell; false
+/// (and no cell) for the others.
 bool cell_among(std::span<const Seed> seeds, std::size_t own, double half_side, VoronoiCell& cell);
 
 /// Cells in any density. Visits the tree best first and skips every node that could not cut the cell so far.
@@ -45,9 +46,9 @@ class TreeSearch {
     std::vector<std::shared_ptr<const SeedBlock>> blocks_;  ///< seen since construction
 };
 
-/// Cells where all leaves about have one level: the octants of the leaves form a lattice with at most one seed
-/// each, gathered once for many cells; a cell visits the lattice's 5^3 block by distance, then what the balls
-/// at its vertices still reach. Gives the cells of TreeSearch, bit for bit. Not thread-safe.
+/// Cells where all leaves about have one level: the octants of the leaves form a lattice with at most one
+/// seed each, gathered once for many cells; a cell visits the lattice's 5^3 block by distance, then what the
+/// balls at its vertices still reach. Gives the cells of TreeSearch, bit for bit. Not thread-safe.
 class RingSearch {
   public:
     explicit RingSearch(const SeedTree& tree) : tree_(&tree) {}
@@ -71,11 +72,11 @@ class RingSearch {
     bool clip_beyond_block(glm::ivec3 center, dvec3 own, VoronoiCell& cell);
 
     const SeedTree* tree_;
-    double spacing_ = 1;     ///< side of an octant of a leaf, mm
-    dvec3 origin_{0};        ///< lower corner of octant (0, 0, 0)
-    glm::ivec3 size_{0};     ///< octants per axis
-    std::vector<std::int32_t> site_at_;                 ///< by octant, -1 for none
-    std::vector<double> x_, y_, z_;                     ///< by octant; far away for none
+    double spacing_ = 1;                 ///< side of an octant of a leaf, mm
+    dvec3 origin_{0};                    ///< lower corner of octant (0, 0, 0)
+    glm::ivec3 size_{0};                 ///< octants per axis
+    std::vector<std::int32_t> site_at_;  ///< by octant, -1 for none
+    std::vector<double> x_, y_, z_;      ///< by octant; far away for none
     std::vector<Seed> sites_;
     std::vector<Candidate> candidates_, sorted_;
 };

@@ -1,9 +1,9 @@
 // A small cube of space that knows, for each of its voxels, the few beams that can be nearest there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/beam.h"
@@ -26,11 +26,16 @@ class DistanceBrick {
     Interval z_extent() const { return {box_.lo.z, box_.hi.z}; }
 
   private:
-    static constexpr int side = 4;  // voxels along an edge
+    static constexpr int halvings = 2;          // from the cube to a voxel
+    static constexpr int side = 1 << halvings;  // voxels along an edge
+
+    bool divide(const Box& box, std::span<const std::uint16_t> candidates, const std::vector<Beam>& near,
+                double growth, int depth);
+    void keep_used(const std::vector<Beam>& near);
 
     Box box_;
     std::vector<Beam> beams_;
-    std::array<std::uint32_t, side * side * side + 1> begins_{};
+    std::vector<std::uint32_t> begins_;  ///< by voxel, in the order of an octree
     std::vector<std::uint16_t> lists_;
 };
 

@@ -2,6 +2,9 @@
 #include "procedural/foam_beams.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "procedural/double_double.h"
 
 namespace lamella {
 namespace {
@@ -12,18 +15,47 @@ dvec3 cross(dvec3 a, dvec3 b) {
 
 double dot(dvec3 a, dvec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+// Seeds that tie to within the cell's tolerance may have their circumcentre anywhere on the common edges.
+constexpr double tie_width = 1e-6;
+constexpr double double_is_enough = 1e-12;  // squared: seven digits lost leave nine
+constexpr double flat = 1e-36;              // squared: rounding of the seeds themselves decides below
+
+using Precise = std::array<DoubleDouble, 3>;
+
+DoubleDouble dot(const Precise& a, const Precise& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Precise cross(const Precise& a, const Precise& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The circumcentre of nearly coplanar seeds, in twice the digits; empty when they are coplanar.
+std::optional<dvec3> precise_circumcenter(dvec3 origin, dvec3 u, dvec3 v, dvec3 w) {
+    const auto precise = [](dvec3 p) { return Precise{{{p.x}, {p.y}, {p.z}}}; };
+    const Precise a = precise(u), b = precise(v), c = precise(w);
+    const Precise bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    const DoubleDouble aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+    const double volume = dot(a, bc).hi;
+    if (!(volume * volume > flat * aa.hi * bb.hi * cc.hi)) return std::nullopt;
+    dvec3 center;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        center[axis] = origin[axis] + (aa * bc[i] + bb * ca[i] + cc * ab[i]).hi / (2 * volume);
+    }
+    return center;
+}
+
 }  // namespace
 
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
-    // Volume over the product of the edges: below this, rounding alone moves the centre by about 1e-6 of them.
-    constexpr double flat_squared = 1e-20;
     const dvec3 u = seeds[1] - seeds[0], v = seeds[2] - seeds[0], w = seeds[3] - seeds[0];
     const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
     const dvec3 vw = cross(v, w);
-    const double volume = dot(u, vw);
-    if (!(volume * volume > flat_squared * uu * vv * ww)) return std::nullopt;
-    const dvec3 sum = uu * vw + vv * cross(w, u) + ww * cross(u, v);
-    return seeds[0] + sum / (2 * volume);
+    const double volume = dot(u, vw), square = volume * volume, scale = uu * vv * ww;
+    // The centre loses as many digits as the volume over the product of the edges is small.
+    if (square > double_is_enough * scale) {
+        return seeds[0] + (uu * vw + vv * cross(w, u) + ww * cross(u, v)) / (2 * volume);
+    }
+    return precise_circumcenter(seeds[0], u, v, w);
 }
 
 dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& own,
@@ -33,8 +65,14 @@ dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& o
     const auto planes = cell.planes(vertex);
     for (std::size_t i = 0; i < 3; ++i) four[i + 1] = &sites[static_cast<std::size_t>(planes[i])];
     std::sort(four.begin(), four.end(), [](const Seed* a, const Seed* b) { return a->key < b->key; });
-    const auto center = circumcenter({four[0]->position, four[1]->position, four[2]->position, four[3]->position});
-    nodes_[vertex] = center ? *center : own.position + cell.vertex(vertex);
+    const auto center =
+        circumcenter({four[0]->position, four[1]->position, four[2]->position, four[3]->position});
+    nodes_[vertex] = own.position + cell.vertex(vertex);
+    if (center) {
+        const dvec3 gap = glm::abs(*center - nodes_[vertex]);
+        if (std::max({gap.x, gap.y, gap.z}) <= tie_width * std::sqrt(cell.reach_squared()))
+            nodes_[vertex] = *center;
+    }
     known_[vertex] = true;
     return nodes_[vertex];
 }

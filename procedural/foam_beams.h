@@ -24,7 +24,8 @@ class NodeRadius {
 };
 
 /// The point at equal distance from four seeds, which come in the order of keys: one formula, relative to the
-/// first, so every cell that shares the node gets the same bits. Empty when the seeds lie in a plane or nearly.
+/// first, so every cell that shares the node gets the same bits; in twice the precision where the seeds
+/// nearly lie in a plane. Empty when they do.
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
 
 /// Makes the beams that a cell owns: those of its edges whose two other seeds have higher keys than its own.
@@ -32,9 +33,9 @@ std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
 class BeamMaker {
   public:
     /// Appends the beams that `own` owns, in the order of the other seeds' keys. The cell's identifiers index
-    /// `sites`. Edges that reach the start box are left out. A node whose four seeds lie in a plane to within
-    /// rounding is taken from the cell; its edges have no length or lie in the same place as another's.
-    /// Returns the number of edges left out.
+    /// `sites`. Edges that reach the start box are left out. Only where the four seeds of a node tie with a
+    /// fifth to within rounding, and lie in a plane, is the node taken from the cell. An edge that four or
+    /// more cells share may then be made more than once, in one place. Returns the number of edges left out.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        const NodeRadius& radius, std::vector<Beam>& beams);
 

@@ -108,7 +108,8 @@ void FoamUnits::collect(const SeedBlock& block, std::size_t node, double within,
         for (int part = 0; part < parts_of(here); ++part) {
             const auto at = static_cast<std::size_t>(part);
             if (!missing[at]) continue;
-            auto unit = std::make_shared<const FoamUnit>(make(block, here, part_box(here, part), rings, gathered));
+            auto unit =
+                std::make_shared<const FoamUnit>(make(block, here, part_box(here, part), rings, gathered));
             units[at] = units_.insert(key(part), request.z, std::move(unit));
         }
     }
@@ -136,7 +137,8 @@ FoamUnit FoamUnits::make(const SeedBlock& block, const SeedNode& node, const Box
         bool done = false;
         if (gathered) {
             while (site < rings.sites().size() && rings.sites()[site].key < own.key) ++site;
-            done = site < rings.sites().size() && rings.sites()[site].key == own.key && rings.cell(site, cell);
+            done =
+                site < rings.sites().size() && rings.sites()[site].key == own.key && rings.cell(site, cell);
             if (done) left_out = maker.append(cell, own, rings.sites(), radius_, unit.beams);
         }
         if (!done) {

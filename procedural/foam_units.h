@@ -21,8 +21,9 @@ struct FoamUnit {
 ///
 /// Which units matter: every point of an edge of a seed's cell is at least as near to that seed as to any
 /// other, so its distance to the seed is at most the radius of the largest empty ball centred there, which
-/// SeedBlock::hole bounds: at most sqrt(3) coarse sides anywhere, sqrt(3) octants where every octant of a leaf
-/// has its seed. A unit matters only if its box is within that reach plus the largest radius of the query.
+/// SeedBlock::hole bounds: at most sqrt(3) coarse sides anywhere, sqrt(3) octants where every octant of a
+/// leaf has its seed. A unit matters only if its box is within that reach plus the largest radius of the
+/// query.
 class FoamUnits {
   public:
     /// `cache_bytes` bounds the memory of the cached units (CellCache says how).
@@ -50,7 +51,8 @@ class FoamUnits {
     double reach(glm::i64vec3 index, double z) const;
     void visit(const SeedBlock& block, std::size_t node, double within, Request& request) const;
     void collect(const SeedBlock& block, std::size_t node, double within, Request& request) const;
-    FoamUnit make(const SeedBlock& block, const SeedNode& node, const Box& part, RingSearch& rings, bool gathered) const;
+    FoamUnit make(const SeedBlock& block, const SeedNode& node, const Box& part, RingSearch& rings,
+                  bool gathered) const;
 
     std::shared_ptr<const SeedTree> tree_;
     NodeRadius radius_;

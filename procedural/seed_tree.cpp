@@ -10,11 +10,11 @@
 namespace lamella {
 namespace {
 
-constexpr int coarse_bits = 38;       // integer positions per coarse side, as a power of two
-constexpr int fraction_bits = 21;     // random bits per axis within an octant of a leaf
-constexpr int deepest_level = 15;     // leaf octants then have 22 bits: 21 random ones and the half step
-constexpr double leaf_seeds = 8;      // a leaf holds one seed per octant at most on average
-constexpr double rounding = 1 + 1e-9; // a share of exactly eight seeds must not split by a rounding error
+constexpr int coarse_bits = 38;        // integer positions per coarse side, as a power of two
+constexpr int fraction_bits = 21;      // random bits per axis within an octant of a leaf
+constexpr int deepest_level = 15;      // leaf octants then have 22 bits: 21 random ones and the half step
+constexpr double leaf_seeds = 8;       // a leaf holds one seed per octant at most on average
+constexpr double rounding = 1 + 1e-9;  // a share of exactly eight seeds must not split by a rounding error
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
 constexpr std::size_t block_cache_bytes = std::size_t{64} << 20;
 
@@ -22,7 +22,8 @@ enum Draw : std::uint64_t { draw_count, draw_order, draw_offset, draw_first_seed
 
 using Order = std::array<std::uint8_t, 8>;
 
-/// A uniformly random order of the eight octants (Fisher-Yates; the bias of 56 bits modulo 8! is below 1e-12).
+/// A uniformly random order of the eight octants (Fisher-Yates; the bias of 56 bits modulo 8! is below
+/// 1e-12).
 Order random_order(std::uint64_t bits) {
     Order order = {0, 1, 2, 3, 4, 5, 6, 7};
     for (std::uint64_t i = 7; i > 0; --i) {
@@ -71,7 +72,10 @@ struct SeedTree::Growth {
 };
 
 SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed)
-    : density_(std::move(density)), side_(coarse_side), recipe_seed_(recipe_seed), blocks_(block_cache_bytes) {
+    : density_(std::move(density)),
+      side_(coarse_side),
+      recipe_seed_(recipe_seed),
+      blocks_(block_cache_bytes) {
     if (!(coarse_side > 0) || !std::isfinite(coarse_side)) {
         throw InputError("the coarse cell's side is " + std::to_string(coarse_side) +
                          " mm; it must be positive and finite");
@@ -150,7 +154,8 @@ void SeedTree::grow(Growth& growth, std::size_t node, glm::i64vec3 corner, std::
     if (count == 0) return;
 
     const std::int64_t position_shift = coarse_bits - level;
-    const glm::i64vec3 place_at_level = (growth.block.index << std::int64_t{level}) + (corner >> position_shift);
+    const glm::i64vec3 place_at_level =
+        (growth.block.index << std::int64_t{level}) + (corner >> position_shift);
     const CounterHash hash(recipe_seed_, level, place_at_level.x, place_at_level.y, place_at_level.z);
     const dvec3 size = box.size();
     if (density_->range(box).hi * (size.x * size.y * size.z) <= leaf_seeds * rounding) {
@@ -214,8 +219,10 @@ void SeedTree::place(Growth& growth, const CounterHash& hash, int level, glm::i6
         if (count > 8) bits = (bits & ~lap_mask) | (i / 8);
         const glm::i64vec3 fraction(bits & fraction_mask, (bits >> fraction_bits) & fraction_mask,
                                     (bits >> (2 * fraction_bits)) & fraction_mask);
-        const glm::i64vec3 within = (fraction * std::int64_t{2} + std::int64_t{1}) << std::int64_t{unit_shift};
-        growth.block.positions.push_back(growth.position(octant_corner(corner, level, order[i % 8]) + within));
+        const glm::i64vec3 within = (fraction * std::int64_t{2} + std::int64_t{1})
+                                    << std::int64_t{unit_shift};
+        growth.block.positions.push_back(
+            growth.position(octant_corner(corner, level, order[i % 8]) + within));
     }
 }
 

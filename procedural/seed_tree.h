@@ -30,9 +30,9 @@ struct Seed {
 
 /// A node of a coarse cell's octree. Its seeds are a range, for the seeds stand in depth-first order.
 struct SeedNode {
-    Box box;                       ///< mm; holds its seeds
-    int level = 0;                 ///< side = coarse side / 2^level
-    std::int32_t first_child = -1; ///< the first of eight consecutive nodes, -1 for a leaf
+    Box box;                        ///< mm; holds its seeds
+    int level = 0;                  ///< side = coarse side / 2^level
+    std::int32_t first_child = -1;  ///< the first of eight consecutive nodes, -1 for a leaf
     std::uint32_t first_seed = 0;
     std::uint32_t seed_count = 0;
 };
@@ -40,7 +40,7 @@ struct SeedNode {
 /// One coarse cell with its octree and seeds. Immutable once made.
 struct SeedBlock {
     glm::i64vec3 index{0};
-    std::vector<SeedNode> nodes;    ///< nodes[0] is the coarse cell itself
+    std::vector<SeedNode> nodes;   ///< nodes[0] is the coarse cell itself
     std::vector<dvec3> positions;  ///< mm, in the order of keys
     /// The radius of no empty ball centred in this coarse cell exceeds this, mm: the longest diagonal among
     /// the smallest boxes that each hold a seed and together cover the cell.
@@ -60,8 +60,8 @@ struct SeedBlock {
 /// one. A node is split while the highest density in it times its volume exceeds eight; its count is dealt to
 /// its octants by systematic sampling (a random order of the octants, one uniform offset), so that counts add
 /// up and each differs from its share by less than one. A leaf puts its seeds into different octants, each
-/// uniform in its octant: stratified jitter (Martinez, Dumas, Lefebvre 2016, supplement; the dealing is ours).
-/// Positions are integers of 2^-38 of the coarse side, turned to double once. Thread-safe.
+/// uniform in its octant: stratified jitter (Martinez, Dumas, Lefebvre 2016, supplement; the dealing is
+/// ours). Positions are integers of 2^-38 of the coarse side, turned to double once. Thread-safe.
 class SeedTree {
   public:
     /// Throws InputError unless the side is positive and finite.
@@ -82,7 +82,8 @@ class SeedTree {
     struct Growth;
     SeedBlock make_block(glm::i64vec3 index) const;
     void grow(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const;
-    void place(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner, std::uint32_t count) const;
+    void place(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner,
+               std::uint32_t count) const;
 
     std::shared_ptr<const Density> density_;
     double side_;

@@ -26,7 +26,8 @@ void VoronoiCell::start(double half_side) {
         // with the parity of the corner.
         const bool odd = (bit_x + bit_y + bit_z) % 2 != 0;
         const std::int32_t px = bit_x, py = 2 + bit_y, pz = 4 + bit_z;
-        links_[at] = odd ? Link{{px, py, pz}, {v ^ 4, v ^ 1, v ^ 2}} : Link{{px, pz, py}, {v ^ 2, v ^ 1, v ^ 4}};
+        links_[at] =
+            odd ? Link{{px, py, pz}, {v ^ 4, v ^ 1, v ^ 2}} : Link{{px, pz, py}, {v ^ 2, v ^ 1, v ^ 4}};
     }
     measure();
 }
@@ -48,8 +49,8 @@ bool VoronoiCell::clip(dvec3 offset, std::int32_t id) {
 
     double tolerance = tie_tolerance * (std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z)) *
                        std::sqrt(reach_squared_);
-    // Seeds within rounding of a tie can leave a hole that is not one loop. A plane moved outwards by rounding's
-    // measure cuts less, in the end nothing; what it should have cut has no extent.
+    // Seeds within rounding of a tie can leave a hole that is not one loop. A plane moved outwards by
+    // rounding's measure cuts less, in the end nothing; what it should have cut has no extent.
     while (most > tolerance) {
         if (border_of_cut(tolerance)) {
             const auto plane = static_cast<std::int32_t>(ids_.size());
@@ -64,8 +65,8 @@ bool VoronoiCell::clip(dvec3 offset, std::int32_t id) {
     return false;
 }
 
-/// Finds the vertices beyond the plane and the loop of edges round them. False when the border is not one loop
-/// or the whole cell would go.
+/// Finds the vertices beyond the plane and the loop of edges round them. False when the border is not one
+/// loop or the whole cell would go.
 bool VoronoiCell::border_of_cut(double tolerance) {
     cut_.clear();
     border_.clear();
@@ -79,11 +80,12 @@ bool VoronoiCell::border_of_cut(double tolerance) {
         for (std::size_t side = 0; side < 3; ++side) {
             const auto outer = static_cast<std::size_t>(link.across[side]);
             if (excess_[outer] > tolerance) continue;
-            const double t = std::max(-excess_[outer], 0.0) / (std::max(-excess_[outer], 0.0) + excess_[inner]);
+            const double t =
+                std::max(-excess_[outer], 0.0) / (std::max(-excess_[outer], 0.0) + excess_[inner]);
             const dvec3 from(x_[outer], y_[outer], z_[outer]);
             const dvec3 to(x_[inner], y_[inner], z_[inner]);
-            border_.push_back({link.plane[side], link.plane[(side + 1) % 3], link.across[side],
-                               from + (to - from) * t});
+            border_.push_back(
+                {link.plane[side], link.plane[(side + 1) % 3], link.across[side], from + (to - from) * t});
             border_at_[static_cast<std::size_t>(border_.back().from)] =
                 static_cast<std::int32_t>(border_.size() - 1);
         }

@@ -11,11 +11,11 @@
 namespace lamella {
 
 /// A convex cell in its dual form: vertices are triples of planes, and the triples form a triangulated sphere
-/// (as in Ray, Sokolov, Lefebvre, Levy, "Meshless Voronoi on the GPU", 2018, with links between triples added).
-/// Coordinates are relative to the cell's seed. A new vertex is found on the edge that is cut, between its ends,
-/// so vertices stay finite and inside the start box whatever the seeds. Memory grows with the cell; an object is
-/// meant to be reused. A plane that only touches a vertex, to within 1e-12 of the cell's size, does not cut: of
-/// seeds that tie, the first one clipped stays.
+/// (as in Ray, Sokolov, Lefebvre, Levy, "Meshless Voronoi on the GPU", 2018, with links between triples
+/// added). Coordinates are relative to the cell's seed. A new vertex is found on the edge that is cut,
+/// between its ends, so vertices stay finite and inside the start box whatever the seeds. Memory grows with
+/// the cell; an object is meant to be reused. A plane that only touches a vertex, to within 1e-12 of the
+/// cell's size, does not cut: of seeds that tie, the first one clipped stays.
 class VoronoiCell {
   public:
     /// Three planes by identifier, counter-clockwise seen from outside. The start box has the identifiers -6
@@ -26,8 +26,8 @@ class VoronoiCell {
     void start(double half_side);
     /// Cuts off what is nearer to the seed at `offset` from this cell's seed. Returns whether anything was.
     bool clip(dvec3 offset, std::int32_t id);
-    /// Whether a seed in the box (relative to this cell's seed) could still cut: exact up to rounding, which errs
-    /// on the safe side. A box farther from every vertex than the vertex from the seed cannot.
+    /// Whether a seed in the box (relative to this cell's seed) could still cut: exact up to rounding, which
+    /// errs on the safe side. A box farther from every vertex than the vertex from the seed cannot.
     bool could_be_cut_from(const Box& box) const;
     /// The square of the largest distance from the seed to a vertex, mm^2. A seed twice as far cannot cut.
     double reach_squared() const { return reach_squared_; }

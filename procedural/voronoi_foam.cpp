@@ -12,8 +12,8 @@
 namespace lamella {
 namespace {
 
-// With four cells along a coarse cell, the counts come out as 64 a coarse cell and 8 a leaf: one seed per cell^3,
-// each in its own cube of side `cell`.
+// With four cells along a coarse cell, the counts come out as 64 a coarse cell and 8 a leaf: one seed per
+// cell^3, each in its own cube of side `cell`.
 constexpr double cells_per_coarse_side = 4;
 constexpr double most_cells_per_slice = 1e8;
 
@@ -28,19 +28,20 @@ void check(const FoamSettings& settings) {
         throw InputError(fmt::format("the foam's beam radius is {} mm; it must be positive", radius));
     }
     if (radius >= cell / 2) {
-        throw InputError(
-            fmt::format("the foam's beam radius of {} mm fills its cells of {} mm; it must be less than {} mm",
-                        radius, cell, cell / 2));
+        throw InputError(fmt::format(
+            "the foam's beam radius of {} mm fills its cells of {} mm; it must be less than {} mm", radius,
+            cell, cell / 2));
     }
     if (settings.region.empty() || !finite(settings.region.lo) || !finite(settings.region.hi)) {
         throw InputError("the foam's region is empty or not finite; give a box with finite corners");
     }
     const dvec3 cells = settings.region.size() / cell;
     if (!(cells.x * cells.y <= most_cells_per_slice)) {
-        throw InputError(fmt::format("a layer of the foam would cut {:.0f} cells; with a region of {} x {} mm the "
-                                     "cell size must be at least {:.4g} mm",
-                                     cells.x * cells.y, settings.region.size().x, settings.region.size().y,
-                                     cell * std::sqrt(cells.x * cells.y / most_cells_per_slice)));
+        throw InputError(
+            fmt::format("a layer of the foam would cut {:.0f} cells; with a region of {} x {} mm the "
+                        "cell size must be at least {:.4g} mm",
+                        cells.x * cells.y, settings.region.size().x, settings.region.size().y,
+                        cell * std::sqrt(cells.x * cells.y / most_cells_per_slice)));
     }
 }
 
@@ -58,7 +59,8 @@ VoronoiFoam::VoronoiFoam(const FoamSettings& settings) : VoronoiFoam(settings, m
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings, std::shared_ptr<const SeedTree> tree)
     : settings_(settings),
       tree_(std::move(tree)),
-      units_(std::make_shared<const FoamUnits>(tree_, NodeRadius(settings.beam_radius), settings.cache_bytes)),
+      units_(
+          std::make_shared<const FoamUnits>(tree_, NodeRadius(settings.beam_radius), settings.cache_bytes)),
       bricks_(settings.cache_bytes) {}
 
 double VoronoiFoam::value(dvec3 p) const {

@@ -56,7 +56,8 @@ void cold_plate(benchmark::State& state) {
     std::int64_t beams = 0;
     double z = 50;
     for (auto _ : state) {
-        const VoronoiFoam foam({.cell = 4.4, .beam_radius = 0.3, .seed = 1, .region = {{0, 0, 0}, {192, 108, 200}}});
+        const VoronoiFoam foam(
+            {.cell = 4.4, .beam_radius = 0.3, .seed = 1, .region = {{0, 0, 0}, {192, 108, 200}}});
         beams += static_cast<std::int64_t>(foam.beams_at(z += 1.7).size());
     }
     state.SetItemsProcessed(beams);
@@ -65,7 +66,8 @@ BENCHMARK(cold_plate)->Unit(benchmark::kMillisecond);
 
 /// The next layers of the same plate, 0.05 mm apart.
 void warm_plate(benchmark::State& state) {
-    const VoronoiFoam foam({.cell = 4.4, .beam_radius = 0.3, .seed = 1, .region = {{0, 0, 0}, {192, 108, 200}}});
+    const VoronoiFoam foam(
+        {.cell = 4.4, .beam_radius = 0.3, .seed = 1, .region = {{0, 0, 0}, {192, 108, 200}}});
     double z = 50;
     benchmark::DoNotOptimize(foam.beams_at(z));
     for (auto _ : state) benchmark::DoNotOptimize(foam.beams_at(z += 0.05));

@@ -1,5 +1,5 @@
-// The edges of a Voronoi diagram by brute force: every triple's line of equal distance, clipped by every other
-// seed's bisector.
+// The edges of a Voronoi diagram by brute force: every triple's line of equal distance, clipped by every
+// other seed's bisector.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace lamella {
 
 using Segment = std::pair<dvec3, dvec3>;
 
-/// Edges of positive length whose three seeds lie in `core`, clipped by all of `seeds`. Unbounded ones are left out.
+/// Edges of positive length whose three seeds lie in `core`, clipped by all of `seeds`. Unbounded ones are
+/// left out.
 inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds, const Box& core) {
     std::vector<dvec3> inner, all;
     for (const Seed& seed : seeds) {

@@ -34,7 +34,9 @@ TEST_CASE("the cache keeps to its bound and drops what is farthest in z", "[cell
     constexpr std::size_t capacity = 16 * 10000;
     CellCache<Sheet> cache(capacity);
     for (int z = 0; z < 1000; ++z) {
-        const auto held = cache.find_or_make({7, 7, z, 0, 0}, z, [&] { return Sheet{z, static_cast<double>(z)}; });
+        const auto held = cache.find_or_make({7, 7, z, 0, 0}, z, [&] {
+            return Sheet{z, static_cast<double>(z)};
+        });
         CHECK(held->content == z);
         CHECK(cache.bytes() <= capacity);
     }
@@ -62,8 +64,9 @@ TEST_CASE("threads that want the same values get the same values", "[cell_cache]
     const auto work = [&](int stride) {
         for (int i = 0; i < 20000; ++i) {
             const std::int64_t x = (i * stride) % 257;
-            const auto held = cache.find_or_make({x, 0, 0, 0, 0}, static_cast<double>(x),
-                                                 [&] { return Sheet{x, static_cast<double>(x)}; });
+            const auto held = cache.find_or_make({x, 0, 0, 0, 0}, static_cast<double>(x), [&] {
+                return Sheet{x, static_cast<double>(x)};
+            });
             if (held->content != x) ++wrong;
         }
     };

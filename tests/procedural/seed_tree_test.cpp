@@ -96,7 +96,8 @@ std::size_t check_block(const SeedBlock& block, const Density& density) {
         }
         for (int child = 0; child < 8; ++child) {
             const SeedNode& inner = block.nodes[static_cast<std::size_t>(node.first_child + child)];
-            CHECK(std::abs(inner.seed_count - node.seed_count * density.integral(inner.box) / total) < 1.000001);
+            CHECK(std::abs(inner.seed_count - node.seed_count * density.integral(inner.box) / total) <
+                  1.000001);
             dealt += inner.seed_count;
         }
         CHECK(dealt == node.seed_count);
@@ -149,8 +150,10 @@ TEST_CASE("impossible densities and sides are refused", "[seed_tree]") {
     CHECK_THROWS_AS(SeedTree(one, 0.0, 1), InputError);
     CHECK_THROWS_AS(SeedTree(one, -1.0, 1), InputError);
     CHECK_THROWS_AS(SeedTree(one, infinity, 1), InputError);
-    CHECK_THROWS_AS(SeedTree(std::make_shared<const ConstantDensity>(0.0), 1.0, 1).block({0, 0, 0}), InputError);
-    CHECK_THROWS_AS(SeedTree(std::make_shared<const ConstantDensity>(1e12), 1.0, 1).block({0, 0, 0}), InputError);
+    CHECK_THROWS_AS(SeedTree(std::make_shared<const ConstantDensity>(0.0), 1.0, 1).block({0, 0, 0}),
+                    InputError);
+    CHECK_THROWS_AS(SeedTree(std::make_shared<const ConstantDensity>(1e12), 1.0, 1).block({0, 0, 0}),
+                    InputError);
     CHECK_THROWS_AS(SeedTree(one, 1.0, 1).block_index({1e9, 0, 0}), InputError);
     CHECK_THROWS_AS(SeedTree(one, 1.0, 1).block_index({std::nan(""), 0, 0}), InputError);
 }

@@ -67,7 +67,8 @@ TEST_CASE("a cell begins as a cube", "[voronoi_cell]") {
     check_polytope(cell);
 }
 
-TEST_CASE("the six nearest seeds of a cubic lattice cut out a cube, the diagonal ones nothing", "[voronoi_cell]") {
+TEST_CASE("the six nearest seeds of a cubic lattice cut out a cube, the diagonal ones nothing",
+          "[voronoi_cell]") {
     VoronoiCell cell;
     cell.start(10);
     std::int32_t id = 0;
@@ -128,7 +129,8 @@ TEST_CASE("hundreds of faces are no more trouble than six", "[voronoi_cell]") {
 }
 
 TEST_CASE("planes that nearly tie keep the cell a polytope", "[voronoi_cell]") {
-    // Seeds on a sphere's great circles, jittered by amounts about the tolerance: bundles of nearly equal edges.
+    // Seeds on a sphere's great circles, jittered by amounts about the tolerance: bundles of nearly equal
+    // edges.
     for (const double jitter : {0.0, 1e-16, 1e-14, 1e-13, 1e-12, 3e-12, 1e-11, 1e-9}) {
         CAPTURE(jitter);
         for (int sample = 0; sample < 50; ++sample) {
