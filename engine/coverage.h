@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/field.h"
 #include "engine/runs.h"
+#include "engine/slice_context.h"
 
 namespace lamella {
 
@@ -22,5 +24,9 @@ void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& 
 
 /// Black and white: a pixel is 255 when its centre lies in a run of the row's only line (band.sub must be 1).
 void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out);
+
+/// Antialiased coverage from the area under the contour's chords in each pixel. Appends to `out`.
+void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch,
+                    std::vector<GreyRun>& out);
 
 }  // namespace lamella
