@@ -31,10 +31,10 @@ FieldPtr mesh_body(const PartRecipe& part, std::optional<MeshReport>& report) {
     MeshReport& found = report.emplace();
     found.path = part.mesh;
     found.notes = std::move(file.notes);
-    SolidMesh solid = close_mesh(std::move(file.mesh));
+    SolidMesh solid = close_mesh(std::move(file.mesh), part.mesh);
     found.vertices = solid.mesh.vertices.size();
     found.triangles = solid.mesh.triangles.size();
-    found.caps = static_cast<std::size_t>(solid.caps);
+    found.caps = solid.caps;
     found.oriented_manifold = solid.oriented_manifold;
     found.volume = enclosed_volume(solid.mesh);
     found.notes.insert(found.notes.end(), solid.notes.begin(), solid.notes.end());
@@ -99,7 +99,7 @@ std::shared_ptr<const VoronoiFoam> build_foam(const FoamRecipe& foam, const Box&
     settings.beam_radius = foam.beam;
     settings.seed = static_cast<std::uint64_t>(foam.seed);
     settings.region = region;
-    return std::make_shared<const VoronoiFoam>(settings);
+    return make_voronoi_foam(settings);
 }
 
 BuiltJob build_job(const Recipe& recipe) {

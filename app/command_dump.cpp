@@ -40,7 +40,9 @@ Box parse_box(const std::string& text) {
 }
 
 void write_seeds(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
-    for (const dvec3& s : foam.seeds_in(box)) out.write(fmt::format("{},{},{}\n", s.x, s.y, s.z));
+    for (const Seed& s : foam.seeds_in(box)) {
+        out.write(fmt::format("{},{},{}\n", s.position.x, s.position.y, s.position.z));
+    }
 }
 
 void write_beams(const VoronoiFoam& foam, const Box& box, TextOutput& out) {

@@ -156,7 +156,7 @@ void add_part(std::vector<Setting>& t) {
 void add_structure(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe& r) -> auto& { return foam(r).cell; }>(
         "foam", "cell", "--cell",
-        {.unit = "mm", .limits = {0.05, 1000}, .fallback = "required in [foam]", .help = "Mean diameter of a foam cell."}));
+        {.unit = "mm", .limits = {0.05, 1000}, .fallback = "required in [foam]", .help = "Mean diameter of a foam cell: one seed to every cell cubed."}));
     t.push_back(row<[](Recipe& r) -> auto& { return foam(r).beam; }>(
         "foam", "beam", "--beam",
         {.unit = "mm", .limits = {0.005, 500}, .fallback = "required in [foam]", .help = "Radius of the foam's beams."}));
