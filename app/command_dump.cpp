@@ -1,0 +1,99 @@
+// `lamella dump`: the foam itself, seeds or beams in a box, as lines of numbers.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/build_job.h"
+#include "app/commands.h"
+#include "app/recipe_options.h"
+#include "app/settings.h"
+#include "app/text_output.h"
+#include "engine/error.h"
+
+namespace lamella {
+
+namespace {
+
+struct DumpOptions {
+    RecipeOptions recipe;
+    std::string what;
+    std::string box;
+    std::string format = "csv";
+    std::string output;
+    bool header = false;
+};
+
+Box parse_box(const std::string& text) {
+    const auto numbers = parse_numbers(text, 6);
+    const auto refuse = [&](const std::string& wrong) {
+        throw InputError("--box: " + wrong + "; accepted: x0,y0,z0,x1,y1,z1 in mm, finite, each lower corner below the upper");
+    };
+    if (!numbers) refuse("\"" + text.substr(0, 96) + "\" is not six numbers");
+    for (const double v : *numbers) {
+        if (!std::isfinite(v)) refuse(fmt::format("{} is not a finite number", v));
+    }
+    const auto& n = *numbers;
+    const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    if (box.empty()) refuse("a lower corner lies above the upper one");
+    return box;
+}
+
+void write_seeds(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
+    for (const Seed& s : foam.seeds_in(box)) {
+        out.write(fmt::format("{},{},{}\n", s.position.x, s.position.y, s.position.z));
+    }
+}
+
+void write_beams(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
+    for (const Beam& b : foam.beams_touching(box)) {
+        out.write(fmt::format("{},{},{},{},{},{},{},{}\n", b.a.x, b.a.y, b.a.z, b.ra, b.b.x, b.b.y, b.b.z, b.rb));
+    }
+}
+
+void run(const DumpOptions& options) {
+    const Recipe recipe = options.recipe.read(false);
+    if (!recipe.foam) throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
+    const bool has_body = !recipe.part.mesh.empty() || recipe.part.shape != Shape::none;
+    if (options.box.empty() && !has_body) throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
+    std::optional<Box> box;
+    if (!options.box.empty()) box = parse_box(options.box);
+    std::shared_ptr<const VoronoiFoam> foam;
+    if (has_body) {
+        const BuiltJob built = build_job(recipe);
+        foam = built.foam;
+        if (!box) box = built.job.bounds;
+    } else {
+        foam = build_foam(*recipe.foam, *box);
+    }
+    TextOutput out(options.output);
+    const bool seeds = options.what == "seeds";
+    if (options.header) out.write(seeds ? "x,y,z\n" : "x0,y0,z0,r0,x1,y1,z1,r1\n");
+    seeds ? write_seeds(*foam, *box, out) : write_beams(*foam, *box, out);
+    out.close();
+}
+
+}  // namespace
+
+void add_dump_command(CLI::App& root) {
+    auto options = std::make_shared<DumpOptions>();
+    CLI::App& command = *root.add_subcommand("dump", "Write the foam's seeds or beams that touch a box");
+    command.add_option("WHAT", options->what, "seeds (x,y,z) or beams (x0,y0,z0,r0,x1,y1,z1,r1), mm")
+        ->required()
+        ->check(CLI::IsMember({"seeds", "beams"}))
+        ->type_name("");
+    options->recipe.add_to(command);
+    command.add_option("--box", options->box, "Corners in mm, part coordinates; default: the part's bounds")
+        ->type_name("x0,y0,z0,x1,y1,z1");
+    command.add_option("--format", options->format, "csv: numbers that read back exactly, a line each")
+        ->check(CLI::IsMember({"csv"}))
+        ->type_name("WORD");
+    command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
+    command.add_flag("--header", options->header, "Names of the columns in the first line");
+    finish_command(command,
+                   "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
+                   "  lamella dump seeds insole.toml --header -o seeds.csv");
+    command.callback([options] { run(*options); });
+}
+
+}  // namespace lamella

@@ -1,0 +1,168 @@
+// `lamella slice`: streams the layers of a recipe or a model to a printer's back-end.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/build_job.h"
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/printer_choice.h"
+#include "app/progress.h"
+#include "app/recipe_options.h"
+#include "app/text_output.h"
+#include "engine/error.h"
+#include "engine/layer_stream.h"
+#include "printers/registry.h"
+
+namespace lamella {
+
+namespace {
+
+struct SliceOptions {
+    RecipeOptions recipe;
+    std::string output;
+    std::string layers;
+    int threads = 0;
+    int look_ahead = 0;
+    bool resume = false;
+    bool force = false;
+    bool quiet = false;
+    bool json = false;
+    std::string repeat;  ///< the command line that continues this run
+};
+
+std::string quoted(const std::string& argument) {
+    const std::string plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./:,@%";
+    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
+    std::string text = "'";
+    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+std::string resuming(const std::vector<std::string>& arguments) {
+    std::string line = "lamella";
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        if (arguments[i] != "--resume" && arguments[i] != "--force") line += " " + quoted(arguments[i]);
+    }
+    return line + " --resume";
+}
+
+/// "A:B", either side may be left out.
+LayerRange parse_layers(const std::string& text, int count) {
+    LayerRange range{0, count};
+    const auto refuse = [&](const std::string& wrong) {
+        throw InputError(fmt::format("--layers: {}; accepted: A:B with 0 <= A < B <= {} (layers A up to, not including, B)",
+                                     wrong, count));
+    };
+    if (text.empty()) return range;
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) refuse("\"" + text.substr(0, 64) + "\" has no colon");
+    const auto side = [&](std::string_view digits, int& out) {
+        if (digits.empty()) return;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+        if (error != std::errc{} || end != digits.data() + digits.size()) {
+            refuse("\"" + std::string(digits.substr(0, 64)) + "\" is no whole number");
+        }
+    };
+    side(std::string_view(text).substr(0, colon), range.first);
+    side(std::string_view(text).substr(colon + 1), range.last);
+    if (range.first < 0 || range.first >= range.last || range.last > count) {
+        refuse(fmt::format("{}:{} is no range of the part's layers", range.first, range.last));
+    }
+    return range;
+}
+
+std::int64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+void summarise(const SliceOptions& options, const Job& job, const StreamReport& report,
+               const ProgressDisplay& display) {
+    const double seconds = display.seconds();
+    if (options.json) {
+        const nlohmann::ordered_json summary{{"output", options.output},
+                                             {"identity", job.identity},
+                                             {"layers", report.layers_written},
+                                             {"layers_kept", report.layers_kept},
+                                             {"seconds", seconds},
+                                             {"first_layer_seconds", display.first_layer_seconds()},
+                                             {"peak_memory_bytes", peak_memory_bytes()},
+                                             {"volume_mm3", report.volume}};
+        TextOutput out("");
+        out.write(summary.dump(2) + "\n");
+        out.close();
+    }
+    if (options.quiet) return;
+    const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
+    std::fputs(fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material, {} MiB at most\n", options.output,
+                           report.layers_written, kept, seconds, report.volume, peak_memory_bytes() >> 20)
+                   .c_str(),
+               stderr);
+}
+
+void run(SliceOptions options) {
+    ProgressDisplay display(options.quiet);
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = options.recipe.read();
+    if (options.output.empty()) options.output = default_output(recipe.printer, recipe.part.name);
+    const BuiltJob built = build_job(recipe);
+    if (built.mesh && !options.quiet) {
+        for (const std::string& note : built.mesh->notes) {
+            std::fputs((built.mesh->path + ": " + note + "\n").c_str(), stderr);
+        }
+    }
+    StreamOptions stream;
+    stream.range = parse_layers(options.layers, built.job.layer_count);
+    stream.threads = options.threads;
+    stream.look_ahead = options.look_ahead;
+    stream.resume = options.resume;
+    stream.cancel = &cancel;
+    stream.on_progress = [&](const Progress& progress) { display.show(progress); };
+    StreamReport report;
+    try {
+        const auto backend = make_backend(recipe.printer, options.output, options.force);
+        report = stream_layers(built.job, *backend, stream);
+    } catch (const Interrupted&) {
+        display.finish();
+        throw Interrupted("interrupted; what is finished is kept. To go on: " + options.repeat);
+    }
+    display.finish();
+    summarise(options, built.job, report, display);
+}
+
+}  // namespace
+
+void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments) {
+    auto options = std::make_shared<SliceOptions>();
+    options->repeat = resuming(arguments);
+    CLI::App& command = *root.add_subcommand("slice", "Turn a recipe or a model into printable layers");
+    options->recipe.add_to(command);
+    command.add_option("-o,--output", options->output, "File or folder to make; default: the part's name")
+        ->type_name("PATH");
+    command.add_option("--layers", options->layers, "Layers A up to, not including, B, counted from 0; default: all")
+        ->type_name("A:B");
+    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")->check(CLI::Range(0, 1024));
+    command.add_option("--look-ahead", options->look_ahead, "Layers in flight at most; 0: two a thread")
+        ->check(CLI::Range(0, 4096));
+    command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
+    command.add_flag("--force", options->force, "Replace an output that exists");
+    command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
+    command.add_flag("--json", options->json, "A summary of the run on standard output");
+    finish_command(command,
+                   "  lamella slice insole.toml -o insole/\n"
+                   "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --layer-height 0.05 --printer png -o out/\n"
+                   "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
+                   "  lamella slice insole.toml --layers 100:200 --json\n"
+                   "Ctrl-C stops cleanly; the same command with --resume goes on.");
+    command.callback([options] { run(*options); });
+}
+
+}  // namespace lamella

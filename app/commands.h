@@ -1,0 +1,19 @@
+// The subcommands of `lamella`: each function adds one to the command line, and its callback runs it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace lamella {
+
+/// `arguments` is the command line as typed, for the advice on how to go on after an interruption.
+void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments);
+void add_preview_command(CLI::App& root);
+void add_info_command(CLI::App& root);
+void add_dump_command(CLI::App& root);
+void add_section_command(CLI::App& root);
+void add_printers_command(CLI::App& root);
+void add_keys_command(CLI::App& root);
+
+}  // namespace lamella

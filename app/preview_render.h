@@ -1,0 +1,32 @@
+// A shaded picture of an implicit solid, straight from the field: no mesh is made.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/field.h"
+
+namespace lamella {
+
+struct PreviewOptions {
+    int width = 1024;       ///< px
+    int height = 1024;      ///< px
+    double azimuth = 35;    ///< degrees, the eye's direction round the part, counter-clockwise from -y
+    double elevation = 25;  ///< degrees, the eye's height over the horizon
+    char cut = 'x';         ///< axis along which the nearer part is cut away: 'x', 'y', 'z', or '-' for none
+    double cut_at = 0.5;    ///< where, as a share of the bounds along that axis
+    int threads = 0;        ///< 0: one a core
+};
+
+/// Rows from the top, three bytes a pixel.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+/// Perspective view of the part within `bounds` (finite, not empty) on a light ground. Kept of the part is one bit for
+/// each cell of a grid of the picture's resolution, made from slices; surfaces and normals come from the field itself.
+Image render_preview(const Field& part, const Box& bounds, const PreviewOptions& options);
+
+}  // namespace lamella

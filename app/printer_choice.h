@@ -1,0 +1,26 @@
+// The machines that a recipe can name: back-ends and profiles, as words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "printers/profile.h"
+
+namespace lamella {
+
+/// Names of all back-ends.
+std::vector<std::string> backend_words();
+/// Names of all profiles, then those of the back-ends.
+std::vector<std::string> profile_words();
+/// What a recipe without [printer] gets.
+PrinterProfile default_profile();
+/// The profile of this name; the default profile with this back-end when it is a back-end's name. Throws InputError
+/// when it is neither.
+PrinterProfile profile_named(const std::string& name);
+
+/// Where a run without -o writes: the part's name, with the back-end's usual ending.
+std::string default_output(const PrinterProfile& printer, const std::string& part_name);
+/// Back-ends and profiles as text for people.
+std::string printers_listing();
+
+}  // namespace lamella

@@ -1,0 +1,36 @@
+// ProgressDisplay: how far a run has come, as a bar on a terminal and as lines now and then elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "engine/layer_stream.h"
+
+namespace lamella {
+
+/// Writes to standard error. Call from one thread.
+class ProgressDisplay {
+  public:
+    /// Shows nothing when quiet.
+    explicit ProgressDisplay(bool quiet);
+
+    void show(const Progress& progress);
+    /// Ends the bar's line.
+    void finish();
+    /// Time from construction to the first layer; 0 before it.
+    double first_layer_seconds() const { return first_layer_; }
+    double seconds() const;
+
+  private:
+    bool quiet_;
+    bool terminal_;
+    bool line_open_ = false;
+    std::chrono::steady_clock::time_point start_;
+    double first_layer_ = 0;
+    double last_shown_ = 0;
+};
+
+/// "45 %  90/200 layers  12.5 layers/s  0:09 left".
+std::string progress_text(const Progress& progress, double seconds);
+
+}  // namespace lamella

@@ -1,0 +1,80 @@
+// One option a row of the settings table, with its recipe key in the help.
+#include "app/recipe_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/recipe_draft.h"
+#include "app/settings.h"
+
+namespace lamella {
+
+namespace {
+
+bool names_recipe(std::string_view path) {
+    if (path.size() < 5) return false;
+    std::string ending(path.substr(path.size() - 5));
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return ending == ".toml";
+}
+
+std::string placeholder(const Setting& setting) {
+    switch (setting.type) {
+        case ValueType::boolean: return "";
+        case ValueType::integer: return "N";
+        case ValueType::number: return setting.unit == "mm" ? "MM" : "X";
+        case ValueType::text: return "TEXT";
+        case ValueType::choice: return "WORD";
+        case ValueType::triple: return "X,Y,Z";
+    }
+    return "";
+}
+
+std::string option_help(const Setting& setting) {
+    return fmt::format("{} Accepts {}; default: {}. Recipe key: {}", setting.help, accepted(setting), setting.fallback,
+                       setting.name());
+}
+
+}  // namespace
+
+void RecipeOptions::add_to(CLI::App& command) {
+    command.add_option("INPUT", input_, "Recipe (.toml) or model (.stl, .obj, .ply, .3mf)")->type_name("");
+    texts_.resize(settings().size());
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+        const Setting& setting = settings()[i];
+        CLI::Option* option = nullptr;
+        if (setting.type == ValueType::boolean) {
+            const std::string names = fmt::format("{}{{true}},--no-{}{{false}}", setting.flag, setting.flag.substr(2));
+            option = command.add_flag(names, texts_[i], option_help(setting));
+        } else {
+            option = command.add_option(setting.flag, texts_[i], option_help(setting));
+            option->type_name(placeholder(setting));
+        }
+        option->group("Recipe [" + setting.section + "]");
+        option->take_last();
+        options_.push_back(option);
+    }
+}
+
+Recipe RecipeOptions::read(bool needs_body) const {
+    RecipeDraft draft;
+    draft.require_body(needs_body);
+    if (names_recipe(input_)) {
+        draft.read_file(input_);
+    } else if (!input_.empty()) {
+        draft.assign_flag(*find_setting("part", "mesh"), input_);
+    }
+    for (std::size_t i = 0; i < options_.size(); ++i) {
+        if (options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
+    }
+    return draft.finish();
+}
+
+void finish_command(CLI::App& command, const std::string& examples) {
+    command.set_version_flag("--version", "lamella " LAMELLA_VERSION);
+    command.footer("Examples:\n" + examples);
+}
+
+}  // namespace lamella

@@ -1,0 +1,199 @@
+// Reading a recipe file: TOML into a RecipeDraft, with a line for every mistake.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <toml++/toml.h>
+
+#include "app/recipe_draft.h"
+#include "engine/error.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t largest_recipe = 1 << 20;
+
+std::string read_whole(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        throw InputError(path + ": is a folder; a recipe file (TOML) is needed");
+    }
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InputError(path + ": cannot be opened; a readable recipe file (TOML) is needed");
+    std::string text(largest_recipe + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad()) throw InputError(path + ": cannot be read");
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text.size() > largest_recipe) {
+        throw InputError(fmt::format("{}: has more than {} bytes, which no recipe needs", path, largest_recipe));
+    }
+    return text;
+}
+
+std::string found_type(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::table: return "a table was found";
+        case toml::node_type::array: return "an array was found";
+        case toml::node_type::string: return "a text was found";
+        case toml::node_type::integer: return "a whole number was found";
+        case toml::node_type::floating_point: return "a number with a fraction was found";
+        case toml::node_type::boolean: return "true or false was found";
+        default: return "a date or time was found";
+    }
+}
+
+std::optional<double> number(const toml::node& node) {
+    if (const auto* floating = node.as_floating_point()) return floating->get();
+    if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+    return std::nullopt;
+}
+
+std::optional<Value> triple(const toml::node& node) {
+    const auto* array = node.as_array();
+    if (!array || array->size() != 3) return std::nullopt;
+    dvec3 v{0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto part = number((*array)[i]);
+        if (!part) return std::nullopt;
+        v[static_cast<glm::length_t>(i)] = *part;
+    }
+    return v;
+}
+
+/// The node as a value of the setting's type; nothing when it has another type.
+std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
+    switch (setting.type) {
+        case ValueType::boolean:
+            if (const auto* v = node.as_boolean()) return v->get();
+            break;
+        case ValueType::integer:
+            if (const auto* v = node.as_integer()) return v->get();
+            break;
+        case ValueType::number:
+            if (const auto v = number(node)) return *v;
+            break;
+        case ValueType::text:
+        case ValueType::choice:
+            if (const auto* v = node.as_string()) return v->get();
+            break;
+        case ValueType::triple: return triple(node);
+    }
+    return std::nullopt;
+}
+
+/// Keys are the user's text: cut to a length that a message can bear.
+std::string shown(std::string_view key) {
+    std::string text;
+    for (const char c : key.substr(0, 64)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    return text;
+}
+
+}  // namespace
+
+/// Walks a parsed recipe and hands what it finds to a draft.
+class TomlRecipe {
+  public:
+    TomlRecipe(RecipeDraft& draft, const std::string& path) : draft_(draft), path_(path) {}
+
+    void read(const toml::table& root) {
+        std::vector<std::string> known;
+        for (const Section& section : sections()) known.push_back(section.name);
+        for (const auto& [key, node] : root) {
+            const std::string name(key.str());
+            const int line = static_cast<int>(key.source().begin.line);
+            if (std::find(known.begin(), known.end(), name) != known.end()) {
+                read_section(name, line, node);
+            } else if (node.is_table()) {
+                const std::string near = nearest(name, known);
+                refuse(line, "[" + shown(name) + "]",
+                       "unknown section" + (near.empty() ? "" : fmt::format(", did you mean `[{}]`?", near)),
+                       "[part], [foam], [skin], [layers], [printer]");
+            } else {
+                refuse(line, shown(name), "stands outside a section" + belongs(name),
+                       "keys below one of [part], [foam], [skin], [layers], [printer]");
+            }
+        }
+    }
+
+  private:
+    std::string at(int line, const std::string& what) const { return fmt::format("{}:{}: {}", path_, line, what); }
+
+    void refuse(int line, const std::string& what, const std::string& wrong, const std::string& right) {
+        draft_.refuse(line, fmt::format("{}: {}; accepted: {}", at(line, what), wrong, right));
+    }
+
+    /// ", it belongs to [foam]" when another section has the key.
+    static std::string belongs(const std::string& key) {
+        for (const Setting& setting : settings()) {
+            if (setting.key == key) return fmt::format(", `{}` belongs to [{}]", key, setting.section);
+        }
+        return "";
+    }
+
+    void read_section(const std::string& section, int line, const toml::node& node) {
+        const auto* table = node.as_table();
+        if (!table) {
+            refuse(line, section, found_type(node), fmt::format("a section [{}] with keys", section));
+            return;
+        }
+        draft_.sections_[section] = at(line, section);
+        for (const auto& [key, child] : *table) {
+            read_key(section, std::string(key.str()), static_cast<int>(key.source().begin.line), child);
+        }
+    }
+
+    void read_key(const std::string& section, const std::string& key, int line, const toml::node& node) {
+        const Setting* setting = find_setting(section, key);
+        if (!setting) return refuse_key(section, key, line);
+        const std::string where = at(line, setting->name());
+        const auto value = value_of(*setting, node);
+        std::optional<std::string> wrong = value ? objection(*setting, *value) : found_type(node);
+        if (!wrong) return draft_.set(*setting, located(*setting, *value), where, false);
+        refuse(line, setting->name(), *wrong, accepted(*setting));
+        draft_.entries_[setting->name()] = {std::nullopt, where, false};
+    }
+
+    void refuse_key(const std::string& section, const std::string& key, int line) {
+        std::vector<std::string> known;
+        std::string listing;
+        for (const Setting& setting : settings()) {
+            if (setting.section != section) continue;
+            known.push_back(setting.key);
+            listing += (listing.empty() ? "" : ", ") + setting.key;
+        }
+        const std::string near = nearest(key, known);
+        refuse(line, section + "." + shown(key),
+               "unknown key" + (near.empty() ? belongs(key) : fmt::format(", did you mean `{}`?", near)), listing);
+        // The key that was meant is not missing as well: one mistake, one message.
+        if (!near.empty()) draft_.entries_.try_emplace(section + "." + near);
+    }
+
+    /// Paths in a recipe start at the recipe's folder.
+    Value located(const Setting& setting, const Value& value) const {
+        if (setting.name() != "part.mesh") return value;
+        const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+        return (folder / std::get<std::string>(value)).lexically_normal().string();
+    }
+
+    RecipeDraft& draft_;
+    const std::string& path_;
+};
+
+void RecipeDraft::read_file(const std::string& path) { read_text(read_whole(path), path); }
+
+void RecipeDraft::read_text(std::string_view text, const std::string& path) {
+    toml::table root;
+    try {
+        root = toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        const auto begin = error.source().begin;
+        throw InputError(
+            fmt::format("{}:{}:{}: not valid TOML: {}", path, begin.line, begin.column, error.description()));
+    }
+    TomlRecipe(*this, path).read(root);
+}
+
+}  // namespace lamella

@@ -1,0 +1,90 @@
+// Parsing the command line, and the one place where exceptions become messages and exit codes.
+#include "app/run_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/commands.h"
+#include "app/recipe_options.h"
+#include "app/text_output.h"
+#include "engine/error.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int bad_input = 2;
+constexpr int fault = 3;
+
+int complain(const std::string& message, int code) {
+    std::string lines = message;
+    for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;) lines.insert(++at, "lamella: ");
+    std::fputs(("lamella: " + lines + "\n").c_str(), stderr);
+    return code;
+}
+
+/// The deepest subcommand that was named: its help is the one asked for.
+const CLI::App& chosen(const CLI::App& root) {
+    const auto named = root.get_subcommands();
+    return named.empty() ? root : chosen(*named.front());
+}
+
+int print(const std::string& text) {
+    TextOutput output("");
+    output.write(text);
+    output.close();
+    return 0;
+}
+
+int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend() - 1);
+    try {
+        root.parse(reversed);
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        return print(chosen(root).help());
+    } catch (const CLI::CallForVersion&) {
+        return print("lamella " LAMELLA_VERSION "\n");
+    } catch (const CLI::ParseError& error) {
+        const CLI::App& command = chosen(root);
+        const std::string name = &command == &root ? "lamella" : "lamella " + command.get_name();
+        return complain(std::string(error.what()) + "; `" + name + " --help` shows what is accepted", bad_input);
+    }
+}
+
+}  // namespace
+
+int run_command(const std::vector<std::string>& arguments) {
+    try {
+        CLI::App root("Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
+                      "lamella");
+        root.require_subcommand(1);
+        finish_command(root,
+                       "  lamella slice insole.toml -o insole/\n"
+                       "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
+                       "  lamella slice --help      all options of one command\n"
+                       "  lamella keys              all keys of a recipe\n"
+                       "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
+                       "130 interrupted.");
+        add_slice_command(root, arguments);
+        add_preview_command(root);
+        add_info_command(root);
+        add_section_command(root);
+        add_dump_command(root);
+        add_printers_command(root);
+        add_keys_command(root);
+        return parse_and_run(root, arguments);
+    } catch (const ReaderGone& gone) {
+        return gone.exit_code();
+    } catch (const Error& error) {
+        return complain(error.what(), error.exit_code());
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory", fault);
+    } catch (const std::exception& error) {
+        return complain(std::string("unexpected fault: ") + error.what(), fault);
+    }
+}
+
+}  // namespace lamella

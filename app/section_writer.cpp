@@ -1,0 +1,113 @@
+// Writing one section: paths, polygons or pixels.
+#include "app/section_writer.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "engine/coverage.h"
+#include "engine/error.h"
+#include "engine/slice_context.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr double most_pixels = 1 << 28;
+
+int pixels(double length, double pixel) { return std::max(1, static_cast<int>(std::ceil(length / pixel))); }
+
+RowBand page_band(const Rect& page, const ImageProfile& image) {
+    const dvec2 size = page.size();
+    if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > most_pixels) {
+        throw InputError(fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
+                                     "{} x {} mm; accepted: larger pixels",
+                                     image.pixel_x, image.pixel_y, most_pixels, size.x, size.y));
+    }
+    RowBand band;
+    band.along_origin = page.lo.x;
+    band.along_pitch = image.pixel_x;
+    band.across_origin = page.hi.y;
+    band.across_pitch = -image.pixel_y;
+    band.sub = image.antialiasing == Antialiasing::off ? 1 : image.sub_rows;
+    band.hi = pixels(size.x, image.pixel_x);
+    band.count = pixels(size.y, image.pixel_y);
+    return band;
+}
+
+/// All rows, a band of 64 at a time.
+std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page, bool antialiased) {
+    constexpr int rows_at_once = 64;
+    std::vector<std::uint8_t> grey;
+    grey.reserve(static_cast<std::size_t>(page.hi) * static_cast<std::size_t>(page.count));
+    Scratch scratch;
+    SpanRows rows;
+    std::vector<GreyRun> runs;
+    for (RowBand band = page; band.first < page.count; band.first += rows_at_once) {
+        band.count = std::min(rows_at_once, page.count - band.first);
+        rows.clear();
+        runs.clear();
+        slice.spans(band, scratch, rows);
+        antialiased ? coverage(band, rows, runs) : threshold(band, rows, runs);
+        for (const GreyRun& run : runs) grey.insert(grey.end(), run.length, run.value);
+    }
+    return grey;
+}
+
+}  // namespace
+
+std::string section_svg(const std::vector<Contour>& contours, const Rect& page) {
+    const dvec2 size = page.size();
+    std::string text = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
+        "<path fill=\"black\" fill-rule=\"evenodd\" d=\"",
+        size.x, size.y);
+    for (const Contour& contour : contours) {
+        char command = 'M';
+        for (const dvec2& p : contour.points) {
+            fmt::format_to(std::back_inserter(text), "{}{:.5f} {:.5f}", command, p.x - page.lo.x, page.hi.y - p.y);
+            command = 'L';
+        }
+        text += "Z\n";
+    }
+    return text + "\"/>\n</svg>\n";
+}
+
+std::string section_json(const std::vector<Contour>& contours, double z) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    double area = 0;
+    for (const Contour& contour : contours) {
+        area += signed_area(contour.points);
+        nlohmann::ordered_json points = nlohmann::ordered_json::array();
+        for (const dvec2& p : contour.points) points.push_back({p.x, p.y});
+        list.push_back({{"hole", contour.hole}, {"parent", contour.parent}, {"points", std::move(points)}});
+    }
+    const nlohmann::ordered_json section{{"z", z}, {"area_mm2", area}, {"contours", std::move(list)}};
+    return section.dump() + "\n";
+}
+
+std::string section_png(const SliceField& slice, const Rect& page, const ImageProfile& image) {
+    const RowBand band = page_band(page, image);
+    const std::vector<std::uint8_t> grey = grey_page(slice, band, image.antialiasing != Antialiasing::off);
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto writer = OIIO::ImageOutput::create("section.png", &memory);
+    OIIO::ImageSpec spec(band.hi, band.count, 1, OIIO::TypeDesc::UINT8);
+    // Grey is coverage, not light: no gamma may touch it.
+    spec.attribute("oiio:ColorSpace", "linear");
+    spec.attribute("ResolutionUnit", "cm");
+    spec.attribute("XResolution", static_cast<float>(10 / image.pixel_x));
+    spec.attribute("YResolution", static_cast<float>(10 / image.pixel_y));
+    if (!writer || !writer->open("section.png", spec) || !writer->write_image(OIIO::TypeDesc::UINT8, grey.data()) ||
+        !writer->close()) {
+        throw FaultError("the section's PNG cannot be made: " + (writer ? writer->geterror() : OIIO::geterror()));
+    }
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace lamella

@@ -1,0 +1,203 @@
+// Reading, checking and describing values by the settings table.
+#include "app/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t longest_text = 4096;
+
+std::string with_unit(const Setting& setting) { return setting.unit.empty() ? "" : " " + setting.unit; }
+
+std::string range_text(const Setting& setting) {
+    if (setting.limits.lo == -infinity && setting.limits.hi == infinity) return "";
+    return fmt::format(" from {} to {}", setting.limits.lo, setting.limits.hi);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::optional<std::string> range_objection(const Setting& setting, double v) {
+    if (!std::isfinite(v)) return fmt::format("{} is not a finite number", v);
+    if (v < setting.limits.lo) return fmt::format("{} is too small", v);
+    if (v > setting.limits.hi) return fmt::format("{} is too large", v);
+    return std::nullopt;
+}
+
+std::optional<std::string> text_objection(const std::string& text) {
+    if (text.empty()) return "the text is empty";
+    if (text.size() > longest_text) return fmt::format("the text has more than {} bytes", longest_text);
+    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (std::any_of(text.begin(), text.end(), control)) return "the text holds control characters";
+    return std::nullopt;
+}
+
+template <typename T>
+std::optional<T> entire(std::string_view text) {
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    T number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+const Setting* find_setting(std::string_view section, std::string_view key) {
+    for (const Setting& setting : settings()) {
+        if (setting.section == section && setting.key == key) return &setting;
+    }
+    return nullptr;
+}
+
+std::string accepted(const Setting& setting) {
+    switch (setting.type) {
+        case ValueType::boolean: return "true or false";
+        case ValueType::integer: {
+            if (setting.limits.hi > 1e15) return "a whole number from 0 to 9223372036854775807";
+            return "a whole number" + range_text(setting) + with_unit(setting);
+        }
+        case ValueType::number: return "a number" + range_text(setting) + with_unit(setting);
+        case ValueType::text: return "a text";
+        case ValueType::choice: return "one of " + joined(setting.choices);
+        case ValueType::triple: return "three numbers" + range_text(setting) + with_unit(setting);
+    }
+    return {};
+}
+
+std::optional<std::string> objection(const Setting& setting, const Value& value) {
+    switch (setting.type) {
+        case ValueType::boolean: return std::nullopt;
+        case ValueType::integer: {
+            const std::int64_t v = std::get<std::int64_t>(value);
+            if (static_cast<double>(v) < setting.limits.lo) return fmt::format("{} is too small", v);
+            if (static_cast<double>(v) > setting.limits.hi) return fmt::format("{} is too large", v);
+            return std::nullopt;
+        }
+        case ValueType::number: return range_objection(setting, std::get<double>(value));
+        case ValueType::text: return text_objection(std::get<std::string>(value));
+        case ValueType::choice: {
+            const auto& word = std::get<std::string>(value);
+            const auto& list = setting.choices;
+            if (std::find(list.begin(), list.end(), word) != list.end()) return std::nullopt;
+            const std::string near = nearest(word, list);
+            return fmt::format("\"{}\" is unknown", word.substr(0, 64)) +
+                   (near.empty() ? "" : fmt::format(", did you mean `{}`?", near));
+        }
+        case ValueType::triple: {
+            const dvec3 v = std::get<dvec3>(value);
+            for (int i = 0; i < 3; ++i) {
+                if (auto wrong = range_objection(setting, v[i])) return wrong;
+            }
+            return std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Value> parse_value(const Setting& setting, const std::string& text, std::string& wrong) {
+    std::optional<Value> value;
+    switch (setting.type) {
+        case ValueType::boolean:
+            if (text == "true" || text == "false") value = text == "true";
+            break;
+        case ValueType::integer:
+            if (const auto number = entire<std::int64_t>(text)) value = *number;
+            break;
+        case ValueType::number:
+            if (const auto number = entire<double>(text)) value = *number;
+            break;
+        case ValueType::text:
+        case ValueType::choice: value = text; break;
+        case ValueType::triple:
+            if (const auto three = parse_numbers(text, 3)) value = dvec3((*three)[0], (*three)[1], (*three)[2]);
+            break;
+    }
+    if (!value) {
+        wrong = fmt::format("\"{}\" cannot be read", text.substr(0, 64));
+        return std::nullopt;
+    }
+    if (const auto found = objection(setting, *value)) {
+        wrong = *found;
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::string format_value(const Value& value) {
+    struct Format {
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+        std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+        std::string operator()(double v) const { return fmt::format("{}", v); }
+        std::string operator()(const std::string& v) const { return v; }
+        std::string operator()(const dvec3& v) const { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+    };
+    return std::visit(Format{}, value);
+}
+
+std::optional<std::vector<double>> parse_numbers(std::string_view text, std::size_t count) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t comma = text.find(',');
+        const bool last = comma == std::string_view::npos;
+        if (last != (i + 1 == count)) return std::nullopt;
+        const auto number = entire<double>(text.substr(0, comma));
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+        text = last ? std::string_view() : text.substr(comma + 1);
+    }
+    return numbers;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+    if (word.size() > 64) return {};
+    std::string best;
+    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t d = edit_distance(word, candidate);
+        if (d < least && d < candidate.size()) {
+            least = d;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string settings_reference() {
+    std::string text;
+    for (const Section& section : sections()) {
+        text += fmt::format("{}[{}]  {}\n", text.empty() ? "" : "\n", section.name, section.help);
+        for (const Setting& s : settings()) {
+            if (s.section != section.name) continue;
+            text += fmt::format("  {:<20}{}\n", s.key, s.help);
+            text += fmt::format("  {:<20}{}; default: {}; flag: {}\n", "", accepted(s), s.fallback, s.flag);
+        }
+    }
+    return text;
+}
+
+}  // namespace lamella

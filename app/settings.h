@@ -1,0 +1,80 @@
+// The settings table: every key of a recipe and every recipe flag of the command, described once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/recipe.h"
+
+namespace lamella {
+
+/// A setting's value as it stands in a recipe or on the command line. Choices are text.
+using Value = std::variant<bool, std::int64_t, double, std::string, dvec3>;
+
+enum class ValueType : unsigned char { boolean, integer, number, text, choice, triple };
+
+/// The numbers that a setting accepts; for a triple, each of the three.
+struct Limits {
+    double lo = -infinity;
+    double hi = infinity;
+};
+
+/// One row of the table. TOML reading, command-line options, help, the key listing and the job's identity are all
+/// made from it.
+struct Setting {
+    std::string section;
+    std::string key;
+    std::string flag;  ///< long option of the command, with its dashes
+    ValueType type;
+    std::string unit;  ///< "mm", "px" and so on; empty where there is none
+    Limits limits;
+    std::vector<std::string> choices;  ///< accepted words of a choice
+    std::string fallback;              ///< what holds when the setting is absent, for people
+    std::string help;                  ///< one sentence
+    void (*store)(Recipe&, const Value&);
+    Value (*load)(const Recipe&);
+
+    std::string name() const { return section + "." + key; }
+};
+
+/// All settings, ordered by section.
+std::span<const Setting> settings();
+
+/// A section of the recipe, in the table's order.
+struct Section {
+    std::string name;
+    std::string help;
+};
+std::span<const Section> sections();
+
+/// The row of a key, null when there is none.
+const Setting* find_setting(std::string_view section, std::string_view key);
+
+/// "a number from 0.05 to 1000 mm": what a setting accepts, for messages and help.
+std::string accepted(const Setting& setting);
+
+/// What is wrong with a value of the setting's type ("3000 is too large"); nothing when it is fine.
+std::optional<std::string> objection(const Setting& setting, const Value& value);
+
+/// Reads a value from the text of a flag; `wrong` receives what is wrong with it when nothing is returned.
+std::optional<Value> parse_value(const Setting& setting, const std::string& text, std::string& wrong);
+
+/// The value as a flag would be given it; numbers in their shortest exact form. parse_value reads it back.
+std::string format_value(const Value& value);
+
+/// Exactly `count` numbers with commas between them; nothing when the text is anything else. The numbers may be infinite
+/// or NaN.
+std::optional<std::vector<double>> parse_numbers(std::string_view text, std::size_t count);
+
+/// The candidate that a misspelt word most likely means; empty when none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// The reference of all keys: one paragraph a section, one line a key with its flag, range, default and meaning.
+std::string settings_reference();
+
+}  // namespace lamella

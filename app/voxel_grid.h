@@ -1,0 +1,53 @@
+// VoxelGrid: where a part is solid, one bit a cell, with a pyramid of densities for soft light.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/field.h"
+
+namespace lamella {
+
+/// Positions handed to the grid are in cells from its lower corner, so that one cell is one unit.
+class VoxelGrid {
+  public:
+    /// Cuts the part into planes and marks every cell within the bounds that a run touches, so nothing visible is
+    /// left out. `cells` is
+    /// the number of cells along the longest side. Uses the calling task arena's threads.
+    VoxelGrid(const Field& part, const Box& bounds, int cells);
+
+    double pitch() const { return pitch_; }  ///< edge of a cell, mm
+    dvec3 to_grid(dvec3 p) const { return (p - origin_) / pitch_; }
+    dvec3 to_part(dvec3 g) const { return origin_ + g * pitch_; }
+    dvec3 size() const { return {nx_, ny_, nz_}; }
+
+    /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid first.
+    std::optional<Interval> next_solid(dvec3 start, dvec3 direction, double from, double to) const;
+
+    /// Light that arrives through a cone, 1 for all of it. The cone's width grows by `spread` cells a cell.
+    double cone(dvec3 start, dvec3 direction, double spread, double reach) const;
+
+  private:
+    struct Level {
+        int nx, ny, nz;
+        std::vector<std::uint8_t> density;  ///< 255 full; 0 only where all below is empty
+    };
+
+    bool solid(int x, int y, int z) const {
+        const std::size_t row = static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y);
+        return bits_[row * words_ + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
+    }
+    void mark_plane(const Field& part, const Box& bounds, int z);
+    void build_pyramid();
+    double density(const Level& level, double scale, dvec3 p) const;
+
+    dvec3 origin_;
+    double pitch_;
+    int nx_, ny_, nz_;
+    std::size_t words_;  ///< words of 64 cells in a row along x
+    std::vector<std::uint64_t> bits_;
+    std::vector<Level> levels_;  ///< level k has cells of edge 2^(k+1)
+};
+
+}  // namespace lamella
