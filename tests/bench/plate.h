@@ -1,0 +1,35 @@
+// The plate that the benchmarks share: an 8K display full of foam.
+#pragma once
+
+#include "engine/runs.h"
+#include "procedural/voronoi_foam.h"
+
+namespace lamella::bench {
+
+inline constexpr int plate_width = 7680, plate_height = 4320;   // px
+inline constexpr double plate_pixel = 0.025;                    // mm
+inline constexpr double plate_z = 50;                           // mm, where it is cut
+
+/// 192 x 108 mm of foam: cells of 4.4 mm, beams of 0.3 mm; about 5,000 beams meet a plane.
+inline FoamSettings plate_foam() {
+    FoamSettings settings;
+    settings.cell = 4.4;
+    settings.beam_radius = 0.3;
+    settings.seed = 1;
+    settings.region = {{0, 0, 0}, {192, 108, 100}};
+    return settings;
+}
+
+/// The band of 64 pixel rows that begins at row `first`.
+inline RowBand plate_band(int first, int sub) {
+    RowBand band;
+    band.along_pitch = plate_pixel;
+    band.across_pitch = plate_pixel;
+    band.first = first;
+    band.count = std::min(64, plate_height - first);
+    band.sub = sub;
+    band.hi = plate_width;
+    return band;
+}
+
+}  // namespace lamella::bench
