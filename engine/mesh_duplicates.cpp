@@ -2,6 +2,8 @@
 #include "engine/mesh_duplicates.h"
 
 #include <algorithm>
+#include <span>
+#include <tuple>
 
 #include "engine/mesh_edges.h"
 
@@ -14,7 +16,9 @@ struct Placed {
     std::array<std::uint32_t, 3> corners;
     bool flipped;
     std::uint32_t triangle;
-    auto operator<=>(const Placed&) const = default;
+    bool operator<(const Placed& other) const {
+        return std::tie(corners, flipped, triangle) < std::tie(other.corners, other.flipped, other.triangle);
+    }
 };
 
 std::vector<Placed> sorted_by_corners(const Triangles& triangles) {

@@ -16,21 +16,21 @@ double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
 /// The border vertices, sorted by the cell of a cubic grid they lie in.
 class VertexGrid {
   public:
-    VertexGrid(const TriangleMesh& mesh, std::vector<std::uint32_t> vertices, double cell)
-        : mesh_(mesh), origin_(mesh.bounds().lo), cell_(cell) {
+    VertexGrid(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, double cell)
+        : origin_(mesh.bounds().lo), cell_(cell) {
         for (const std::uint32_t v : vertices) entries_.push_back({key(cell_of(mesh.vertices[v])), v});
         std::sort(entries_.begin(), entries_.end());
     }
 
-    /// Calls visit(v) for the vertices in the 27 cells round p, a bounded number of each cell.
+    /// Calls visit(v) for the vertices in the 27 cells round p; a bounded number of each three in a row.
     template <class Visit>
     void around(dvec3 p, const Visit& visit) const {
-        constexpr int most_per_cell = 64;
+        constexpr int most_per_row = 128;
         const std::array<std::int64_t, 3> c = cell_of(p);
-        for (int n = 0; n < 27; ++n) {
-            const std::uint64_t wanted = key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1});
-            auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{wanted, 0});
-            for (int i = 0; i < most_per_cell && entry != entries_.end() && entry->key == wanted; ++i) {
+        for (int n = 0; n < 9; ++n) {
+            const std::uint64_t first = key({c[0] + n % 3 - 1, c[1] + n / 3 - 1, c[2] - 1});
+            auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{first, 0});
+            for (int i = 0; i < most_per_row && entry != entries_.end() && entry->key <= first + 2; ++i) {
                 visit((entry++)->vertex);
             }
         }
@@ -40,7 +40,9 @@ class VertexGrid {
     struct Entry {
         std::uint64_t key;
         std::uint32_t vertex;
-        auto operator<=>(const Entry&) const = default;
+        bool operator<(const Entry& other) const {
+            return key != other.key ? key < other.key : vertex < other.vertex;
+        }
     };
 
     std::array<std::int64_t, 3> cell_of(dvec3 p) const {
@@ -54,7 +56,6 @@ class VertexGrid {
         return part(c[0]) << 42U | part(c[1]) << 21U | part(c[2]);
     }
 
-    const TriangleMesh& mesh_;
     dvec3 origin_;
     double cell_;
     std::vector<Entry> entries_;

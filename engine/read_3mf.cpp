@@ -52,9 +52,14 @@ class Package {
         if (!file)
             reject(source_,
                    "part " + quoted(part) + " cannot be unpacked (" + zip_strerror(zip_.get()) + ")");
+        zip_stat_t stat;
+        zip_stat_init(&stat);
+        const bool has_size = zip_stat_index(zip_.get(), static_cast<zip_uint64_t>(index), 0, &stat) == 0 &&
+                              (stat.valid & ZIP_STAT_SIZE) != 0;
+        if (has_size && stat.size > unpacked_left_) reject_size();
         std::string text;
-        constexpr std::size_t step = std::size_t{1} << 20U;
         for (std::size_t used = 0;; used = text.size()) {
+            const std::size_t step = std::clamp(used, std::size_t{1} << 14U, std::size_t{1} << 24U);
             text.resize(used + step);
             const zip_int64_t got = zip_fread(file.get(), text.data() + used, step);
             if (got < 0)
@@ -62,15 +67,17 @@ class Package {
                                     zip_file_strerror(file.get()) + "); the file is damaged or cut off");
             text.resize(used + static_cast<std::size_t>(got));
             if (got == 0) return text;
-            if (text.size() > unpacked_left_) {
-                reject(source_, "it unpacks to more than 512 MiB, the most that is read from one 3MF file");
-            }
+            if (text.size() > unpacked_left_) reject_size();  // the stated size was a lie
         }
     }
 
     void account(std::size_t bytes) { unpacked_left_ -= std::min(bytes, unpacked_left_); }
 
   private:
+    [[noreturn]] void reject_size() const {
+        reject(source_, "it unpacks to more than 512 MiB, the most that is read from one 3MF file");
+    }
+
     struct Discard {
         void operator()(zip_t* zip) const { zip_discard(zip); }
     };
@@ -199,7 +206,7 @@ class Reader3mf {
 
   private:
     std::string root_part() {
-        const std::string fallback = "3D/3dmodel.model";
+        std::string fallback = "3D/3dmodel.model";
         if (!package_.has("_rels/.rels")) return fallback;
         std::string text = package_.read("_rels/.rels");
         pugi::xml_document xml;

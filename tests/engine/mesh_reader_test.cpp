@@ -480,6 +480,14 @@ TEST_CASE("hostile or mistaken 3MF files are refused with a reason") {
                    "1 triangle is pointing to vertices that do not exist"));
 }
 
+TEST_CASE("an archive that unpacks to more than half a gibibyte is refused before it fills memory") {
+    std::string bytes = threemf(object_xml("1", box()), "<item objectid=\"1\"/>");
+    const std::size_t entry = bytes.find("PK\x01\x02");
+    REQUIRE(entry != std::string::npos);
+    bytes[entry + 27] = '\x21';  // the highest byte of the unpacked size in the directory: 528 MiB
+    CHECK_THAT(message_of("a.3mf", bytes), Catch::Contains("unpacks to more than 512 MiB"));
+}
+
 TEST_CASE("announced sizes do not make the reader allocate") {
     const std::string vertices =
         "element vertex 4000000000000\nproperty float x\nproperty float y\nproperty float z\n";
