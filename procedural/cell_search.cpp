@@ -123,7 +123,7 @@ void TreeSearch::cell(const Seed& own, VoronoiCell& cell) {
 }
 
 glm::ivec3 RingSearch::octant_of(dvec3 p) const {
-    return glm::clamp(glm::ivec3(glm::floor((p - origin_) / spacing_)), glm::ivec3(0), size_ - 1);
+    return glm::clamp(glm::ivec3(glm::floor((p - origin_) * octants_per_mm_)), glm::ivec3(0), size_ - 1);
 }
 
 bool RingSearch::gather(const Box& box) {
@@ -131,6 +131,7 @@ bool RingSearch::gather(const Box& box) {
     const auto first = tree_->block(tree_->block_index(box.center()));
     if (first->leaf_level < 0) return false;
     spacing_ = std::ldexp(tree_->coarse_side(), -(first->leaf_level + 1));
+    octants_per_mm_ = 1 / spacing_;
     const dvec3 lo = glm::floor(box.lo / spacing_ + 1e-6) - static_cast<double>(margin);
     const dvec3 hi = glm::ceil(box.hi / spacing_ - 1e-6) + static_cast<double>(margin);
     origin_ = lo * spacing_;

@@ -72,7 +72,8 @@ class RingSearch {
     bool clip_beyond_block(glm::ivec3 center, dvec3 own, VoronoiCell& cell);
 
     const SeedTree* tree_;
-    double spacing_ = 1;                 ///< side of an octant of a leaf, mm
+    double spacing_ = 1;  ///< side of an octant of a leaf, mm
+    double octants_per_mm_ = 1;
     dvec3 origin_{0};                    ///< lower corner of octant (0, 0, 0)
     glm::ivec3 size_{0};                 ///< octants per axis
     std::vector<std::int32_t> site_at_;  ///< by octant, -1 for none

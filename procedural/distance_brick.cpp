@@ -1,6 +1,7 @@
 // Building the short lists of a brick, and asking them.
 #include "procedural/distance_brick.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -9,7 +10,8 @@
 namespace lamella {
 namespace {
 
-constexpr double safe_side = 1 + 1e-9;
+constexpr double rounding = 1e-9;
+constexpr double safe_side = 1 + rounding;
 
 Box octant_of(const Box& box, int octant) {
     const dvec3 half = box.size() * 0.5;
@@ -47,18 +49,25 @@ bool DistanceBrick::divide(const Box& box, std::span<const std::uint16_t> candid
         distances[i] = signed_distance(near[candidates[i]], center);
         nearest = std::min(nearest, distances[i]);
     }
-    std::vector<std::uint16_t> kept;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (distances[i] <= nearest + diagonal) kept.push_back(candidates[i]);
-    }
     if (depth < halvings) {
+        std::vector<std::uint16_t> kept;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (distances[i] <= nearest + diagonal) kept.push_back(candidates[i]);
+        }
         for (int octant = 0; octant < 8; ++octant) {
             if (!divide(octant_of(box, octant), kept, near, growth, depth + 1)) return false;
         }
         return true;
     }
     if (!(nearest + diagonal < growth)) return false;
-    lists_.insert(lists_.end(), kept.begin(), kept.end());
+    const auto begin = static_cast<std::ptrdiff_t>(lists_.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (distances[i] <= nearest + diagonal) lists_.push_back({distances[i], candidates[i]});
+    }
+    std::sort(lists_.begin() + begin, lists_.end(), [](const Entry& a, const Entry& b) {
+        return a.center_distance != b.center_distance ? a.center_distance < b.center_distance
+                                                      : a.beam < b.beam;
+    });
     begins_.push_back(static_cast<std::uint32_t>(lists_.size()));
     return true;
 }
@@ -66,20 +75,23 @@ bool DistanceBrick::divide(const Box& box, std::span<const std::uint16_t> candid
 /// Keeps the beams that stand on a list, and renumbers the lists.
 void DistanceBrick::keep_used(const std::vector<Beam>& near) {
     std::vector<std::int32_t> renumbered(near.size(), -1);
-    for (std::uint16_t& beam : lists_) {
-        if (renumbered[beam] < 0) {
-            renumbered[beam] = static_cast<std::int32_t>(beams_.size());
-            beams_.push_back(near[beam]);
+    for (Entry& entry : lists_) {
+        std::int32_t& number = renumbered[entry.beam];
+        if (number < 0) {
+            number = static_cast<std::int32_t>(beams_.size());
+            beams_.push_back(near[entry.beam]);
         }
-        beam = static_cast<std::uint16_t>(renumbered[beam]);
+        entry.beam = static_cast<std::uint16_t>(number);
     }
     beams_.shrink_to_fit();
     lists_.shrink_to_fit();
 }
 
 double DistanceBrick::distance(dvec3 p) const {
-    const dvec3 voxel = glm::floor((p - box_.lo) / box_.size() * static_cast<double>(side));
-    const glm::ivec3 at = glm::clamp(glm::ivec3(voxel), 0, side - 1);
+    const dvec3 voxel = box_.size() / static_cast<double>(side);
+    const glm::ivec3 at = glm::clamp(glm::ivec3(glm::floor((p - box_.lo) / voxel)), 0, side - 1);
+    const dvec3 off_center = p - (box_.lo + (dvec3(at) + 0.5) * voxel);
+    const double way = std::sqrt(glm::dot(off_center, off_center)) + rounding * voxel.x;
     std::size_t v = 0;
     for (int bit = halvings - 1; bit >= 0; --bit) {
         const int octant = ((at.x >> bit) & 1) | ((at.y >> bit) & 1) << 1 | ((at.z >> bit) & 1) << 2;
@@ -87,7 +99,9 @@ double DistanceBrick::distance(dvec3 p) const {
     }
     double nearest = infinity;
     for (std::uint32_t i = begins_[v]; i < begins_[v + 1]; ++i) {
-        nearest = std::min(nearest, signed_distance(beams_[lists_[i]], p));
+        // No later beam is nearer: it would have to come closer than the way from the centre.
+        if (lists_[i].center_distance - way > nearest) break;
+        nearest = std::min(nearest, signed_distance(beams_[lists_[i].beam], p));
     }
     return nearest;
 }

@@ -29,6 +29,11 @@ class DistanceBrick {
     static constexpr int halvings = 2;          // from the cube to a voxel
     static constexpr int side = 1 << halvings;  // voxels along an edge
 
+    struct Entry {
+        double center_distance;  ///< from the voxel's centre, mm
+        std::uint16_t beam;
+    };
+
     bool divide(const Box& box, std::span<const std::uint16_t> candidates, const std::vector<Beam>& near,
                 double growth, int depth);
     void keep_used(const std::vector<Beam>& near);
@@ -36,7 +41,7 @@ class DistanceBrick {
     Box box_;
     std::vector<Beam> beams_;
     std::vector<std::uint32_t> begins_;  ///< by voxel, in the order of an octree
-    std::vector<std::uint16_t> lists_;
+    std::vector<Entry> lists_;           ///< each voxel's by distance
 };
 
 }  // namespace lamella

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t unit_seeds = 64;      // a node with more is no unit but its children
 constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
-constexpr int slabs = 4;
+constexpr int slabs = 8;
 constexpr std::size_t reach_cache_bytes = std::size_t{4} << 20;
 constexpr double safe_side = 1 + 1e-9;
 
@@ -63,7 +63,7 @@ double FoamUnits::reach(glm::i64vec3 index, double z) const {
 
 std::vector<Beam> FoamUnits::beams_touching(const Box& box) const {
     if (box.empty()) return {};
-    Request request{box, box.center().z, {}};
+    Request request{box, box.center().z, RingSearch(*tree_), TreeSearch(*tree_), {}, {}, {}};
     const double farthest = (std::sqrt(3.0) * tree_->coarse_side() + radius_.largest()) * safe_side;
     for_each_block(*tree_, grown(box, farthest), [&](glm::i64vec3 index) {
         const double within = reach(index, request.z) + radius_.largest() * safe_side;
@@ -103,13 +103,12 @@ void FoamUnits::collect(const SeedBlock& block, std::size_t node, double within,
         if (missing[at]) gathering = unite(gathering, box);
     }
     if (!gathering.empty()) {
-        RingSearch rings(*tree_);
-        const bool gathered = rings.gather(gathering);
+        const bool gathered = request.rings.gather(gathering);
         for (int part = 0; part < parts_of(here); ++part) {
             const auto at = static_cast<std::size_t>(part);
             if (!missing[at]) continue;
             auto unit =
-                std::make_shared<const FoamUnit>(make(block, here, part_box(here, part), rings, gathered));
+                std::make_shared<const FoamUnit>(make(block, here, part_box(here, part), gathered, request));
             units[at] = units_.insert(key(part), request.z, std::move(unit));
         }
     }
@@ -121,12 +120,11 @@ void FoamUnits::collect(const SeedBlock& block, std::size_t node, double within,
     }
 }
 
-FoamUnit FoamUnits::make(const SeedBlock& block, const SeedNode& node, const Box& part, RingSearch& rings,
-                         bool gathered) const {
+FoamUnit FoamUnits::make(const SeedBlock& block, const SeedNode& node, const Box& part, bool gathered,
+                         Request& request) const {
     FoamUnit unit;
-    VoronoiCell cell;
-    BeamMaker maker;
-    TreeSearch search(*tree_);
+    VoronoiCell& cell = request.cell;
+    const auto sites = request.rings.sites();
     const bool last = part.hi.z == node.box.hi.z, first = part.lo.z == node.box.lo.z;
     std::size_t site = 0;
     for (std::uint32_t i = node.first_seed; i < node.first_seed + node.seed_count; ++i) {
@@ -136,14 +134,13 @@ FoamUnit FoamUnits::make(const SeedBlock& block, const SeedNode& node, const Box
         std::size_t left_out = 0;
         bool done = false;
         if (gathered) {
-            while (site < rings.sites().size() && rings.sites()[site].key < own.key) ++site;
-            done =
-                site < rings.sites().size() && rings.sites()[site].key == own.key && rings.cell(site, cell);
-            if (done) left_out = maker.append(cell, own, rings.sites(), radius_, unit.beams);
+            while (site < sites.size() && sites[site].key < own.key) ++site;
+            done = site < sites.size() && sites[site].key == own.key && request.rings.cell(site, cell);
+            if (done) left_out = request.maker.append(cell, own, sites, radius_, unit.beams);
         }
         if (!done) {
-            search.cell(own, cell);
-            left_out = maker.append(cell, own, search.sites(), radius_, unit.beams);
+            request.search.cell(own, cell);
+            left_out = request.maker.append(cell, own, request.search.sites(), radius_, unit.beams);
         }
         if (left_out > 0) throw FaultError("a Voronoi cell of the foam reached beyond its proven bound");
     }

@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// The beams owned by the seeds of one unit: a tree node of at most 64 seeds, or one of its four slabs in z
-/// when it has more than 16.
+/// The beams owned by the seeds of one unit: a tree node of at most 64 seeds, or one of its eight slabs in
+/// z when it has more than 16.
 struct FoamUnit {
     std::vector<Beam> beams;
     Box extent;  ///< of the beams' solids, mm
@@ -41,18 +41,22 @@ class FoamUnits {
         std::size_t bytes() const { return sizeof(Reach); }
         Interval z_extent() const { return z; }
     };
-    /// What one query passes on.
+    /// What one query passes on: what is asked, what was found, and the buffers for making units.
     struct Request {
         const Box& box;
         double z;
+        RingSearch rings;
+        TreeSearch search;
+        VoronoiCell cell;
+        BeamMaker maker;
         std::vector<Beam> beams;
     };
 
     double reach(glm::i64vec3 index, double z) const;
     void visit(const SeedBlock& block, std::size_t node, double within, Request& request) const;
     void collect(const SeedBlock& block, std::size_t node, double within, Request& request) const;
-    FoamUnit make(const SeedBlock& block, const SeedNode& node, const Box& part, RingSearch& rings,
-                  bool gathered) const;
+    FoamUnit make(const SeedBlock& block, const SeedNode& node, const Box& part, bool gathered,
+                  Request& request) const;
 
     std::shared_ptr<const SeedTree> tree_;
     NodeRadius radius_;

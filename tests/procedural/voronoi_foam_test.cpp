@@ -71,8 +71,8 @@ TEST_CASE("the beams at a height are those of the region that meet the plane", "
 TEST_CASE("the solid fraction follows the measured law", "[voronoi_foam]") {
     for (const double t : {0.07, 0.10, 0.14, 0.20}) {
         CAPTURE(t);
-        constexpr int samples = 200000;
-        const Box box{dvec3(0), dvec3(12)};
+        constexpr int samples = 40000;
+        const Box box{dvec3(0), dvec3(7)};
         const VoronoiFoam foam(settings(1, t, box));
         int solid = 0;
         for (int i = 0; i < samples; ++i) solid += foam.value(random_point(box, i)) < 0;
