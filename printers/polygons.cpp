@@ -71,6 +71,57 @@ dvec2 principal_axis(const Polygons& polygons) {
     return length > 0 ? axis / length : dvec2(1, 0);
 }
 
+/// Squared distance from p to the segment ab, in units.
+double squared_distance(const ClipperLib::IntPoint& p, const ClipperLib::IntPoint& a,
+                        const ClipperLib::IntPoint& b) {
+    const dvec2 way(static_cast<double>(b.X - a.X), static_cast<double>(b.Y - a.Y));
+    dvec2 rest(static_cast<double>(p.X - a.X), static_cast<double>(p.Y - a.Y));
+    const double length = dot(way, way);
+    if (length > 0) rest -= way * std::clamp(dot(rest, way) / length, 0.0, 1.0);
+    return dot(rest, rest);
+}
+
+/// Douglas and Peucker (1973) on a ring, from its first point and the one farthest from it.
+ClipperLib::Path simplified_ring(const ClipperLib::Path& ring, double tolerance) {
+    const std::size_t n = ring.size();
+    if (n <= 3) return ring;
+    struct Chain {
+        std::size_t first;
+        std::size_t last;
+    };
+    const auto farthest = [&](Chain chain, double& most) {
+        std::size_t found = chain.first;
+        for (std::size_t i = chain.first + 1; i < chain.last; ++i) {
+            const double d = squared_distance(ring[i], ring[chain.first], ring[chain.last % n]);
+            if (d > most) {
+                most = d;
+                found = i;
+            }
+        }
+        return found;
+    };
+    std::vector<bool> kept(n, false);
+    double most = -1;
+    const std::size_t opposite = farthest({0, n}, most);
+    kept[0] = kept[opposite] = true;
+    std::vector<Chain> open = {{0, opposite}, {opposite, n}};
+    while (!open.empty()) {
+        const Chain chain = open.back();
+        open.pop_back();
+        most = tolerance * tolerance;
+        const std::size_t split = farthest(chain, most);
+        if (split == chain.first) continue;
+        kept[split] = true;
+        open.push_back({chain.first, split});
+        open.push_back({split, chain.last});
+    }
+    ClipperLib::Path simple;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (kept[i]) simple.push_back(ring[i]);
+    }
+    return simple;
+}
+
 }  // namespace
 
 double Segment::length() const { return std::sqrt(dot(b - a, b - a)); }
@@ -138,9 +189,8 @@ std::vector<Polygons> split_pieces(const Polygons& polygons) {
 Polygons simplified(const Polygons& polygons, double tolerance) {
     Polygons result;
     for (const ClipperLib::Path& polygon : polygons) {
-        ClipperLib::Path clean;
-        ClipperLib::CleanPolygon(polygon, clean, tolerance * polygon_scale);
-        if (clean.size() >= 3) result.push_back(std::move(clean));
+        ClipperLib::Path simple = simplified_ring(polygon, tolerance * polygon_scale);
+        if (simple.size() >= 3) result.push_back(std::move(simple));
     }
     return result;
 }

@@ -28,7 +28,8 @@ Polygons offset_polygons(const Polygons& polygons, double by);
 Polygons subtract_polygons(const Polygons& a, const Polygons& b);
 /// One entry for each connected piece, with its holes.
 std::vector<Polygons> split_pieces(const Polygons& polygons);
-/// Without the points that lie within `tolerance` mm of their neighbours' line; may leave nothing.
+/// With fewer points: none that is left out lies farther than `tolerance` mm from the new border. Rings that
+/// shrink to less than a triangle are dropped.
 Polygons simplified(const Polygons& polygons, double tolerance);
 
 /// A stretch of a line, mm.

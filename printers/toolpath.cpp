@@ -47,7 +47,7 @@ class IslandPlanner {
         const Polygons wall = offset_polygons(island, -width_ / 2);
         const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing_ / 2);
         if (inside.empty()) {
-            fill_thin(island, !wall.empty());
+            fill_thin(exact, !wall.empty());  // simplified, a sliver could leave its own outline
             return std::move(beads_);
         }
         add_loops(wall, width_, Role::external_perimeter);
@@ -118,34 +118,52 @@ class IslandPlanner {
     void fill_region(const Polygons& region) {
         if (!(settings_.density > 0)) return;
         // A line's round end reaches further than its last point; a quarter width of overlap bonds it.
-        const double overlap = width_ / 4;
-        const Polygons clip = offset_polygons(region, overlap - spacing_ / 2);
-        const bool solid = settings_.density > 0.999;
-        std::vector<Segment> lines;
-        double width = width_;
-        const dvec2 normal(-direction_.y, direction_.x);
-        const Interval across = extent(region, normal);
-        if (solid) {
-            const int count = std::max(1, static_cast<int>(across.width() / spacing_ + 0.5));
-            const double pitch = across.width() / count;
-            lines = cut_lines(clip, direction_, across.lo + pitch / 2, pitch, count);
-            width = bead_width(pitch * settings_.height, settings_.height);
-        } else {
-            // One lattice for the whole layer, so that lines stand on the lines two layers below.
-            const double pitch = spacing_ / settings_.density;
-            const double first = std::floor(across.lo / pitch) * pitch;
-            const int count = static_cast<int>(across.width() / pitch) + 2;
-            lines = cut_lines(clip, direction_, first, pitch, count);
-        }
-        const double least = spacing_ / 4;
-        std::erase_if(lines, [&](const Segment& line) { return line.length() < least; });
-        if (lines.empty()) {
-            if (solid && area_of(region) > spacing_ * spacing_ / 8) lay_chord(region);
+        const Polygons clip = offset_polygons(region, width_ / 4 - spacing_ / 2);
+        if (settings_.density > densest_lattice) {
+            fill_solid(region, clip);
             return;
         }
-        const Role role = solid ? Role::solid_infill : Role::internal_infill;
+        // One lattice for the whole layer, so that lines stand on the lines two layers below.
+        const Interval across = extent(region, normal());
+        const double pitch = spacing_ / settings_.density;
+        const double first = std::floor(across.lo / pitch) * pitch;
+        const int count = static_cast<int>(across.width() / pitch) + 2;
+        add_lines(lines_in(clip, first, pitch, count), width_, Role::internal_infill);
+    }
+
+    /// Lines spread evenly over a region, with the flow that gives its volume.
+    void fill_solid(const Polygons& region, const Polygons& clip) {
+        const Interval across = extent(region, normal());
+        const int count = std::max(1, static_cast<int>(across.width() / spacing_ + 0.5));
+        const double pitch = across.width() / count;
+        // In a narrow region the lines' ends matter: there they are taken up to its border.
+        for (const Polygons* within : {&clip, &region}) {
+            const std::vector<Segment> lines = lines_in(*within, across.lo + pitch / 2, pitch, count);
+            double length = 0;
+            for (const Segment& line : lines) length += line.length();
+            const bool enough = area_of(region) <= length * spacing_ * most_extra_flow;
+            if (!enough && (within != &region || length < spacing_)) continue;
+            const double width = bead_width(area_of(region) / length * settings_.height, settings_.height);
+            add_lines(lines, std::min(width, width_ * most_extra_flow), Role::solid_infill);
+            return;
+        }
+        if (area_of(region) > spacing_ * spacing_ / 8) lay_chord(region);
+    }
+
+    dvec2 normal() const { return {-direction_.y, direction_.x}; }
+
+    std::vector<Segment> lines_in(const Polygons& region, double first, double pitch, int count) const {
+        std::vector<Segment> lines = cut_lines(region, direction_, first, pitch, count);
+        std::erase_if(lines, [&](const Segment& line) { return line.length() < spacing_ / 4; });
+        return lines;
+    }
+
+    void add_lines(const std::vector<Segment>& lines, double width, Role role) {
         for (const Segment& line : lines) beads_.push_back({{line.a, line.b}, width, role, false, 0});
     }
+
+    static constexpr double densest_lattice = 0.999;  // from here on regions are filled solid
+    static constexpr double most_extra_flow = 1.3;    // more would bulge over the layer
 
     ToolpathSettings settings_;
     double width_;
