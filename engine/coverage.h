@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/runs.h"
+#include "engine/field.h"
 
 namespace lamella {
 
@@ -22,5 +22,10 @@ void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& 
 
 /// Black and white: a pixel is 255 when its centre lies in a run of the row's only line (band.sub must be 1).
 void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out);
+
+/// Antialiased coverage as the area under the contour's chords, pixel by pixel: exact in both directions up
+/// to the curvature within one pixel. band.sub is not used. Appends to `out` like `coverage`.
+void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch,
+                    std::vector<GreyRun>& out);
 
 }  // namespace lamella

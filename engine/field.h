@@ -59,6 +59,9 @@ class Field : public std::enable_shared_from_this<Field> {
     /// The solid grown (d > 0) or shrunk (d < 0) by d mm in true 3D distance; null where there is no closed
     /// form.
     virtual FieldPtr offset(double d) const;
+    /// A field that, inside this solid, is solid exactly within `thickness` mm of the surface (outside it may
+    /// be anything); null where there is no closed form. The default takes the solid less its inward offset.
+    virtual FieldPtr shell(double thickness) const;
     /// The solid in the plane at height z, owned by the context. The default samples `value`.
     /// Callers use SliceContext::slice, which works each pair (field, z) out once.
     virtual const SliceField& slice(SliceContext& context, double z) const;

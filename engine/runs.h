@@ -54,6 +54,12 @@ struct RowBand {
     Rect rect() const;
 };
 
+/// The point of the plane at run coordinate u, on the lower edge of row `row` (may be fractional).
+inline dvec2 on_band(const RowBand& band, double u, double row) {
+    const double along = band.along(u), across = band.across_origin + row * band.across_pitch;
+    return band.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
+}
+
 /// Rounds a run coordinate to the nearest unit, halves upward, saturating far outside any band.
 inline std::int32_t round_run(double u) {
     constexpr double limit = 1 << 30;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/field.h"
+#include "engine/run_collector.h"
 
 namespace lamella {
 
@@ -41,10 +42,8 @@ class Scratch {
         return {*this, std::move(rows)};
     }
 
-    /// Growing buffers for kernels that need plain arrays; contents are undefined between calls.
-    std::vector<std::int32_t> ints;
-    std::vector<Run> runs;
-    std::vector<std::uint32_t> offsets;
+    /// For kernels that make the runs of many convex things; contents are undefined between calls.
+    RunCollector collector;
 
   private:
     std::vector<std::unique_ptr<SpanRows>> free_;

@@ -1,0 +1,143 @@
+// Prepares beams for the row kernel, and takes the exact path where single precision would not do.
+#include "engine/beam_slice.h"
+
+#include "engine/beam_rows.h"
+#include "engine/line_frame.h"
+#include "engine/slice_context.h"
+
+namespace lamella {
+namespace {
+
+/// Below this value of cos^2 - ux^2 the line is nearly parallel to the beam and the kernel's quotient loses
+/// digits.
+constexpr double least_slope = 1e-4;
+/// Beams longer than this many radii lose digits in single precision.
+constexpr double longest_in_radii = 100;
+
+/// The part of the beam's axis whose balls can meet the plane, as a range of its parameter in [0, 1].
+Interval axis_near_plane(const Beam& beam, double z) {
+    const double reach = std::max(beam.ra, beam.rb), dz = beam.b.z - beam.a.z;
+    if (dz == 0) return std::abs(z - beam.a.z) <= reach ? Interval{0, 1} : Interval{};
+    const double s0 = (z - reach - beam.a.z) / dz, s1 = (z + reach - beam.a.z) / dz;
+    return {std::max(0.0, std::min(s0, s1)), std::min(1.0, std::max(s0, s1))};
+}
+
+/// Encloses the beam's section along one axis of the plane.
+Interval extent(const Beam& beam, const Interval& part, int axis) {
+    const double d = beam.b[axis] - beam.a[axis], reach = std::max(beam.ra, beam.rb);
+    const double p = beam.a[axis] + d * part.lo, q = beam.a[axis] + d * part.hi;
+    return {std::min(p, q) - reach, std::max(p, q) + reach};
+}
+
+void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lines, double z,
+                     RunCollector& runs) {
+    const auto out = runs.add(lines.first, lines.last - lines.first);
+    const dvec3 direction = band.axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    for (int l = lines.first; l < lines.last; ++l) {
+        const double across = band.line(l);
+        const dvec3 p = band.axis == Axis::x ? dvec3(0, across, z) : dvec3(across, 0, z);
+        std::int32_t& begin = out.begin[l - lines.first];
+        std::int32_t& end = out.end[l - lines.first];
+        begin = end = 0;
+        if (const auto solid = cut(beam, p, direction)) {
+            const double u = band.coordinate(solid->lo), v = band.coordinate(solid->hi);
+            begin = round_run(std::min(u, v));
+            end = round_run(std::max(u, v));
+        }
+    }
+}
+
+}  // namespace
+
+BeamRows::BeamRows(std::vector<Beam> beams, double z) : z_(z) {
+    std::vector<double> lo_x, lo_y;
+    for (const Beam& beam : beams) {
+        const Interval part = axis_near_plane(beam, z);
+        if (part.empty()) continue;
+        beams_.push_back(beam);
+        extent_x_.push_back(extent(beam, part, 0));
+        extent_y_.push_back(extent(beam, part, 1));
+        lo_x.push_back(extent_x_.back().lo);
+        lo_y.push_back(extent_y_.back().lo);
+        bounds_ = unite(bounds_, Rect{{extent_x_.back().lo, extent_y_.back().lo},
+                                      {extent_x_.back().hi, extent_y_.back().hi}});
+    }
+    rows_ = IntervalIndex(extent_y_, lo_x);
+    columns_ = IntervalIndex(extent_x_, lo_y);
+}
+
+void BeamRows::collect(const RowBand& band, RunCollector& runs) const {
+    const Rect rect = band.rect();
+    const bool row = band.axis == Axis::x;
+    const Interval across = row ? Interval{rect.lo.y, rect.hi.y} : Interval{rect.lo.x, rect.hi.x};
+    const Interval along = row ? Interval{rect.lo.x, rect.hi.x} : Interval{rect.lo.y, rect.hi.y};
+    std::vector<std::uint32_t> items;
+    (row ? rows_ : columns_).query(across, items);
+    for (const std::uint32_t i : items) {
+        const Interval& extent_along = row ? extent_x_[i] : extent_y_[i];
+        if (extent_along.hi < along.lo || along.hi < extent_along.lo) continue;
+        collect_beam(beams_[i], row ? extent_y_[i] : extent_x_[i], band, runs);
+    }
+}
+
+void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowBand& band,
+                            RunCollector& runs) const {
+    const LineRange lines = lines_across(band, across);
+    if (lines.first >= lines.last) return;
+
+    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
+    const dvec3 d = beam.b - beam.a;
+    const double length = std::sqrt(glm::dot(d, d));
+    const double least_radius = std::min(beam.ra, beam.rb);
+    const bool one_ball = length <= std::abs(beam.ra - beam.rb);
+    if (one_ball || length > longest_in_radii * least_radius)
+        return collect_exactly(beam, band, lines, z_, runs);
+    const dvec3 axis = d / length;
+    const double sine = (beam.ra - beam.rb) / length, cos2 = 1 - sine * sine;
+    const double a = axis[across_axis] * axis[across_axis] + axis.z * axis.z - sine * sine;
+    if (a < least_slope) return collect_exactly(beam, band, lines, z_, runs);
+
+    const Interval part = axis_near_plane(beam, z_);
+    const double s = (part.lo + part.hi) * 0.5 * length;
+    const dvec3 reference = beam.a + axis * s;
+    const double radius = beam.ra - s * sine, z = z_ - reference.z;
+    const LineFrame frame = line_frame(band, dvec2(reference));
+
+    BeamRowParameters p;
+    p.line0 = static_cast<float>(frame.line0);
+    p.line_pitch = static_cast<float>(frame.line_pitch);
+    p.first = frame.first + lines.first;
+    p.ux = static_cast<float>(axis[along_axis]);
+    p.uy = static_cast<float>(axis[across_axis]);
+    p.z = static_cast<float>(z);
+    p.qz = static_cast<float>(z * axis.z);
+    p.a = static_cast<float>(a);
+    p.inverse_a = 1.0F / p.a;
+    p.cos2 = static_cast<float>(cos2);
+    p.sine = static_cast<float>(sine);
+    p.radius = static_cast<float>(radius);
+    p.low = static_cast<float>(radius * sine - s * cos2);
+    p.high = static_cast<float>(radius * sine + (length - s) * cos2);
+    const dvec3 first = beam.a - reference, second = beam.b - reference;
+    p.ax = static_cast<float>(first[along_axis]);
+    p.ay = static_cast<float>(first[across_axis]);
+    p.ah = static_cast<float>(beam.ra * beam.ra - (z - first.z) * (z - first.z));
+    p.bx = static_cast<float>(second[along_axis]);
+    p.by = static_cast<float>(second[across_axis]);
+    p.bh = static_cast<float>(beam.rb * beam.rb - (z - second.z) * (z - second.z));
+    p.scale = static_cast<float>(frame.scale);
+    p.shift = static_cast<float>(frame.shift);
+    p.unit0 = frame.unit0;
+
+    const int count = lines.last - lines.first;
+    const auto out = runs.add(lines.first, count);
+    beam_rows(p, count, out.begin, out.end);
+}
+
+void BeamSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+    scratch.collector.clear();
+    rows_.collect(band, scratch.collector);
+    scratch.collector.merge(band, out);
+}
+
+}  // namespace lamella

@@ -1,0 +1,51 @@
+// The slice of a set of beams: an index of the beams that meet the plane, and their runs in closed form.
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "engine/beam.h"
+#include "engine/interval_index.h"
+#include "engine/run_collector.h"
+#include "engine/tile_walk.h"
+
+namespace lamella {
+
+/// The beams of one plane, indexed by bands of lines; shared by foams, frames, supports and grown meshes.
+class BeamRows {
+  public:
+    /// Keeps the beams that meet the plane at height z, mm.
+    BeamRows(std::vector<Beam> beams, double z);
+
+    /// Adds the runs of all beams that meet the band.
+    void collect(const RowBand& band, RunCollector& runs) const;
+    /// Encloses the beams' sections, mm.
+    Rect bounds() const { return bounds_; }
+    std::size_t size() const { return beams_.size(); }
+
+  private:
+    void collect_beam(const Beam& beam, const Interval& across, const RowBand& band,
+                      RunCollector& runs) const;
+
+    std::vector<Beam> beams_;
+    double z_;
+    std::vector<Interval> extent_x_, extent_y_;
+    IntervalIndex rows_, columns_;
+    Rect bounds_;
+};
+
+/// Spans of a field that is a union of beams; samples and ranges by the field itself.
+class BeamSlice : public SampledSlice {
+  public:
+    /// beams: at least all beams of the field that meet the plane.
+    BeamSlice(const Field& field, std::vector<Beam> beams, double z)
+        : SampledSlice(field, z), rows_(std::move(beams), z) {}
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    Rect bounds() const override { return rows_.bounds(); }
+
+  private:
+    BeamRows rows_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,200 @@
+// Coverage by run ends (rows), by pixel centres (off), and by contour chords (exact).
+#include "engine/coverage.h"
+
+#include <bit>
+
+#include "engine/lattice.h"
+#include "engine/slice_context.h"
+
+namespace lamella {
+namespace {
+
+/// The grey runs of one pixel row, from left to right.
+class RowWriter {
+  public:
+    RowWriter(std::vector<GreyRun>& out, int width) : out_(out), first_(out.size()), left_(width) {}
+
+    void push(int length, std::uint8_t value) {
+        if (length <= 0) return;
+        left_ -= length;
+        if (out_.size() > first_ && out_.back().value == value) {
+            out_.back().length += static_cast<std::uint32_t>(length);
+        } else {
+            out_.push_back({static_cast<std::uint32_t>(length), value});
+        }
+    }
+    void finish(std::uint8_t value) { push(left_, value); }
+
+  private:
+    std::vector<GreyRun>& out_;
+    std::size_t first_;
+    int left_;
+};
+
+/// Sparse changes of coverage along a pixel row: a dense array of sums with a bit for each pixel touched.
+class CoverageRow {
+  public:
+    explicit CoverageRow(int width)
+        : width_(width),
+          change_(static_cast<std::size_t>(width) + 2),
+          touched_((static_cast<std::size_t>(width) + 1) / 64 + 1) {}
+
+    /// From coordinate u (run units from the row's left end) on, the line's coverage changes by `sign` whole
+    /// lines.
+    void turn(std::int32_t u, std::int32_t sign) {
+        const auto pixel = static_cast<std::size_t>(u >> 8);
+        const std::int32_t part = u & (run_unit - 1);
+        change_[pixel] += sign * (run_unit - part);
+        change_[pixel + 1] += sign * part;
+        touched_[pixel >> 6] |= std::uint64_t{1} << (pixel & 63);
+        touched_[(pixel + 1) >> 6] |= std::uint64_t{1} << ((pixel + 1) & 63);
+    }
+
+    /// Writes the row as grey runs, `value_of` maps coverage (0 to 256 times the lines) to grey, and clears
+    /// it.
+    void flush(const std::vector<std::uint8_t>& value_of, std::vector<GreyRun>& out) {
+        RowWriter row(out, width_);
+        std::int32_t cover = 0;
+        int from = 0;
+        for (std::size_t w = 0; w < touched_.size(); ++w) {
+            for (std::uint64_t bits = touched_[w]; bits != 0; bits &= bits - 1) {
+                const std::size_t pixel = w * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+                if (pixel >= static_cast<std::size_t>(width_)) break;
+                row.push(static_cast<int>(pixel) - from, value_of[static_cast<std::size_t>(cover)]);
+                cover += change_[pixel];
+                change_[pixel] = 0;
+                from = static_cast<int>(pixel);
+            }
+            touched_[w] = 0;
+        }
+        row.finish(value_of[static_cast<std::size_t>(cover)]);
+        change_[static_cast<std::size_t>(width_)] = change_[static_cast<std::size_t>(width_) + 1] = 0;
+    }
+
+  private:
+    int width_;
+    std::vector<std::int32_t> change_;
+    std::vector<std::uint64_t> touched_;
+};
+
+std::vector<std::uint8_t> grey_table(int sub) {
+    const int full = run_unit * sub;
+    std::vector<std::uint8_t> table(static_cast<std::size_t>(full) + 1);
+    for (int c = 0; c <= full; ++c)
+        table[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>((c * 255 + full / 2) / full);
+    return table;
+}
+
+/// Twice the area of a whole cell, in run units squared.
+constexpr std::int64_t full_cell = 2 * run_unit * run_unit;
+
+/// Twice the area of the solid part of a cell, in run units squared, by its border arcs and chords.
+std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> crossings) {
+    const std::int64_t x0 = std::int64_t{cell.i} * run_unit, y0 = std::int64_t{cell.j} * run_unit;
+    const std::int64_t corner_x[4] = {run_unit, run_unit, 0, 0}, corner_y[4] = {0, run_unit, run_unit, 0};
+    struct Point {
+        std::int64_t x, y;
+    };
+    const auto point = [&](std::size_t k) {
+        const Crossing& c = crossings[cell.border[k]];
+        return Point{c.x - x0, c.y - y0};
+    };
+    std::int64_t twice = 0;
+    const auto edge = [&](Point p, Point q) { twice += p.x * q.y - p.y * q.x; };
+    const std::size_t n = cell.border.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        if (cell.leaves_solid(k)) {
+            edge(point(k), point(cell.chord_end(k)));
+            continue;
+        }
+        // A solid arc along the border, round the corners between this crossing and the next.
+        Point at = point(k);
+        const std::size_t next = (k + 1) % n;
+        const int turns = (cell.side[next] - cell.side[k] + 4) % 4;
+        const int corners = turns == 0 && next <= k ? 4 : turns;
+        for (int c = 0; c < corners; ++c) {
+            const int corner = (cell.side[k] + c) % 4;
+            const Point q{corner_x[corner], corner_y[corner]};
+            edge(at, q);
+            at = q;
+        }
+        edge(at, point(next));
+    }
+    return twice;
+}
+
+}  // namespace
+
+void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out) {
+    const std::vector<std::uint8_t> value_of = grey_table(band.sub);
+    CoverageRow row(band.hi - band.lo);
+    const std::int32_t origin = band.lo * run_unit;
+    std::size_t line = 0;
+    for (int r = 0; r < band.count; ++r) {
+        for (int k = 0; k < band.sub; ++k, ++line) {
+            for (const Run& run : spans.line(line)) {
+                row.turn(run.begin - origin, 1);
+                row.turn(run.end - origin, -1);
+            }
+        }
+        row.flush(value_of, out);
+    }
+}
+
+void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out) {
+    // Pixel j has its centre at 256 j + 128.
+    const auto first_at_or_after = [&](std::int32_t u) { return ((u + run_unit / 2 - 1) >> 8) - band.lo; };
+    for (std::size_t l = 0; l < spans.lines(); ++l) {
+        RowWriter row(out, band.hi - band.lo);
+        int from = 0;
+        for (const Run& run : spans.line(l)) {
+            const int begin = first_at_or_after(run.begin), end = first_at_or_after(run.end);
+            row.push(begin - from, 0);
+            row.push(end - begin, 255);
+            from = end;
+        }
+        row.finish(0);
+    }
+}
+
+void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch,
+                    std::vector<GreyRun>& out) {
+    // A pixel is 2 x 2 lattice cells, so that a chord's deviation from a curve stays small against the pixel.
+    // A ring of pixels round the band keeps the grid's void border away. A mirrored band is a lattice of
+    // negative pitch.
+    constexpr int split = 2;
+    const bool rows = band.axis == Axis::x;
+    const int width = band.hi - band.lo + 2, height = band.count + 2;
+    const dvec2 pitch =
+        rows ? dvec2(band.along_pitch, band.across_pitch) : dvec2(band.across_pitch, band.along_pitch);
+    const Grid grid{on_band(band, (band.lo - 1.0) * run_unit, band.first - 1.0), pitch / double(split),
+                    split * (rows ? width : height), split * (rows ? height : width)};
+    const Lattice lattice(slice, grid, scratch);
+
+    const auto columns = static_cast<std::size_t>(grid.columns / split);
+    std::vector<std::int64_t> area(columns * static_cast<std::size_t>(grid.rows / split));
+    for (int j = 0; j < grid.rows; ++j) {
+        std::int64_t* const row = area.data() + static_cast<std::size_t>(j / split) * columns;
+        int from = 0;
+        const auto fill = [&](int to) {
+            if (to <= from || !lattice.solid(from, j)) return;
+            for (int i = from; i < to; ++i) row[i / split] += full_cell;
+        };
+        lattice.visit_cells(j, [&](const Lattice::Cell& cell) {
+            fill(cell.i);
+            row[cell.i / split] += solid_area(cell, lattice.crossings());
+            from = cell.i + 1;
+        });
+        fill(grid.columns);
+    }
+    constexpr std::int64_t full = full_cell * split * split;
+    for (int r = 1; r + 1 < height; ++r) {
+        RowWriter row(out, band.hi - band.lo);
+        for (int p = 1; p + 1 < width; ++p) {
+            const auto i = static_cast<std::size_t>(rows ? p : r), j = static_cast<std::size_t>(rows ? r : p);
+            row.push(1, static_cast<std::uint8_t>((area[j * columns + i] * 255 + full / 2) / full));
+        }
+    }
+}
+
+}  // namespace lamella

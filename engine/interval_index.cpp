@@ -1,0 +1,64 @@
+// Bins over the intervals; within a bin, items by their rank.
+#include "engine/interval_index.h"
+
+#include <numeric>
+
+namespace lamella {
+
+IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::vector<double>& keys) {
+    double total = 0;
+    for (std::uint32_t i = 0; i < intervals.size(); ++i) {
+        if (intervals[i].empty()) continue;
+        item_.push_back(i);
+        total += intervals[i].width();
+        extent_ = {std::min(extent_.lo, intervals[i].lo), std::max(extent_.hi, intervals[i].hi)};
+    }
+    if (item_.empty()) return;
+    std::sort(item_.begin(), item_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
+    });
+    // Bins about as wide as the items: each item then stands in two of them or so.
+    constexpr double most_bins = 4096;
+    const double mean = total / static_cast<double>(item_.size());
+    const double wanted = mean > 0 ? std::min(extent_.width() / mean, most_bins) : 1;
+    bins_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+    bins_per_mm_ = extent_.width() > 0 ? static_cast<double>(bins_) / extent_.width() : 0;
+
+    intervals_.reserve(item_.size());
+    starts_.assign(bins_ + 1, 0);
+    for (const std::uint32_t i : item_) {
+        intervals_.push_back(intervals[i]);
+        for (std::size_t b = bin_of(intervals[i].lo); b <= bin_of(intervals[i].hi); ++b) ++starts_[b + 1];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    ranks_.resize(starts_.back());
+    std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+    for (std::uint32_t rank = 0; rank < intervals_.size(); ++rank) {
+        const Interval& extent = intervals_[rank];
+        for (std::size_t b = bin_of(extent.lo); b <= bin_of(extent.hi); ++b) ranks_[next[b]++] = rank;
+    }
+}
+
+std::size_t IntervalIndex::bin_of(double v) const {
+    const double b = (v - extent_.lo) * bins_per_mm_;
+    if (!(b > 0)) return 0;
+    return std::min(static_cast<std::size_t>(b), bins_ - 1);
+}
+
+void IntervalIndex::query(const Interval& interval, std::vector<std::uint32_t>& items) const {
+    items.clear();
+    if (bins_ == 0 || interval.hi < extent_.lo || extent_.hi < interval.lo) return;
+    const std::size_t first = bin_of(interval.lo), last = bin_of(interval.hi);
+    for (std::size_t b = first; b <= last; ++b) {
+        for (std::uint32_t k = starts_[b]; k < starts_[b + 1]; ++k) {
+            const std::uint32_t rank = ranks_[k];
+            const Interval& extent = intervals_[rank];
+            if (extent.hi < interval.lo || interval.hi < extent.lo) continue;
+            if (b == std::max(first, bin_of(extent.lo))) items.push_back(rank);
+        }
+    }
+    if (last > first) std::sort(items.begin(), items.end());
+    for (std::uint32_t& i : items) i = item_[i];
+}
+
+}  // namespace lamella

@@ -1,0 +1,27 @@
+// Layers of a job.
+#include "engine/layer.h"
+
+#include "engine/error.h"
+
+namespace lamella {
+
+int count_layers(double part_height, double h) {
+    if (!(part_height > 0) || !std::isfinite(part_height))
+        throw InputError("the part has no height to cut into layers");
+    if (!(h > 0) || !std::isfinite(h)) throw InputError("the layer height must be positive");
+    // A part that is a whole number of layers high up to rounding gets no extra sliver on top.
+    constexpr double share_of_layer = 1e-6;
+    const double count = std::ceil(part_height / h - share_of_layer);
+    constexpr double most_layers = 10'000'000;
+    if (count > most_layers)
+        throw InputError("the layer height is too small for the part: more than 10 million layers");
+    return std::max(1, static_cast<int>(count));
+}
+
+Layer::Layer(const Job& job, int index)
+    : index_(index),
+      z_(job.plane(index)),
+      thickness_(job.layer_height),
+      part_(&context_.slice(*job.part, z_)) {}
+
+}  // namespace lamella

@@ -1,0 +1,110 @@
+// The mesh field and its offsets.
+#include "engine/mesh_field.h"
+
+#include "engine/closed_slice.h"
+#include "engine/csg.h"
+#include "engine/error.h"
+#include "engine/grown_mesh.h"
+#include "engine/mesh_section.h"
+#include "engine/slice_context.h"
+#include "engine/tile_walk.h"
+
+namespace lamella {
+namespace {
+
+/// What a mesh's field and its offsets share.
+struct MeshData {
+    explicit MeshData(SolidMesh closed)
+        : solid(std::make_shared<const SolidMesh>(std::move(closed))),
+          tree(solid->mesh),
+          bounds(solid->mesh.bounds()) {
+        const TriangleMesh& mesh = solid->mesh;
+        std::vector<Interval> heights;
+        heights.reserve(mesh.triangles.size());
+        for (const auto& t : mesh.triangles) {
+            const double a = mesh.vertices[t[0]].z, b = mesh.vertices[t[1]].z, c = mesh.vertices[t[2]].z;
+            heights.push_back({std::min(a, std::min(b, c)), std::max(a, std::max(b, c))});
+        }
+        by_height = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
+    }
+
+    std::shared_ptr<const SolidMesh> solid;
+    TriangleTree tree;
+    IntervalIndex by_height;
+    Box bounds;
+};
+
+using MeshDataPtr = std::shared_ptr<const MeshData>;
+
+class MeshSlice : public SampledSlice {
+  public:
+    MeshSlice(const Field& field, const MeshData& data, double z)
+        : SampledSlice(field, z), section_(section(data, z)) {}
+    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+        section_.spans(band, out);
+    }
+    Rect bounds() const override { return section_.bounds(); }
+
+  private:
+    static MeshSection section(const MeshData& data, double z) {
+        std::vector<std::uint32_t> triangles;
+        data.by_height.query({z, z}, triangles);
+        return MeshSection(data.solid->mesh, triangles, z);
+    }
+    MeshSection section_;
+};
+
+/// Everything within a distance of a mesh's surface.
+class GrownMeshField : public Field {
+  public:
+    GrownMeshField(MeshDataPtr data, double distance, bool inside_only)
+        : data_(std::move(data)), grown_(data_->solid, distance, inside_only) {}
+    double value(dvec3 p) const override { return data_->tree.distance(p) - grown_.distance(); }
+    Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
+    Metric metric() const override { return Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.make<GrownMeshSlice>(*this, grown_, z);
+    }
+    Box bounds() const override { return grown(data_->bounds, grown_.distance()); }
+
+  private:
+    MeshDataPtr data_;
+    GrownMesh grown_;
+};
+
+class MeshField : public Field {
+  public:
+    explicit MeshField(MeshDataPtr data) : data_(std::move(data)) {}
+
+    double value(dvec3 p) const override {
+        const double d = data_->tree.distance(p);
+        return data_->tree.winding(p) != 0 ? -d : d;
+    }
+    Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
+    // Triangles inside the solid, where shells overlap, make the distance a bound only.
+    Metric metric() const override { return Metric::bound; }
+    FieldPtr offset(double d) const override {
+        if (d == 0) return shared_from_this();
+        auto band = std::make_shared<GrownMeshField>(data_, std::abs(d), d < 0);
+        return d > 0 ? make_union({shared_from_this(), band}) : make_difference(shared_from_this(), band);
+    }
+    FieldPtr shell(double thickness) const override {
+        return std::make_shared<GrownMeshField>(data_, thickness, true);
+    }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.make<MeshSlice>(*this, *data_, z);
+    }
+    Box bounds() const override { return data_->bounds; }
+
+  private:
+    MeshDataPtr data_;
+};
+
+}  // namespace
+
+FieldPtr make_mesh_field(SolidMesh mesh) {
+    if (mesh.mesh.triangles.empty()) throw InputError("a mesh without triangles encloses nothing");
+    return std::make_shared<MeshField>(std::make_shared<const MeshData>(std::move(mesh)));
+}
+
+}  // namespace lamella

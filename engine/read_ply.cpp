@@ -1,0 +1,386 @@
+// PLY, as text and as little-endian or big-endian binary.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/mesh_source.h"
+
+namespace lamella {
+
+namespace {
+
+enum class Encoding { text, little_endian, big_endian };
+
+struct Scalar {
+    std::size_t bytes = 0;
+    enum class Kind { signed_integer, unsigned_integer, real } kind = Kind::real;
+};
+
+struct Property {
+    std::string name;
+    std::optional<Scalar> count;  // lists only
+    Scalar value;
+};
+
+struct Element {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+
+    bool has_lists() const {
+        return std::any_of(properties.begin(), properties.end(),
+                           [](const Property& p) { return p.count.has_value(); });
+    }
+    std::size_t row_bytes() const {
+        std::size_t bytes = 0;
+        for (const Property& p : properties) bytes += p.count ? p.count->bytes : p.value.bytes;
+        return bytes;
+    }
+    std::size_t index_of(std::string_view property) const {
+        const auto found = std::find_if(properties.begin(), properties.end(),
+                                        [&](const Property& p) { return p.name == property; });
+        return static_cast<std::size_t>(found - properties.begin());
+    }
+    bool has(std::string_view property) const { return index_of(property) < properties.size(); }
+};
+
+std::optional<Scalar> scalar_named(std::string_view name) {
+    using Kind = Scalar::Kind;
+    if (name == "char" || name == "int8") return Scalar{1, Kind::signed_integer};
+    if (name == "uchar" || name == "uint8") return Scalar{1, Kind::unsigned_integer};
+    if (name == "short" || name == "int16") return Scalar{2, Kind::signed_integer};
+    if (name == "ushort" || name == "uint16") return Scalar{2, Kind::unsigned_integer};
+    if (name == "int" || name == "int32") return Scalar{4, Kind::signed_integer};
+    if (name == "uint" || name == "uint32") return Scalar{4, Kind::unsigned_integer};
+    if (name == "float" || name == "float32") return Scalar{4, Kind::real};
+    if (name == "double" || name == "float64") return Scalar{8, Kind::real};
+    return std::nullopt;
+}
+
+struct Header {
+    Encoding encoding = Encoding::text;
+    std::vector<Element> elements;
+    std::size_t data_at = 0;
+};
+
+class HeaderReader {
+  public:
+    explicit HeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
+
+    Header read() {
+        text_.skip_line();  // "ply"
+        bool has_format = false;
+        for (;; text_.skip_line()) {
+            if (text_.at_end())
+                reject(source_, "the header has no \"end_header\" line; the file is cut off or damaged");
+            const std::string_view keyword = text_.token_on_line();
+            if (keyword == "end_header") break;
+            if (keyword == "format") has_format = take_format();
+            if (keyword == "element") take_element();
+            if (keyword == "property") take_property();
+            const bool known = keyword.empty() || keyword == "format" || keyword == "element" ||
+                               keyword == "property" || keyword == "comment" || keyword == "obj_info";
+            if (!known)
+                fail(quoted(keyword) +
+                     " is no line of a PLY header (format, element, property, comment, end_header)");
+        }
+        if (!has_format) fail("the header has no \"format\" line");
+        header_.data_at = behind_end_header();
+        return std::move(header_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        reject(source_, "line " + std::to_string(text_.line()) + ": " + what);
+    }
+
+    bool take_format() {
+        const std::string_view name = text_.token_on_line();
+        if (name == "ascii") {
+            header_.encoding = Encoding::text;
+        } else if (name == "binary_little_endian") {
+            header_.encoding = Encoding::little_endian;
+        } else if (name == "binary_big_endian") {
+            header_.encoding = Encoding::big_endian;
+        } else {
+            fail("unknown format " + quoted(name) +
+                 "; known are ascii, binary_little_endian and binary_big_endian");
+        }
+        return true;
+    }
+
+    void take_element() {
+        constexpr std::size_t most_elements = 100;
+        Element element;
+        element.name = std::string(text_.token_on_line());
+        const std::string_view word = text_.token_on_line();
+        const auto count = parse_integer(word);
+        if (!count || *count < 0) fail(quoted(word) + " is no number of elements");
+        if (header_.elements.size() == most_elements) fail("more than 100 kinds of element");
+        element.count = static_cast<std::size_t>(*count);
+        header_.elements.push_back(std::move(element));
+    }
+
+    void take_property() {
+        constexpr std::size_t most_properties = 1000;
+        if (header_.elements.empty()) fail("a property before any element");
+        Property property;
+        std::string_view type = text_.token_on_line();
+        if (type == "list") {
+            property.count = take_scalar(text_.token_on_line());
+            if (property.count->kind == Scalar::Kind::real)
+                fail("the length of a list must be of an integer type");
+            type = text_.token_on_line();
+        }
+        property.value = take_scalar(type);
+        property.name = std::string(text_.token_on_line());
+        auto& properties = header_.elements.back().properties;
+        if (properties.size() == most_properties) fail("more than 1,000 properties in one element");
+        properties.push_back(std::move(property));
+    }
+
+    Scalar take_scalar(std::string_view type) const {
+        const auto scalar = scalar_named(type);
+        if (!scalar)
+            fail(quoted(type) + " is no PLY type (char, uchar, short, ushort, int, uint, float, double)");
+        return *scalar;
+    }
+
+    /// Binary data begins right behind the line end, whose form is that of the first line: behind a lone
+    /// carriage return, a byte 10 is data already.
+    std::size_t behind_end_header() const {
+        const std::string_view bytes = source_.bytes;
+        std::size_t at = text_.offset();
+        while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') ++at;
+        const bool lone_return = bytes[3] == '\r' && bytes[4] != '\n';
+        if (at + 1 < bytes.size() && bytes[at] == '\r' && bytes[at + 1] == '\n' && !lone_return) ++at;
+        return std::min(at + 1, bytes.size());
+    }
+
+    const MeshSource& source_;
+    TextCursor text_;
+    Header header_;
+};
+
+/// Gives the values of the body one after another; `ok` turns false at the end of the data.
+class BodyCursor {
+  public:
+    BodyCursor(const MeshSource& source, const Header& header)
+        : source_(source),
+          encoding_(header.encoding),
+          text_(source.bytes, header.data_at),
+          at_(header.data_at) {}
+
+    bool ok() const { return ok_; }
+    std::size_t bytes_left() const { return source_.bytes.size() - offset(); }
+    Encoding encoding() const { return encoding_; }
+
+    double value(const Scalar& scalar) {
+        if (!ok_) return 0.0;
+        return encoding_ == Encoding::text ? text_value() : binary_value(scalar);
+    }
+
+    void skip_bytes(std::size_t bytes) { at_ += bytes; }
+
+    std::string where() const {
+        return encoding_ == Encoding::text ? "line " + std::to_string(text_.line())
+                                           : "byte " + std::to_string(at_);
+    }
+
+  private:
+    std::size_t offset() const { return encoding_ == Encoding::text ? text_.offset() : at_; }
+
+    double text_value() {
+        const std::string_view token = text_.token();
+        const auto number = parse_double(token);
+        if (number) return *number;
+        ok_ = false;
+        if (!text_.at_end()) reject(source_, where() + ": " + quoted(token) + " is not a number");
+        return 0.0;
+    }
+
+    double binary_value(const Scalar& scalar) {
+        if (source_.bytes.size() - at_ < scalar.bytes) {
+            ok_ = false;
+            return 0.0;
+        }
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < scalar.bytes; ++i) {
+            const std::size_t byte = encoding_ == Encoding::little_endian ? scalar.bytes - 1 - i : i;
+            bits = bits << 8U | static_cast<unsigned char>(source_.bytes[at_ + byte]);
+        }
+        at_ += scalar.bytes;
+        if (scalar.kind == Scalar::Kind::unsigned_integer) return static_cast<double>(bits);
+        if (scalar.kind == Scalar::Kind::real && scalar.bytes == 8) return std::bit_cast<double>(bits);
+        if (scalar.kind == Scalar::Kind::real) {
+            return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        }
+        const std::uint64_t sign = std::uint64_t{1} << (8 * scalar.bytes - 1);
+        return static_cast<double>(static_cast<std::int64_t>(bits ^ sign) - static_cast<std::int64_t>(sign));
+    }
+
+    const MeshSource& source_;
+    Encoding encoding_;
+    TextCursor text_;
+    std::size_t at_;
+    bool ok_ = true;
+};
+
+class PlyReader {
+  public:
+    explicit PlyReader(const MeshSource& source)
+        : source_(source), header_(HeaderReader(source).read()), body_(source, header_) {}
+
+    MeshFile read() {
+        for (const Element& element : header_.elements) {
+            if (element.name == "vertex") {
+                read_vertices(element);
+            } else if (element.name == "face") {
+                read_faces(element);
+            } else {
+                skip(element);
+            }
+            if (!body_.ok()) break;
+        }
+        return build();
+    }
+
+  private:
+    /// How many rows can be there at most, so that no announced count makes us allocate.
+    std::size_t possible_rows(const Element& element) const {
+        const std::size_t least =
+            body_.encoding() == Encoding::text ? 2 * element.properties.size() : element.row_bytes();
+        return least == 0 ? 0 : std::min(element.count, body_.bytes_left() / least + 1);
+    }
+
+    void read_vertices(const Element& element) {
+        const std::size_t x = element.index_of("x");
+        const std::size_t y = element.index_of("y");
+        const std::size_t z = element.index_of("z");
+        if (std::max({x, y, z}) >= element.properties.size()) {
+            reject(source_, "its vertices lack one of the properties x, y and z");
+        }
+        vertices_.reserve(possible_rows(element));
+        for (std::size_t row = 0; row < element.count; ++row) {
+            dvec3 p(0.0);
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const double value = read_property(element.properties[i], nullptr);
+                if (i == x) p.x = value;
+                if (i == y) p.y = value;
+                if (i == z) p.z = value;
+            }
+            if (!body_.ok()) cut_off(element, row);
+            if (!body_.ok()) return;
+            vertices_.push_back(p * source_.unit_mm);
+        }
+    }
+
+    void read_faces(const Element& element) {
+        const std::size_t list = element.has("vertex_indices") ? element.index_of("vertex_indices")
+                                                               : element.index_of("vertex_index");
+        if (list >= element.properties.size() || !element.properties[list].count) {
+            reject(source_, "its faces lack the list property vertex_indices");
+        }
+        has_faces_ = true;
+        face_ends_.reserve(possible_rows(element));
+        for (std::size_t row = 0; row < element.count; ++row) {
+            const std::size_t begin = corners_.size();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                read_property(element.properties[i], i == list ? &corners_ : nullptr);
+            }
+            if (!body_.ok()) corners_.resize(begin);
+            if (!body_.ok()) cut_off(element, row);
+            if (!body_.ok()) return;
+            face_ends_.push_back(corners_.size());
+        }
+    }
+
+    void skip(const Element& element) {
+        if (element.name == "tristrips") has_strips_ = true;
+        if (element.properties.empty()) return;
+        if (body_.encoding() != Encoding::text && !element.has_lists()) {
+            const std::size_t rows = std::min(element.count, body_.bytes_left() / element.row_bytes());
+            body_.skip_bytes(rows * element.row_bytes());
+            if (rows < element.count) cut_off(element, rows);
+            return;
+        }
+        for (std::size_t row = 0; row < element.count && body_.ok(); ++row) {
+            for (const Property& property : element.properties) read_property(property, nullptr);
+            if (!body_.ok()) cut_off(element, row);
+        }
+    }
+
+    /// A scalar's value, or a list whose values go to `list` (when given) as indices.
+    double read_property(const Property& property, std::vector<std::int64_t>* list) {
+        if (!property.count) return body_.value(property.value);
+        const double length = body_.value(*property.count);
+        if (!(length >= 0.0 && length <= 1e9)) {
+            reject(source_, body_.where() + ": a list of impossible length");
+        }
+        for (auto left = static_cast<std::size_t>(length); left > 0 && body_.ok(); --left) {
+            const double value = body_.value(property.value);
+            if (list) list->push_back(std::abs(value) < 1e15 ? static_cast<std::int64_t>(value) : -1);
+        }
+        return length;
+    }
+
+    void cut_off(const Element& element, std::size_t rows) {
+        notes_.push_back("the file is cut off: its header announces " +
+                         counted(element.count, element.name + " element") + ", only " + grouped(rows) +
+                         (rows == 1 ? " is" : " are") + " there whole");
+    }
+
+    MeshFile build() {
+        if (!has_faces_) {
+            std::string why = "it holds points but no faces";
+            if (has_strips_)
+                why =
+                    "its triangles are stored as strips (tristrips), which are not read; export it with "
+                    "plain faces";
+            if (!notes_.empty()) why = notes_.front();
+            reject(source_, why + ", so there is nothing to print");
+        }
+        PolygonWelder welder(std::move(vertices_));
+        std::size_t begin = 0;
+        std::size_t bad_index = 0;
+        std::size_t too_short = 0;
+        std::vector<std::uint32_t> polygon;
+        for (const std::size_t end : face_ends_) {
+            polygon.clear();
+            bool known = true;
+            for (; begin < end; ++begin) {
+                known = known && corners_[begin] >= 0 &&
+                        static_cast<std::size_t>(corners_[begin]) < welder.vertex_count();
+                polygon.push_back(static_cast<std::uint32_t>(corners_[begin]));
+            }
+            if (!known) ++bad_index;
+            if (known && polygon.size() < 3) ++too_short;
+            if (known && polygon.size() >= 3) welder.polygon(polygon);
+        }
+        note(bad_index, "pointed to vertices that do not exist");
+        note(too_short, "had fewer than 3 corners");
+        return welder.finish(source_, std::move(notes_));
+    }
+
+    void note(std::size_t count, const std::string& why) {
+        if (count == 0) return;
+        notes_.push_back(grouped(count) + " of " + counted(face_ends_.size(), "face") + " " + why + " and " +
+                         (count == 1 ? "was" : "were") + " left out");
+    }
+
+    const MeshSource& source_;
+    Header header_;
+    BodyCursor body_;
+    std::vector<dvec3> vertices_;
+    std::vector<std::int64_t> corners_;
+    std::vector<std::size_t> face_ends_;
+    std::vector<std::string> notes_;
+    bool has_faces_ = false;
+    bool has_strips_ = false;
+};
+
+}  // namespace
+
+MeshFile read_ply(const MeshSource& source) { return PlyReader(source).read(); }
+
+}  // namespace lamella

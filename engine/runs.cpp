@@ -1,0 +1,81 @@
+// Set operations on sorted runs, one line at a time.
+#include "engine/runs.h"
+
+#include <cassert>
+
+namespace lamella {
+
+Rect RowBand::rect() const {
+    const double u0 = along(static_cast<double>(lo) * run_unit),
+                 u1 = along(static_cast<double>(hi) * run_unit);
+    const double v0 = across_origin + first * across_pitch,
+                 v1 = across_origin + (first + count) * across_pitch;
+    const Interval u{std::min(u0, u1), std::max(u0, u1)}, v{std::min(v0, v1), std::max(v0, v1)};
+    return axis == Axis::x ? Rect{{u.lo, v.lo}, {u.hi, v.hi}} : Rect{{v.lo, u.lo}, {v.hi, u.hi}};
+}
+
+std::int64_t SpanRows::total_length() const {
+    std::int64_t sum = 0;
+    for (const Run& run : runs_) sum += run.end - run.begin;
+    return sum;
+}
+
+namespace {
+
+void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+    if (b.empty()) return out.append_line(a);
+    if (a.empty()) return out.append_line(b);
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+        const Run& next = a[i].begin <= b[j].begin ? a[i++] : b[j++];
+        out.push(next.begin, next.end);
+    }
+    for (; i < a.size(); ++i) out.push(a[i].begin, a[i].end);
+    for (; j < b.size(); ++j) out.push(b[j].begin, b[j].end);
+    out.end_line();
+}
+
+void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+        out.push(std::max(a[i].begin, b[j].begin), std::min(a[i].end, b[j].end));
+        if (a[i].end < b[j].end) {
+            ++i;
+        } else {
+            ++j;
+        }
+    }
+    out.end_line();
+}
+
+void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+    if (b.empty()) return out.append_line(a);
+    std::size_t j = 0;
+    for (const Run& run : a) {
+        std::int32_t from = run.begin;
+        while (j < b.size() && b[j].end <= from) ++j;
+        for (std::size_t k = j; k < b.size() && b[k].begin < run.end; ++k) {
+            out.push(from, b[k].begin);
+            from = std::max(from, b[k].end);
+        }
+        out.push(from, run.end);
+    }
+    out.end_line();
+}
+
+template <typename LineOperation>
+void line_by_line(const SpanRows& a, const SpanRows& b, SpanRows& out, LineOperation operation) {
+    assert(a.lines() == b.lines() && &out != &a && &out != &b);
+    out.clear();
+    for (std::size_t l = 0; l < a.lines(); ++l) operation(a.line(l), b.line(l), out);
+}
+
+}  // namespace
+
+void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) { line_by_line(a, b, out, unite_line); }
+void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
+    line_by_line(a, b, out, intersect_line);
+}
+void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out) { line_by_line(a, b, out, subtract_line); }
+
+}  // namespace lamella

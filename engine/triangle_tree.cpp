@@ -1,0 +1,153 @@
+// Median splits along the longest side; leaves of a few triangles.
+#include "engine/triangle_tree.h"
+
+#include <numeric>
+
+namespace lamella {
+namespace {
+
+constexpr std::uint32_t leaf_size = 4;
+
+double squared_distance(const Box& box, dvec3 p) {
+    const dvec3 d = glm::max(glm::max(box.lo - p, p - box.hi), dvec3(0.0));
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+double squared(dvec3 v) { return glm::dot(v, v); }
+
+/// Squared distance from p to the segment a, a + e.
+double squared_distance_to_edge(dvec3 p, dvec3 a, dvec3 e) {
+    const dvec3 d = p - a;
+    const double t = std::min(std::max(glm::dot(d, e) / glm::dot(e, e), 0.0), 1.0);
+    return squared(d - e * t);
+}
+
+/// Squared distance from p to a triangle: over its face when p projects into it, else to its nearest edge.
+double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
+    const dvec3 ab = b - a, bc = c - b, ca = a - c;
+    const dvec3 n = glm::cross(ab, c - a);
+    const bool inside = glm::dot(glm::cross(ab, n), p - a) <= 0 && glm::dot(glm::cross(bc, n), p - b) <= 0 &&
+                        glm::dot(glm::cross(ca, n), p - c) <= 0;
+    if (inside) {
+        const double h = glm::dot(n, p - a);
+        return h * h / glm::dot(n, n);
+    }
+    return std::min(squared_distance_to_edge(p, a, ab),
+                    std::min(squared_distance_to_edge(p, b, bc), squared_distance_to_edge(p, c, ca)));
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::vector<dvec3> centers;
+    centers.reserve(order_.size());
+    for (const auto& t : mesh.triangles) {
+        centers.push_back(mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+    }
+    if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), centers);
+}
+
+Box TriangleTree::box_of(std::uint32_t first, std::uint32_t last) const {
+    Box box;
+    for (std::uint32_t k = first; k < last; ++k) {
+        for (const std::uint32_t v : mesh_.triangles[order_[k]]) box.include(mesh_.vertices[v]);
+    }
+    return box;
+}
+
+void TriangleTree::build(std::uint32_t first, std::uint32_t last, std::vector<dvec3>& centers) {
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({box_of(first, last), first, last - first});
+    if (last - first <= leaf_size) return;
+    Box spread;
+    for (std::uint32_t k = first; k < last; ++k) spread.include(centers[order_[k]]);
+    const dvec3 size = spread.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::uint32_t middle = first + (last - first) / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         return centers[a][axis] != centers[b][axis] ? centers[a][axis] < centers[b][axis]
+                                                                     : a < b;
+                     });
+    build(first, middle, centers);
+    const auto second = static_cast<std::uint32_t>(nodes_.size());
+    build(middle, last, centers);
+    nodes_[node].first = second;
+    nodes_[node].count = 0;
+}
+
+double TriangleTree::distance(dvec3 p, double limit) const {
+    if (nodes_.empty()) return limit;
+    double best = limit * limit;
+    struct Entry {
+        std::uint32_t node;
+        double bound;
+    };
+    // Halving bounds the depth: 64 levels hold any mesh that fits in memory.
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {0, squared_distance(nodes_[0].box, p)};
+    while (top > 0) {
+        const Entry entry = stack[--top];
+        if (entry.bound >= best) continue;
+        const Node& node = nodes_[entry.node];
+        if (node.count > 0) {
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+                const auto& t = mesh_.triangles[order_[k]];
+                const double d =
+                    squared_distance(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+                best = std::min(best, d);
+            }
+            continue;
+        }
+        const Entry left{entry.node + 1, squared_distance(nodes_[entry.node + 1].box, p)};
+        const Entry right{node.first, squared_distance(nodes_[node.first].box, p)};
+        stack[top++] = left.bound < right.bound ? right : left;
+        stack[top++] = left.bound < right.bound ? left : right;
+    }
+    return std::sqrt(best);
+}
+
+int TriangleTree::winding(dvec3 p) const {
+    if (nodes_.empty()) return 0;
+    int winding = 0;
+    std::uint32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const std::uint32_t number = stack[--top];
+        const Node& node = nodes_[number];
+        const Box& box = node.box;
+        if (p.y < box.lo.y || box.hi.y < p.y || p.z < box.lo.z || box.hi.z < p.z || p.x < box.lo.x) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = number + 1;
+            continue;
+        }
+        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+            SectionSegment s;
+            if (!section_segment(mesh_, order_[k], p.z, s)) continue;
+            const bool from_above = s.from.y >= p.y, to_above = s.to.y >= p.y;
+            if (from_above != to_above && line_crossing(s, 0, p.y) <= p.x) winding += from_above ? 1 : -1;
+        }
+    }
+    return winding;
+}
+
+bool section_segment(const TriangleMesh& mesh, std::uint32_t triangle, double z, SectionSegment& out) {
+    const auto& t = mesh.triangles[triangle];
+    const bool above[3] = {mesh.vertices[t[0]].z >= z, mesh.vertices[t[1]].z >= z,
+                           mesh.vertices[t[2]].z >= z};
+    if (above[0] == above[1] && above[1] == above[2]) return false;
+    for (int e = 0; e < 3; ++e) {
+        const int f = (e + 1) % 3;
+        if (above[e] == above[f]) continue;
+        // Seen from outside, the surface is crossed downwards on the left and upwards on the right.
+        (above[e] ? out.from : out.to) =
+            edge_crossing(mesh, t[static_cast<std::size_t>(e)], t[static_cast<std::size_t>(f)], z);
+    }
+    return true;
+}
+
+}  // namespace lamella

@@ -1,0 +1,48 @@
+// How a layer becomes the pixels of a display: placement, mirroring, and bands of grey runs.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "engine/coverage.h"
+#include "engine/layer.h"
+#include "printers/profile.h"
+
+namespace lamella {
+
+/// The grid of pixels that a display lays over a part. The centre of the part's bounds (x, y) lies at the
+/// display's centre.
+///
+/// ImageProfile::width counts pixels along the plate's x, height along y. Landscape: image columns run along
+/// +x and row 0 lies at the largest y, as seen from above. Portrait: columns run along +y and row 0 lies at
+/// the largest x, so the image is `height` wide and `width` high. mirror_x then reverses the columns of the
+/// image and mirror_y its rows. All of it is the direction and sign of the lines asked for; no pixel is
+/// moved.
+class MaskLayout {
+  public:
+    /// Throws InputError for a profile that makes no sense, or a part that is larger than the display.
+    MaskLayout(const ImageProfile& profile, const Box& part_bounds);
+
+    int width() const { return width_; }    ///< image columns
+    int height() const { return height_; }  ///< image rows
+    /// Pitch of columns and rows, mm.
+    double column_pitch() const { return std::abs(grid_.along_pitch); }
+    double row_pitch() const { return std::abs(grid_.across_pitch); }
+    /// Rows [first, first + count) with `sub` lines each, all columns.
+    RowBand rows(int first, int count, int sub) const;
+
+  private:
+    RowBand grid_;
+    int width_;
+    int height_;
+};
+
+/// Takes the runs of the next `rows` rows of an image.
+using BandSink = std::function<void(std::span<const GreyRun> runs, int rows)>;
+
+/// Hands the layer's mask to `sink` band by band, top to bottom, and returns the layer's solid area, mm^2.
+/// Memory: one band.
+double mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
+                  const BandSink& sink);
+
+}  // namespace lamella

@@ -1,0 +1,100 @@
+// The PNG stack.
+#include "printers/png_stack.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "engine/error.h"
+#include "printers/mask.h"
+#include "printers/png_writer.h"
+#include "printers/unfinished_folder.h"
+
+namespace lamella {
+namespace {
+
+struct PngProduct : LayerProduct {
+    std::vector<std::byte> file;
+};
+
+const char* antialiasing_name(Antialiasing antialiasing) {
+    switch (antialiasing) {
+        case Antialiasing::off:
+            return "off";
+        case Antialiasing::rows:
+            return "rows";
+        case Antialiasing::exact:
+            return "exact";
+    }
+    throw InputError("antialiasing is neither off, rows nor exact");
+}
+
+nlohmann::ordered_json describe(const ImageProfile& image) {
+    nlohmann::ordered_json json = {
+        {"display_width", image.width}, {"display_height", image.height},
+        {"pixel_x", image.pixel_x},     {"pixel_y", image.pixel_y},
+        {"portrait", image.portrait},   {"mirror_x", image.mirror_x},
+        {"mirror_y", image.mirror_y},   {"antialiasing", antialiasing_name(image.antialiasing)}};
+    if (image.antialiasing == Antialiasing::rows) json["sub_rows"] = image.sub_rows;
+    return json;
+}
+
+class PngStack : public Backend {
+  public:
+    PngStack(const PrinterProfile& profile, const std::string& path, bool force)
+        : profile_(profile), output_(path, ".png", force) {}
+
+    int begin(const Job& job, LayerRange range, bool resume) override {
+        check_range(job, range);
+        layout_.emplace(profile_.image, job.bounds);
+        description_ = describe_job(job, range, ".png");
+        description_["printer"] = profile_.name;
+        description_["width"] = layout_->width();
+        description_["height"] = layout_->height();
+        description_.update(describe(profile_.image));
+        description_["placement"] = placement();
+        return output_.begin({job.identity, "png " + describe(profile_.image).dump(), range}, resume);
+    }
+
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+        auto product = std::make_unique<PngProduct>();
+        PngWriter writer({layout_->width(), layout_->height(), layout_->column_pitch(), layout_->row_pitch()},
+                         product->file);
+        product->area =
+            mask_layer(layer, *layout_, profile_.image,
+                       [&](std::span<const GreyRun> runs, int rows) { writer.add_rows(runs, rows); });
+        writer.finish();
+        return product;
+    }
+
+    void write(const Layer& layer, LayerProduct& product) override {
+        output_.write(layer.index(), dynamic_cast<PngProduct&>(product).file);
+    }
+
+    void end() override { output_.end(description_); }
+
+  private:
+    /// Part coordinates, mm, of the corner of pixel (0, 0) and the way to the next column and row.
+    nlohmann::ordered_json placement() const {
+        const RowBand band = layout_->rows(0, 1, 1);
+        const bool x = band.axis == Axis::x;
+        return {{"columns_along", x ? "x" : "y"},
+                {"column_0_edge", band.along_origin},
+                {"column_step", band.along_pitch},
+                {"row_0_edge", band.across_origin},
+                {"row_step", band.across_pitch}};
+    }
+
+    PrinterProfile profile_;
+    UnfinishedFolder output_;
+    std::optional<MaskLayout> layout_;
+    nlohmann::ordered_json description_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_png_stack(const PrinterProfile& profile, const std::string& path, bool force) {
+    return std::make_unique<PngStack>(profile, path, force);
+}
+
+}  // namespace lamella

@@ -1,0 +1,50 @@
+// PNG files of 8-bit grey masks, written from runs (ISO/IEC 15948).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/coverage.h"
+#include "printers/adler.h"
+
+namespace lamella {
+
+/// Size of an image.
+struct PngHeader {
+    int width = 1;       ///< px, 1 to 65535
+    int height = 1;      ///< px, 1 to 65535
+    double pixel_x = 0;  ///< mm, for the pHYs chunk; 0 when unknown
+    double pixel_y = 0;  ///< mm
+};
+
+/// Writes one image band by band, each band an IDAT chunk. Memory: the compressed bytes and one band.
+class PngWriter {
+  public:
+    /// Starts an image at the end of `out`, which must outlive the writer. Throws InputError for a size
+    /// out of range.
+    PngWriter(const PngHeader& header, std::vector<std::byte>& out);
+    /// Adds `rows` rows; their runs follow each other and sum to the width each.
+    void add_rows(std::span<const GreyRun> runs, int rows);
+    /// Adds a band that compress_band made, perhaps on another thread.
+    void add_band(std::span<const std::byte> deflated, const Adler& adler, int rows);
+    /// Ends the image. Throws FaultError unless it has got all of its rows.
+    void finish();
+
+  private:
+    std::size_t begin_chunk(const char* type);
+    void end_chunk(std::size_t start);
+
+    PngHeader header_;
+    std::vector<std::byte>& out_;
+    Adler adler_;
+    int rows_ = 0;
+};
+
+/// Rows that are compressed together.
+inline constexpr int png_band_rows = 64;
+
+/// A whole image from the runs of its rows.
+std::vector<std::byte> encode_png(const PngHeader& header, std::span<const GreyRun> runs);
+
+}  // namespace lamella

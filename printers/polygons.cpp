@@ -1,0 +1,202 @@
+// Clipper calls, and straight lines cut by polygons.
+#include "printers/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+namespace {
+
+ClipperLib::cInt to_units(double mm) {
+    return static_cast<ClipperLib::cInt>(std::floor(mm * polygon_scale + 0.5));
+}
+
+dvec2 to_point(const ClipperLib::IntPoint& p) {
+    return dvec2(static_cast<double>(p.X), static_cast<double>(p.Y)) / polygon_scale;
+}
+
+double dot(dvec2 a, dvec2 b) { return a.x * b.x + a.y * b.y; }
+
+dvec2 left_of(dvec2 direction) { return {-direction.y, direction.x}; }
+
+/// Calls visit(a, b) for every edge, mm.
+template <typename Visit>
+void each_edge(const Polygons& polygons, Visit visit) {
+    for (const ClipperLib::Path& polygon : polygons) {
+        if (polygon.empty()) continue;
+        dvec2 a = to_point(polygon.back());
+        for (const ClipperLib::IntPoint& point : polygon) {
+            const dvec2 b = to_point(point);
+            visit(a, b);
+            a = b;
+        }
+    }
+}
+
+void collect_pieces(const ClipperLib::PolyNode& outer, std::vector<Polygons>& pieces) {
+    Polygons piece{outer.Contour};
+    for (const ClipperLib::PolyNode* hole : outer.Childs) {
+        piece.push_back(hole->Contour);
+        for (const ClipperLib::PolyNode* inner : hole->Childs) collect_pieces(*inner, pieces);
+    }
+    pieces.push_back(std::move(piece));
+}
+
+/// Direction of the largest second moment of area.
+dvec2 principal_axis(const Polygons& polygons) {
+    dvec2 reference = to_point(polygons.front().front());
+    double area = 0;
+    dvec2 first{0};
+    double xx = 0;
+    double xy = 0;
+    double yy = 0;
+    each_edge(polygons, [&](dvec2 a, dvec2 b) {  // Green's theorem, triangle by triangle from the reference
+        a -= reference;
+        b -= reference;
+        const double cross = a.x * b.y - a.y * b.x;
+        area += cross / 2;
+        first += (a + b) * (cross / 6);
+        xx += cross / 12 * (a.x * a.x + a.x * b.x + b.x * b.x);
+        yy += cross / 12 * (a.y * a.y + a.y * b.y + b.y * b.y);
+        xy += cross / 24 * (2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y);
+    });
+    xx -= first.x * first.x / area;
+    yy -= first.y * first.y / area;
+    xy -= first.x * first.y / area;
+    const double difference = (xx - yy) / 2;
+    const double root = std::sqrt(difference * difference + xy * xy);
+    // Of the two equal ways to write the eigenvector, the one without cancellation.
+    const dvec2 axis = difference >= 0 ? dvec2(difference + root, xy) : dvec2(xy, root - difference);
+    const double length = std::sqrt(dot(axis, axis));
+    return length > 0 ? axis / length : dvec2(1, 0);
+}
+
+}  // namespace
+
+double Segment::length() const { return std::sqrt(dot(b - a, b - a)); }
+
+ClipperLib::Path to_polygon(const std::vector<dvec2>& points) {
+    ClipperLib::Path polygon;
+    polygon.reserve(points.size());
+    for (const dvec2& p : points) polygon.emplace_back(to_units(p.x), to_units(p.y));
+    return polygon;
+}
+
+std::vector<dvec2> to_points(const ClipperLib::Path& polygon) {
+    std::vector<dvec2> points;
+    points.reserve(polygon.size());
+    for (const ClipperLib::IntPoint& p : polygon) points.push_back(to_point(p));
+    return points;
+}
+
+double area_of(const Polygons& polygons) {
+    double sum = 0;
+    for (const ClipperLib::Path& polygon : polygons) sum += ClipperLib::Area(polygon);
+    return sum / (polygon_scale * polygon_scale);
+}
+
+double perimeter_of(const Polygons& polygons) {
+    double sum = 0;
+    each_edge(polygons, [&](dvec2 a, dvec2 b) { sum += Segment{a, b}.length(); });
+    return sum;
+}
+
+Polygons offset_polygons(const Polygons& polygons, double by) {
+    constexpr double miter_limit = 2;
+    constexpr double arc_tolerance = 0.005 * polygon_scale;
+    ClipperLib::ClipperOffset offset(miter_limit, arc_tolerance);
+    offset.AddPaths(polygons, by > 0 ? ClipperLib::jtRound : ClipperLib::jtMiter,
+                    ClipperLib::etClosedPolygon);
+    Polygons result;
+    offset.Execute(result, by * polygon_scale);
+    return result;
+}
+
+Polygons subtract_polygons(const Polygons& a, const Polygons& b) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(a, ClipperLib::ptSubject, true);
+    clipper.AddPaths(b, ClipperLib::ptClip, true);
+    Polygons result;
+    clipper.Execute(ClipperLib::ctDifference, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    return result;
+}
+
+std::vector<Polygons> split_pieces(const Polygons& polygons) {
+    const auto outers =
+        std::ranges::count_if(polygons, [](const auto& p) { return ClipperLib::Area(p) > 0; });
+    if (outers == 0) return {};
+    if (outers == 1) return {polygons};
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
+    ClipperLib::PolyTree tree;
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Polygons> pieces;
+    for (const ClipperLib::PolyNode* outer : tree.Childs) collect_pieces(*outer, pieces);
+    return pieces;
+}
+
+Polygons simplified(const Polygons& polygons, double tolerance) {
+    Polygons result;
+    for (const ClipperLib::Path& polygon : polygons) {
+        ClipperLib::Path clean;
+        ClipperLib::CleanPolygon(polygon, clean, tolerance * polygon_scale);
+        if (clean.size() >= 3) result.push_back(std::move(clean));
+    }
+    return result;
+}
+
+Interval extent(const Polygons& polygons, dvec2 direction) {
+    Interval interval;
+    each_edge(polygons, [&](dvec2, dvec2 b) {
+        interval.lo = std::min(interval.lo, dot(direction, b));
+        interval.hi = std::max(interval.hi, dot(direction, b));
+    });
+    return interval;
+}
+
+std::vector<Segment> cut_lines(const Polygons& polygons, dvec2 direction, double first, double pitch,
+                               int count) {
+    struct Crossing {
+        int line;
+        double along;
+    };
+    const dvec2 normal = left_of(direction);
+    std::vector<Crossing> crossings;
+    each_edge(polygons, [&](dvec2 a, dvec2 b) {
+        if (dot(normal, a) > dot(normal, b)) std::swap(a, b);
+        const double lo = dot(normal, a);
+        const double hi = dot(normal, b);
+        const auto line_from = [&](double v) {  // the first line at or beyond v
+            return static_cast<int>(std::clamp(std::ceil((v - first) / pitch), 0.0, double(count)));
+        };
+        // Half-open: a vertex on a line belongs to the edge that rises from it.
+        for (int line = line_from(lo), end = line_from(hi); line < end; ++line) {
+            const double t = std::clamp((first + line * pitch - lo) / (hi - lo), 0.0, 1.0);
+            crossings.push_back({line, dot(direction, a + (b - a) * t)});
+        }
+    });
+    std::ranges::sort(crossings, [](const Crossing& a, const Crossing& b) {
+        return a.line != b.line ? a.line < b.line : a.along < b.along;
+    });
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+        const dvec2 base = normal * (first + crossings[i].line * pitch);
+        segments.push_back(
+            {base + direction * crossings[i].along, base + direction * crossings[i + 1].along});
+    }
+    return segments;
+}
+
+Segment longest_chord(const Polygons& polygons) {
+    constexpr int tries = 9;
+    const dvec2 axis = principal_axis(polygons);
+    const Interval across = extent(polygons, left_of(axis));
+    const double pitch = across.width() / tries;
+    Segment longest{};
+    for (const Segment& chord : cut_lines(polygons, axis, across.lo + pitch / 2, pitch, tries)) {
+        if (chord.length() > longest.length()) longest = chord;
+    }
+    return longest;
+}
+
+}  // namespace lamella

@@ -1,0 +1,50 @@
+// Polygon offsets and booleans in millimetres: what toolpaths need of Clipper.
+#pragma once
+
+#include <clipper.hpp>
+#include <vector>
+
+#include "engine/geometry.h"
+
+namespace lamella {
+
+/// Polygons in units of 10 nm: outer ones counter-clockwise, holes clockwise. Coordinates of up to 10 m stay
+/// in Clipper's fast range.
+using Polygons = ClipperLib::Paths;
+
+inline constexpr double polygon_scale = 1e5;  ///< units per mm
+
+ClipperLib::Path to_polygon(const std::vector<dvec2>& points);
+std::vector<dvec2> to_points(const ClipperLib::Path& polygon);
+
+/// Area, mm^2; holes count negative.
+double area_of(const Polygons& polygons);
+/// Sum of the lengths of the borders, mm.
+double perimeter_of(const Polygons& polygons);
+
+/// Grown (by > 0, round corners) or shrunk (by < 0, sharp corners), mm.
+Polygons offset_polygons(const Polygons& polygons, double by);
+/// a less b.
+Polygons subtract_polygons(const Polygons& a, const Polygons& b);
+/// One entry for each connected piece, with its holes.
+std::vector<Polygons> split_pieces(const Polygons& polygons);
+/// Without the points that lie within `tolerance` mm of their neighbours' line; may leave nothing.
+Polygons simplified(const Polygons& polygons, double tolerance);
+
+/// A stretch of a line, mm.
+struct Segment {
+    dvec2 a;
+    dvec2 b;
+    double length() const;
+};
+
+/// Extent of the polygons along a direction of unit length, mm.
+Interval extent(const Polygons& polygons, dvec2 direction);
+/// The stretches inside the polygons of the lines along `direction` whose distance from the origin, to the
+/// left of the direction, is first + k * pitch for 0 <= k < count; line by line.
+std::vector<Segment> cut_lines(const Polygons& polygons, dvec2 direction, double first, double pitch,
+                               int count);
+/// The longest of some stretches inside the polygons along their principal axis.
+Segment longest_chord(const Polygons& polygons);
+
+}  // namespace lamella

@@ -1,0 +1,38 @@
+// The back-ends and built-in printer profiles, by name.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/backend.h"
+#include "printers/profile.h"
+
+namespace lamella {
+
+/// What a back-end leaves behind.
+enum class OutputKind : unsigned char { file, folder, file_or_folder };
+
+struct BackendInfo {
+    const char* name;         ///< PrinterProfile::backend
+    const char* description;  ///< one line
+    OutputKind output;
+    std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
+};
+
+/// All back-ends.
+std::span<const BackendInfo> backends();
+/// The built-in profiles.
+std::span<const PrinterProfile> profiles();
+
+/// Throws InputError, with the nearest known name, when there is none of this name.
+const BackendInfo& find_backend(std::string_view name);
+const PrinterProfile& find_profile(std::string_view name);
+
+/// The back-end that a profile names, writing to `output_path`. `force` lets it replace what lamella made
+/// there before. Throws InputError.
+std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
+                                      bool force);
+
+}  // namespace lamella

@@ -1,0 +1,185 @@
+// SVG pages and paths.
+#include "printers/svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "engine/error.h"
+#include "engine/number_format.h"
+#include "printers/unfinished_file.h"
+#include "printers/unfinished_folder.h"
+
+namespace lamella {
+namespace {
+
+constexpr int decimals = 4;  // 0.1 um
+
+struct SvgProduct : LayerProduct {
+    std::string path;  ///< path data; empty for an empty layer
+};
+
+/// The sheet that all layers share.
+struct Page {
+    double left = 0;  ///< x of the part at the left edge, mm
+    double top = 0;   ///< y of the part at the upper edge, mm
+    double width = 0;
+    double height = 0;
+};
+
+Page make_page(const VectorProfile& profile, const Box& bounds) {
+    if (!(profile.margin >= 0 && profile.margin <= 1e4)) {
+        throw InputError(fmt::format("margin = {} mm: must be 0 to 10000", profile.margin));
+    }
+    if (!(profile.tolerance >= 1e-4 && profile.tolerance <= 10)) {
+        throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", profile.tolerance));
+    }
+    return {bounds.lo.x - profile.margin, bounds.hi.y + profile.margin, bounds.size().x + 2 * profile.margin,
+            bounds.size().y + 2 * profile.margin};
+}
+
+/// How many contours enclose each contour.
+std::vector<int> nesting_depths(const std::vector<Contour>& contours) {
+    std::vector<int> depths(contours.size(), 0);
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+        for (int p = contours[i].parent; p >= 0; p = contours[static_cast<std::size_t>(p)].parent)
+            ++depths[i];
+    }
+    return depths;
+}
+
+/// Path data of the contours, the innermost first: a cutter must not free a piece before its holes are cut.
+std::string path_data(const std::vector<Contour>& contours, const Page& page) {
+    const std::vector<int> depths = nesting_depths(contours);
+    std::vector<std::size_t> order(contours.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return depths[a] > depths[b]; });
+    std::string data;
+    for (const std::size_t i : order) {
+        char command = 'M';
+        for (const dvec2& p : contours[i].points) {
+            data.push_back(command);
+            append_number(data, p.x - page.left, decimals);
+            data.push_back(' ');
+            append_number(data, page.top - p.y, decimals);
+            command = 'L';
+        }
+        data += "Z\n";
+    }
+    return data;
+}
+
+std::string svg_start(const Page& page) {
+    const std::string width = format_number(page.width, decimals);
+    const std::string height = format_number(page.height, decimals);
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"\n"
+        "     xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
+        "     xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\"\n"
+        "     version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
+        width, height);
+}
+constexpr const char* svg_end = "</svg>\n";
+
+/// The layer as an Inkscape layer and a Slic3r slice.
+std::string group(const Layer& layer, const std::string& path, const char* style) {
+    std::string text = fmt::format(
+        "<g id=\"layer{0:04}\" inkscape:groupmode=\"layer\" inkscape:label=\"{0:04} z={1}\" "
+        "slic3r:z=\"{1}\">\n",
+        layer.index(), format_number(layer.top(), 6));
+    if (!path.empty()) text += fmt::format("<path {} fill-rule=\"evenodd\" d=\"\n{}\"/>\n", style, path);
+    return text + "</g>\n";
+}
+constexpr const char* filled = "fill=\"#000000\" stroke=\"none\"";
+// The widest stroke that every cutter's driver still takes for a line to cut is 0.025 mm (0.001 inch).
+constexpr const char* hairline = "fill=\"none\" stroke=\"#ff0000\" stroke-width=\"0.01\"";
+
+std::string settings_of(const VectorProfile& vector) {
+    return fmt::format("svg one_file={} tolerance={} margin={}", vector.one_file, vector.tolerance,
+                       vector.margin);
+}
+
+/// What both kinds share: the page, and rendering a layer to path data.
+class Svg : public Backend {
+  public:
+    explicit Svg(const PrinterProfile& profile) : profile_(profile) {}
+
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+        auto product = std::make_unique<SvgProduct>();
+        const std::vector<Contour> contours = layer.contours(profile_.vector.tolerance);
+        for (const Contour& contour : contours) product->area += signed_area(contour.points);
+        product->path = path_data(contours, page_);
+        return product;
+    }
+
+  protected:
+    JobStamp open(const Job& job, LayerRange range) {
+        check_range(job, range);
+        page_ = make_page(profile_.vector, job.bounds);
+        return {job.identity, settings_of(profile_.vector), range};
+    }
+    const PrinterProfile& profile() const { return profile_; }
+    const Page& page() const { return page_; }
+
+  private:
+    PrinterProfile profile_;
+    Page page_;
+};
+
+class SvgFile : public Svg {
+  public:
+    SvgFile(const PrinterProfile& profile, const std::string& path, bool force)
+        : Svg(profile), output_(path, force) {}
+
+    int begin(const Job& job, LayerRange range, bool resume) override {
+        const int next = output_.begin(open(job, range), resume);
+        if (!output_.resumed()) output_.commit(svg_start(page()), next);
+        return next;
+    }
+    void write(const Layer& layer, LayerProduct& product) override {
+        output_.commit(group(layer, dynamic_cast<SvgProduct&>(product).path, filled), layer.index() + 1);
+    }
+    void end() override { output_.end(svg_end); }
+
+  private:
+    UnfinishedFile output_;
+};
+
+class SvgFolder : public Svg {
+  public:
+    SvgFolder(const PrinterProfile& profile, const std::string& path, bool force)
+        : Svg(profile), output_(path, ".svg", force) {}
+
+    int begin(const Job& job, LayerRange range, bool resume) override {
+        const JobStamp stamp = open(job, range);
+        description_ = describe_job(job, range, ".svg");
+        description_["printer"] = profile().name;
+        description_["width"] = page().width;
+        description_["height"] = page().height;
+        description_["placement"] = {{"left", page().left}, {"top", page().top}};
+        description_["tolerance"] = profile().vector.tolerance;
+        return output_.begin(stamp, resume);
+    }
+    void write(const Layer& layer, LayerProduct& product) override {
+        const std::string text =
+            svg_start(page()) + group(layer, dynamic_cast<SvgProduct&>(product).path, hairline) + svg_end;
+        output_.write(layer.index(), std::as_bytes(std::span(text)));
+    }
+    void end() override { output_.end(description_); }
+
+  private:
+    UnfinishedFolder output_;
+    nlohmann::ordered_json description_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_svg(const PrinterProfile& profile, const std::string& path, bool force) {
+    if (profile.vector.one_file) return std::make_unique<SvgFile>(profile, path, force);
+    return std::make_unique<SvgFolder>(profile, path, force);
+}
+
+}  // namespace lamella

@@ -1,0 +1,241 @@
+// From contours to islands, from islands to beads, and the beads into an order.
+#include "printers/toolpath.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "printers/nearest_points.h"
+#include "printers/polygons.h"
+
+namespace lamella {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// How much of the layer's height a bead's two round sides take from its width together.
+double side_loss(double height) { return height * (1 - pi / 4); }
+
+/// The outer contours with the holes directly in them.
+std::vector<Polygons> find_islands(const std::vector<Contour>& contours) {
+    std::vector<std::size_t> island_of(contours.size());
+    std::vector<Polygons> islands;
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+        if (contours[i].hole) continue;
+        island_of[i] = islands.size();
+        islands.push_back({to_polygon(contours[i].points)});
+    }
+    for (const Contour& contour : contours) {
+        if (!contour.hole || contour.parent < 0) continue;
+        islands[island_of[static_cast<std::size_t>(contour.parent)]].push_back(to_polygon(contour.points));
+    }
+    return islands;
+}
+
+/// Makes the beads of one island.
+class IslandPlanner {
+  public:
+    IslandPlanner(const ToolpathSettings& settings, int layer_index)
+        : settings_(settings),
+          width_(settings.line_width),
+          spacing_(width_ - side_loss(settings.height)),
+          direction_(layer_index % 2 == 0 ? dvec2(std::sqrt(0.5)) : dvec2(std::sqrt(0.5), -std::sqrt(0.5))) {}
+
+    std::vector<Bead> plan(const Polygons& exact) {
+        beads_.clear();
+        Polygons island = simplified(exact, settings_.tolerance / 2);
+        if (island.empty()) island = exact;
+        const Polygons wall = offset_polygons(island, -width_ / 2);
+        const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing_ / 2);
+        if (inside.empty()) {
+            fill_thin(island, !wall.empty());
+            return std::move(beads_);
+        }
+        add_loops(wall, width_, Role::external_perimeter);
+        fill_arms(island, wall);
+        for (const Polygons& region : split_pieces(inside)) fill_region(region);
+        return std::move(beads_);
+    }
+
+  private:
+    void add_loops(const Polygons& loops, double width, Role role) {
+        for (const ClipperLib::Path& loop : loops) beads_.push_back({to_points(loop), width, role, true, 0});
+    }
+
+    /// Width of the beads that lay `area` mm^2 over `length` mm, no more than a full one.
+    double width_for(double area, double length) const {
+        return std::min(bead_width(area / length * settings_.height, settings_.height), width_);
+    }
+
+    /// Loops `inset` inside an island whose whole volume they lay down; false when none are left.
+    bool lay_loops(const Polygons& island, double inset, Role role) {
+        const Polygons loops = offset_polygons(island, -inset);
+        const double length = perimeter_of(loops);
+        if (!(length > 0)) return false;
+        add_loops(loops, width_for(area_of(island), length), role);
+        return true;
+    }
+
+    /// An island that has room for loops at most.
+    void fill_thin(const Polygons& island, bool full_width_fits) {
+        if (full_width_fits) {
+            // Two full beads side by side would be too much: take the width at which they just fill it.
+            const double half_thickness = area_of(island) / perimeter_of(island);
+            const double inset = std::clamp(half_thickness, width_ / 2, width_) / 2;
+            if (lay_loops(island, inset, Role::external_perimeter)) return;
+        }
+        for (const double share : {0.75, 0.5, 0.25}) {
+            if (lay_loops(island, share * width_ / 2, Role::external_perimeter)) return;
+        }
+        lay_chord(island);
+    }
+
+    /// One short bead with the volume of a small region.
+    void lay_chord(const Polygons& region) {
+        const Segment chord = longest_chord(region);
+        const double length = chord.length();
+        if (!(length > 0)) return;
+        const double shrink = std::min(width_ / 2, length / 4) / length;
+        const dvec2 step = (chord.b - chord.a) * shrink;
+        const Segment bead{chord.a + step, chord.b - step};
+        beads_.push_back(
+            {{bead.a, bead.b}, width_for(area_of(region), bead.length()), Role::gap_fill, false, 0});
+    }
+
+    /// The parts of an island that are too thin for its wall.
+    void fill_arms(const Polygons& island, const Polygons& wall) {
+        const double least = width_ * width_ / 4;
+        const Polygons reached = offset_polygons(wall, width_ / 2 + settings_.tolerance);
+        if (area_of(island) - area_of(reached) + perimeter_of(wall) * settings_.tolerance < least) return;
+        for (const Polygons& arm : split_pieces(subtract_polygons(island, reached))) {
+            if (area_of(arm) < least) continue;
+            for (const double share : {0.75, 0.5}) {
+                if (lay_loops(arm, share * width_ / 2, Role::gap_fill)) break;
+            }
+        }
+    }
+
+    /// Infill of one connected region inside the wall.
+    void fill_region(const Polygons& region) {
+        if (!(settings_.density > 0)) return;
+        // A line's round end reaches further than its last point; a quarter width of overlap bonds it.
+        const double overlap = width_ / 4;
+        const Polygons clip = offset_polygons(region, overlap - spacing_ / 2);
+        const bool solid = settings_.density > 0.999;
+        std::vector<Segment> lines;
+        double width = width_;
+        const dvec2 normal(-direction_.y, direction_.x);
+        const Interval across = extent(region, normal);
+        if (solid) {
+            const int count = std::max(1, static_cast<int>(across.width() / spacing_ + 0.5));
+            const double pitch = across.width() / count;
+            lines = cut_lines(clip, direction_, across.lo + pitch / 2, pitch, count);
+            width = bead_width(pitch * settings_.height, settings_.height);
+        } else {
+            // One lattice for the whole layer, so that lines stand on the lines two layers below.
+            const double pitch = spacing_ / settings_.density;
+            const double first = std::floor(across.lo / pitch) * pitch;
+            const int count = static_cast<int>(across.width() / pitch) + 2;
+            lines = cut_lines(clip, direction_, first, pitch, count);
+        }
+        const double least = spacing_ / 4;
+        std::erase_if(lines, [&](const Segment& line) { return line.length() < least; });
+        if (lines.empty()) {
+            if (solid && area_of(region) > spacing_ * spacing_ / 8) lay_chord(region);
+            return;
+        }
+        const Role role = solid ? Role::solid_infill : Role::internal_infill;
+        for (const Segment& line : lines) beads_.push_back({{line.a, line.b}, width, role, false, 0});
+    }
+
+    ToolpathSettings settings_;
+    double width_;
+    double spacing_;  // from bead to bead when they fill the plane
+    dvec2 direction_;
+    std::vector<Bead> beads_;
+};
+
+double squared_distance(dvec2 a, dvec2 b) {
+    const dvec2 d = a - b;
+    return d.x * d.x + d.y * d.y;
+}
+
+/// Turns a loop so that it begins, and hence ends, at its point nearest to `from`.
+void begin_near(Bead& loop, dvec2 from) {
+    const auto nearest =
+        std::ranges::min_element(loop.points, {}, [&](dvec2 p) { return squared_distance(p, from); });
+    std::ranges::rotate(loop.points, nearest);
+}
+
+dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
+
+/// Appends beads [first, last) to `out` by nearest neighbour from `at`, which moves along.
+void append_nearest(std::span<Bead> beads, dvec2& at, std::vector<Bead>& out) {
+    std::vector<dvec2> ends;  // two for each bead; a loop may begin anywhere, its first point stands for it
+    for (const Bead& bead : beads) {
+        ends.push_back(bead.points.front());
+        ends.push_back(bead.closed ? bead.points.front() : bead.points.back());
+    }
+    NearestPoints left(ends);
+    while (!left.empty()) {
+        const std::size_t end = left.nearest(at);
+        Bead& bead = beads[end / 2];
+        left.remove(end);
+        left.remove(end ^ 1);
+        if (bead.closed) {
+            begin_near(bead, at);
+        } else if (end % 2 == 1) {
+            std::ranges::reverse(bead.points);
+        }
+        at = end_of(bead);
+        out.push_back(std::move(bead));
+    }
+}
+
+}  // namespace
+
+double bead_area(double width, double height) {
+    return width > height ? height * (width - side_loss(height)) : pi / 4 * width * height;
+}
+
+double bead_width(double area, double height) {
+    return area > pi / 4 * height * height ? area / height + side_loss(height) : area / (pi / 4 * height);
+}
+
+Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
+                         int layer_index) {
+    Toolpaths result;
+    const std::vector<Polygons> islands = find_islands(contours);
+    result.islands = static_cast<int>(islands.size());
+    std::vector<std::vector<Bead>> planned;
+    std::vector<dvec2> entries;
+    Rect all;
+    IslandPlanner planner(settings, layer_index);
+    for (const Polygons& island : islands) {
+        for (const dvec2& p : to_points(island.front())) all = unite(all, Rect{p, p});
+        std::vector<Bead> beads;
+        if (area_of(island) >= settings.line_width * settings.line_width / 4) beads = planner.plan(island);
+        if (beads.empty()) {
+            ++result.islands_left_out;
+            continue;
+        }
+        entries.push_back(beads.front().points.front());
+        planned.push_back(std::move(beads));
+    }
+    NearestPoints left(entries);
+    dvec2 at = all.lo;
+    for (int island = 0; !left.empty(); ++island) {
+        const std::size_t next = left.nearest(at);
+        left.remove(next);
+        std::vector<Bead>& beads = planned[next];
+        for (Bead& bead : beads) bead.island = island;
+        // Walls before infill: they hold what comes inside.
+        const auto infill =
+            std::ranges::stable_partition(beads, [](const Bead& bead) { return bead.closed; });
+        const auto walls = static_cast<std::size_t>(infill.begin() - beads.begin());
+        append_nearest(std::span(beads).first(walls), at, result.beads);
+        append_nearest(std::span(beads).subspan(walls), at, result.beads);
+    }
+    return result;
+}
+
+}  // namespace lamella

@@ -1,0 +1,139 @@
+// Making, continuing, replacing and completing a folder of layers.
+#include "printers/unfinished_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "engine/error.h"
+#include "printers/output_file.h"
+
+namespace lamella {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* job_file = "job.json";
+constexpr const char* stamp_file = "unfinished.json";
+
+nlohmann::ordered_json read_json(const fs::path& path) {
+    std::ifstream in(path);
+    if (!in) return nullptr;
+    return nlohmann::ordered_json::parse(in, nullptr, false);
+}
+
+}  // namespace
+
+UnfinishedFolder::UnfinishedFolder(fs::path path, std::string extension, bool force)
+    : path_(std::move(path)), extension_(std::move(extension)), force_(force) {
+    if (path_.filename().empty()) path_ = path_.parent_path();  // "out/" means "out"
+    if (path_.filename().empty() || path_.filename() == "." || path_.filename() == "..") {
+        throw InputError("'" + path_.string() + "' does not name an output folder");
+    }
+    partial_ = path_;
+    partial_ += ".partial";
+}
+
+std::string UnfinishedFolder::file_name(int layer) const { return fmt::format("{:05}{}", layer, extension_); }
+
+bool UnfinishedFolder::is_ours(const fs::path& file) const {
+    const std::string name = file.filename().string();
+    if (name == job_file || name == stamp_file) return true;
+    std::string_view stem = name;
+    if (stem.ends_with(".tmp")) stem.remove_suffix(4);
+    if (stem == job_file || stem == stamp_file) return true;
+    // Of whatever kind: a folder of one format may replace one of another.
+    stem = stem.substr(0, stem.find('.'));
+    return stem.size() >= 5 && std::ranges::all_of(stem, [](char c) { return '0' <= c && c <= '9'; });
+}
+
+void UnfinishedFolder::check_replaceable() const {
+    if (!force_) {
+        throw InputError(path_.string() + " exists already; choose another name or pass --force");
+    }
+    const nlohmann::ordered_json job = read_json(path_ / job_file);
+    if (!fs::is_directory(path_) || !job.is_object() || job.value("format", "") != "lamella-layers") {
+        throw InputError(path_.string() +
+                         " is no folder of layers that lamella made, so --force does not replace it; choose "
+                         "another name");
+    }
+    for (const auto& entry : fs::directory_iterator(path_)) {
+        if (entry.is_directory() || !is_ours(entry.path())) {
+            throw InputError(path_.string() + " holds " + entry.path().filename().string() +
+                             ", which lamella did not write, so --force does not replace it; move that file "
+                             "away or choose another name");
+        }
+    }
+}
+
+void UnfinishedFolder::remove_ours(const fs::path& folder) const {
+    std::error_code ignored;  // what stays keeps the folder from being removed, which is reported
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!entry.is_directory() && is_ours(entry.path())) files.push_back(entry.path());
+    }
+    for (const fs::path& file : files) fs::remove(file, ignored);
+    std::error_code error;
+    fs::remove(folder, error);
+    if (error) throw FaultError("cannot remove " + folder.string() + ": " + error.message());
+}
+
+int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
+    if (is_present(path_)) check_replaceable();
+    if (is_present(partial_)) {
+        if (resume) {
+            check_same_job(read_json(partial_ / stamp_file), stamp, partial_);
+        } else if (!force_) {
+            throw InputError(partial_.string() +
+                             " is left from a run that was stopped; continue it with --resume, or discard it "
+                             "with --force");
+        } else {
+            remove_ours(partial_);
+        }
+    }
+    std::error_code error;
+    fs::create_directories(partial_, error);
+    if (error) throw FaultError("cannot make the folder " + partial_.string() + ": " + error.message());
+    write_whole_file(partial_ / stamp_file, to_json(stamp).dump(2) + "\n");
+    int next = stamp.range.first;
+    while (next < stamp.range.last && is_present(partial_ / file_name(next))) ++next;
+    return next;
+}
+
+void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes) {
+    write_whole_file(partial_ / file_name(layer), bytes);
+}
+
+void UnfinishedFolder::end(const nlohmann::ordered_json& job) {
+    write_whole_file(partial_ / job_file, job.dump(2) + "\n");
+    std::error_code ignored;  // a stamp that stays behind harms nobody
+    fs::remove(partial_ / stamp_file, ignored);
+    if (is_present(path_)) {
+        // The old folder steps aside first and goes last, so that at no time both are gone.
+        fs::path old = path_;
+        old += ".replaced";
+        rename_output(path_, old);
+        rename_output(partial_, path_);
+        remove_ours(old);
+    } else {
+        rename_output(partial_, path_);
+    }
+}
+
+nlohmann::ordered_json describe_job(const Job& job, LayerRange range, const std::string& extension) {
+    const auto point = [](dvec3 p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+    return {{"format", "lamella-layers"},
+            {"version", 1},
+            {"name", job.name},
+            {"identity", job.identity},
+            {"unit", "mm"},
+            {"layer_height", job.layer_height},
+            {"layer_count", job.layer_count},
+            {"first_layer", range.first},
+            {"last_layer", range.last},
+            {"files", "%05d" + extension},
+            {"first_plane", job.plane(0) - job.z0()},
+            {"part_bounds", {{"lo", point(job.bounds.lo)}, {"hi", point(job.bounds.hi)}}}};
+}
+
+}  // namespace lamella

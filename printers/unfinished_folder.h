@@ -1,0 +1,45 @@
+// A folder with one file a layer that grows under the name NAME.partial and gets its own name when complete.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "printers/job_stamp.h"
+
+namespace lamella {
+
+/// Writes NAME.partial/00000.png and so on, each file whole or absent, and job.json at the end. Files are
+/// numbered by the layer's index, so that the folders of two ranges hold the files of the whole.
+class UnfinishedFolder {
+  public:
+    /// `extension` includes the dot. `force` lets a finished folder that holds nothing but a job of ours be
+    /// replaced, and an unfinished one be discarded.
+    UnfinishedFolder(std::filesystem::path path, std::string extension, bool force);
+
+    /// Makes the folder and returns the first missing layer. Throws as UnfinishedFile::begin does.
+    int begin(const JobStamp& stamp, bool resume);
+    /// Writes the file of a layer.
+    void write(int layer, std::span<const std::byte> bytes);
+    /// Writes job.json, which marks the folder complete, and gives the folder its name.
+    void end(const nlohmann::ordered_json& job);
+    /// Name of a layer's file, "00042.png".
+    std::string file_name(int layer) const;
+
+  private:
+    void check_replaceable() const;
+    void remove_ours(const std::filesystem::path& folder) const;
+    bool is_ours(const std::filesystem::path& file) const;
+
+    std::filesystem::path path_;
+    std::filesystem::path partial_;
+    std::string extension_;
+    bool force_;
+};
+
+/// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.
+nlohmann::ordered_json describe_job(const Job& job, LayerRange range, const std::string& extension);
+
+}  // namespace lamella

@@ -1,0 +1,135 @@
+// A bounded, thread-safe cache of what was computed once for a place: evicted by z distance, then age.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/geometry.h"
+
+namespace lamella {
+
+/// A place: a node of an octree over a lattice of coarse cells, and a part of it.
+struct PlaceKey {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int64_t z = 0;
+    int level = 0;
+    int part = 0;
+    friend bool operator==(const PlaceKey&, const PlaceKey&) = default;
+};
+
+/// A hash of the key, the same in every process.
+std::size_t hash_value(const PlaceKey& key);
+
+/// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds
+/// never shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock
+/// is held while a value is computed.
+///
+/// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves,
+/// mm).
+///
+/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. When it does,
+/// the values farthest in z from the last request, and among those the least recently used, go first, until
+/// three quarters are left. Values still held by callers live on until released.
+template <typename Value>
+class CellCache {
+  public:
+    using Pointer = std::shared_ptr<const Value>;
+
+    explicit CellCache(std::size_t capacity) : shard_capacity_(capacity / shard_count) {}
+
+    /// The value at the key, or null when it is not held. `z` is the height for which it is wanted.
+    Pointer find(const PlaceKey& key, double z) {
+        Shard& shard = shard_of(key);
+        const std::lock_guard lock(shard.mutex);
+        const auto found = shard.entries.find(key);
+        if (found == shard.entries.end()) return nullptr;
+        shard.wanted_z = z;
+        found->second.used = ++shard.clock;
+        return found->second.value;
+    }
+
+    /// Offers a value; returns the one that the cache keeps (an equal one when another thread was faster).
+    Pointer insert(const PlaceKey& key, double z, Pointer value) {
+        Shard& shard = shard_of(key);
+        const std::lock_guard lock(shard.mutex);
+        const auto [entry, fresh] = shard.entries.try_emplace(key);
+        shard.wanted_z = z;
+        entry->second.used = ++shard.clock;
+        if (!fresh) return entry->second.value;
+        entry->second.value = value;
+        shard.bytes += value->bytes();
+        if (shard.bytes > shard_capacity_) evict(shard);
+        return value;
+    }
+
+    /// The value at the key, computed by `make()` (returning a Value) when it is not held.
+    template <typename Make>
+    Pointer find_or_make(const PlaceKey& key, double z, const Make& make) {
+        if (Pointer held = find(key, z)) return held;
+        return insert(key, z, std::make_shared<const Value>(make()));
+    }
+
+    /// The memory of all values held.
+    std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (Shard& shard : shards_) {
+            const std::lock_guard lock(shard.mutex);
+            sum += shard.bytes;
+        }
+        return sum;
+    }
+
+  private:
+    struct KeyHash {
+        std::size_t operator()(const PlaceKey& key) const { return hash_value(key); }
+    };
+    struct Entry {
+        Pointer value;
+        std::uint64_t used = 0;
+    };
+    struct Shard {
+        std::mutex mutex;
+        std::unordered_map<PlaceKey, Entry, KeyHash> entries;
+        std::size_t bytes = 0;
+        std::uint64_t clock = 0;
+        double wanted_z = 0;
+    };
+    static constexpr std::size_t shard_count = 16;
+
+    Shard& shard_of(const PlaceKey& key) const { return shards_[(hash_value(key) >> 32) % shard_count]; }
+
+    void evict(Shard& shard) {
+        struct Candidate {
+            double z_distance;
+            std::uint64_t used;
+            PlaceKey key;
+        };
+        std::vector<Candidate> candidates;
+        candidates.reserve(shard.entries.size());
+        for (const auto& [key, entry] : shard.entries) {
+            const Interval z = entry.value->z_extent();
+            const double distance = std::max({z.lo - shard.wanted_z, shard.wanted_z - z.hi, 0.0});
+            candidates.push_back({distance, entry.used, key});
+        }
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+            return a.z_distance != b.z_distance ? a.z_distance > b.z_distance : a.used < b.used;
+        });
+        for (const Candidate& candidate : candidates) {
+            if (shard.bytes <= shard_capacity_ / 4 * 3) break;
+            const auto entry = shard.entries.find(candidate.key);
+            shard.bytes -= entry->second.value->bytes();
+            shard.entries.erase(entry);
+        }
+    }
+
+    std::size_t shard_capacity_;
+    mutable std::array<Shard, shard_count> shards_;
+};
+
+}  // namespace lamella

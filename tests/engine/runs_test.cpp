@@ -1,0 +1,92 @@
+// Set operations on runs against bit arrays.
+#include "engine/runs.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace lamella;
+
+namespace {
+
+constexpr int width = 200;
+using Bits = std::vector<bool>;
+
+Bits bits_of(std::span<const Run> line) {
+    Bits bits(width);
+    for (const Run& run : line) {
+        for (int u = run.begin; u < run.end; ++u) bits[static_cast<std::size_t>(u)] = true;
+    }
+    return bits;
+}
+
+SpanRows random_rows(std::mt19937& random, int lines) {
+    SpanRows rows;
+    std::uniform_int_distribution<int> step(0, 12);
+    for (int l = 0; l < lines; ++l) {
+        for (int u = step(random); u < width - 13;) {
+            const int end = u + step(random);
+            rows.push(u, end);
+            u = end + step(random);
+        }
+        rows.end_line();
+    }
+    return rows;
+}
+
+void check_canonical(const SpanRows& rows) {
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        int last = -1;
+        for (const Run& run : rows.line(l)) {
+            REQUIRE(run.begin < run.end);
+            REQUIRE(run.begin > last);
+            last = run.end;
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("set operations on runs equal set operations on bits") {
+    const unsigned seed = 7;
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    for (int round = 0; round < 50; ++round) {
+        const SpanRows a = random_rows(random, 8), b = random_rows(random, 8);
+        SpanRows all, both, rest;
+        unite(a, b, all);
+        intersect(a, b, both);
+        subtract(a, b, rest);
+        for (const SpanRows* rows : {&all, &both, &rest}) check_canonical(*rows);
+        for (std::size_t l = 0; l < 8; ++l) {
+            const Bits x = bits_of(a.line(l)), y = bits_of(b.line(l));
+            const Bits u = bits_of(all.line(l)), i = bits_of(both.line(l)), s = bits_of(rest.line(l));
+            for (std::size_t k = 0; k < width; ++k) {
+                REQUIRE(u[k] == (x[k] || y[k]));
+                REQUIRE(i[k] == (x[k] && y[k]));
+                REQUIRE(s[k] == (x[k] && !y[k]));
+            }
+        }
+    }
+}
+
+TEST_CASE("runs that meet are joined, empty ones vanish") {
+    SpanRows rows;
+    rows.push(0, 10);
+    rows.push(10, 20);
+    rows.push(20, 20);
+    rows.push(30, 25);
+    rows.push(40, 50);
+    rows.end_line();
+    REQUIRE(rows.line(0).size() == 2);
+    REQUIRE(rows.line(0)[0] == Run{0, 20});
+    REQUIRE(rows.total_length() == 30);
+}
+
+TEST_CASE("lines lie at the same place however the rows are split into bands") {
+    const RowBand whole{Axis::x, 1.5, 0.025, -3.25, 0.05, 0, 640, 4, 0, 100};
+    RowBand part = whole;
+    part.first = 64;
+    part.count = 64;
+    for (int l = 0; l < part.lines(); ++l) REQUIRE(part.line(l) == whole.line(64 * 4 + l));
+    REQUIRE(whole.line(0) == Approx(-3.25 + 0.05 / 8));
+}

@@ -1,0 +1,78 @@
+// The cache: bounded, evicting what is far in z first, and transparent to threads.
+#include "procedural/cell_cache.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+
+using namespace lamella;
+
+namespace {
+
+struct Sheet {
+    std::int64_t content;
+    double z;
+    std::size_t bytes() const { return 1000; }
+    Interval z_extent() const { return {z, z + 1}; }
+};
+
+}  // namespace
+
+TEST_CASE("a value is made once and then found", "[cell_cache]") {
+    CellCache<Sheet> cache(1 << 20);
+    int made = 0;
+    for (int i = 0; i < 3; ++i) {
+        CHECK(cache.find_or_make({1, 2, 3, 4, 5}, 0, [&] { return Sheet{++made, 0}; })->content == 1);
+    }
+    CHECK(made == 1);
+    CHECK(cache.find({1, 2, 3, 4, 6}, 0) == nullptr);
+    CHECK(cache.find({2, 1, 3, 4, 5}, 0) == nullptr);
+    CHECK(cache.bytes() == 1000);
+}
+
+TEST_CASE("the cache keeps to its bound and drops what is farthest in z", "[cell_cache]") {
+    constexpr std::size_t capacity = 16 * 10000;
+    CellCache<Sheet> cache(capacity);
+    for (int z = 0; z < 1000; ++z) {
+        const auto held = cache.find_or_make({7, 7, z, 0, 0}, z, [&] {
+            return Sheet{z, static_cast<double>(z)};
+        });
+        CHECK(held->content == z);
+        CHECK(cache.bytes() <= capacity);
+    }
+    int low = 0, high = 0;
+    for (int z = 0; z < 500; ++z) low += cache.find({7, 7, z, 0, 0}, 999) != nullptr;
+    for (int z = 980; z < 1000; ++z) high += cache.find({7, 7, z, 0, 0}, 999) != nullptr;
+    CHECK(low == 0);
+    CHECK(high == 20);
+}
+
+TEST_CASE("of equally far values, the longest unused go first", "[cell_cache]") {
+    CellCache<Sheet> cache(16 * 10000);
+    const auto make = [](std::int64_t x) { return [x] { return Sheet{x, 0}; }; };
+    for (int x = 0; x < 1000; ++x) {
+        cache.find_or_make({0, 0, 0, 0, 0}, 0.5, make(0));
+        cache.find_or_make({x, 0, 0, 0, 0}, 0.5, make(x));
+    }
+    CHECK(cache.find({0, 0, 0, 0, 0}, 0.5) != nullptr);
+    CHECK(cache.find({1, 0, 0, 0, 0}, 0.5) == nullptr);
+}
+
+TEST_CASE("threads that want the same values get the same values", "[cell_cache]") {
+    CellCache<Sheet> cache(16 * 8000);
+    std::atomic<int> wrong{0};
+    const auto work = [&](int stride) {
+        for (int i = 0; i < 20000; ++i) {
+            const std::int64_t x = (i * stride) % 257;
+            const auto held = cache.find_or_make({x, 0, 0, 0, 0}, static_cast<double>(x), [&] {
+                return Sheet{x, static_cast<double>(x)};
+            });
+            if (held->content != x) ++wrong;
+        }
+    };
+    std::thread a(work, 1), b(work, 3);
+    a.join();
+    b.join();
+    CHECK(wrong == 0);
+    CHECK(cache.bytes() <= 16 * 8000);
+}
