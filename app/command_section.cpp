@@ -32,10 +32,6 @@ std::string chosen_format(const SectionOptions& options) {
     return "svg";
 }
 
-double tolerance(const PrinterProfile& printer) {
-    return printer.backend == "gcode" ? printer.filament.tolerance : printer.vector.tolerance;
-}
-
 std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
     const BuiltJob built = build_job(recipe);
@@ -48,7 +44,7 @@ std::string section(const SectionOptions& options, const std::string& format) {
     const SliceField& slice = context.slice(*built.job.part, options.z);
     if (format == "png") return section_png(slice, bounds.rect(), recipe.printer.image);
     Scratch scratch;
-    const auto contours = trace_contours(slice, tolerance(recipe.printer), scratch);
+    const auto contours = trace_contours(slice, recipe.printer.vector.tolerance, scratch);
     return format == "svg" ? section_svg(contours, bounds.rect()) : section_json(contours, options.z);
 }
 

@@ -10,25 +10,28 @@
 
 namespace lamella {
 
-std::vector<std::string> backend_words() { return backends(); }
+std::vector<std::string> backend_words() {
+    std::vector<std::string> words;
+    for (const BackendInfo& backend : backends()) words.emplace_back(backend.name);
+    return words;
+}
 
 std::vector<std::string> profile_words() {
     std::vector<std::string> words;
     for (const PrinterProfile& profile : profiles()) words.push_back(profile.name);
-    for (const std::string& backend : backend_words()) words.push_back(backend);
+    for (const std::string& backend : backend_words()) {
+        if (std::find(words.begin(), words.end(), backend) == words.end()) words.push_back(backend);
+    }
     return words;
 }
 
-PrinterProfile default_profile() { return PrinterProfile{}; }
+PrinterProfile default_profile() { return profiles().front(); }
 
 PrinterProfile profile_named(const std::string& name) {
-    for (const PrinterProfile& profile : profiles()) {
-        if (profile.name == name) return profile;
-    }
-    const auto names = backend_words();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-        throw InputError("printer.profile: \"" + name + "\" is unknown; `lamella printers` lists what is accepted");
-    }
+    const auto machines = profiles();
+    const auto is_backend = backend_words();
+    const bool known = std::any_of(machines.begin(), machines.end(), [&](const auto& p) { return p.name == name; });
+    if (known || std::find(is_backend.begin(), is_backend.end(), name) == is_backend.end()) return find_profile(name);
     PrinterProfile profile;
     profile.name = name;
     profile.backend = name;
@@ -36,16 +39,25 @@ PrinterProfile profile_named(const std::string& name) {
 }
 
 std::string default_output(const PrinterProfile& printer, const std::string& part_name) {
-    if (printer.backend == "png") return part_name + ".layers";
-    if (printer.backend == "svg" && !printer.vector.one_file) return part_name + ".layers";
-    return part_name + "." + printer.backend;
+    const OutputKind kind = find_backend(printer.backend).output;
+    const bool folder =
+        kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
+    if (folder) return part_name + ".layers";
+    return part_name + (printer.backend == "marlin" ? ".gcode" : "." + printer.backend);
 }
 
 std::string printers_listing() {
-    std::string text = "Back-ends\n";
-    for (const std::string& backend : backend_words()) text += "  " + backend + "\n";
-    text += "Profiles\n";
-    for (const PrinterProfile& p : profiles()) text += fmt::format("  {:<20}{}\n", p.name, p.backend);
+    std::string text = "Back-ends (--printer-kind, printer.kind)\n";
+    for (const BackendInfo& backend : backends()) text += fmt::format("  {:<14}{}\n", backend.name, backend.description);
+    text += "\nProfiles (--printer, printer.profile)\n";
+    for (const PrinterProfile& p : profiles()) {
+        std::string facts = p.backend;
+        if (p.backend == "png") {
+            facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height, p.image.pixel_x,
+                                 p.image.pixel_y, p.image.portrait ? ", portrait" : "");
+        }
+        text += fmt::format("  {:<14}{}\n", p.name, facts);
+    }
     return text;
 }
 
