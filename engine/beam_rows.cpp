@@ -79,19 +79,5 @@ void beam_rows(const BeamRowParameters& beam, int count, std::int32_t* begin, st
     HWY_DYNAMIC_DISPATCH(rows)(beam, count, begin, end);
 }
 
-std::vector<std::string> beam_rows_targets() {
-    std::vector<std::string> names;
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
-    return names;
-}
-
-void force_beam_rows_target(const std::string& name) {
-    hwy::SetSupportedTargetsForTest(0);
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-        if (name == hwy::TargetName(target)) hwy::SetSupportedTargetsForTest(target);
-    }
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 }  // namespace lamella
 #endif

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace lamella {
 
@@ -29,10 +27,5 @@ struct BeamRowParameters {
 /// Writes begin and end of lines first .. first + count - 1; begin >= end where the line misses. Writes up to
 /// 64 entries more.
 void beam_rows(const BeamRowParameters& beam, int count, std::int32_t* begin, std::int32_t* end);
-
-/// Names of the SIMD targets this machine can run the kernel on, best first; for tests that compare them.
-std::vector<std::string> beam_rows_targets();
-/// Makes beam_rows use one target from the list above until called with an empty name. For tests only.
-void force_beam_rows_target(const std::string& name);
 
 }  // namespace lamella

@@ -42,6 +42,19 @@ void toggle(std::vector<std::int32_t>& list, std::int32_t u) {
     }
 }
 
+/// Turns nodes first .. last of a column over. A crossing near an end of the stretch moves over the node
+/// there; elsewhere one is put beside it.
+void turn_over(std::vector<std::int32_t>& column, int first, int last) {
+    const std::int32_t low = first * run_unit, high = last * run_unit;
+    const auto below = std::lower_bound(column.begin(), column.end(), low);
+    const auto above = std::lower_bound(column.begin(), column.end(), high);
+    const bool near_below = below != column.begin() && low - *(below - 1) <= near_node;
+    const bool near_above = above != column.end() && *above - high <= near_node;
+    const std::int32_t from = near_below ? *(below - 1) : low - 1, to = near_above ? *above : high + 1;
+    toggle(column, from);
+    toggle(column, to);
+}
+
 }  // namespace
 
 Lattice::Lattice(const SliceField& slice, const Grid& grid, Scratch& scratch) : grid_(grid) {
@@ -116,7 +129,8 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
     // In each cell row, a column edge must have an odd number of crossings iff its two nodes differ. Where
     // the nodes of two neighbouring rows differ is itself read off as runs: the symmetric difference of two
     // sorted lists.
-    std::vector<int> bad;
+    // A wrong edge has one wrong node, so the nodes between two wrong edges of a column are all wrong.
+    std::vector<std::pair<int, int>> wrong_edges;
     std::vector<std::int32_t> flips;
     for (int j = 0; j < grid_.rows; ++j) {
         const auto row = [&](int k) {
@@ -127,15 +141,16 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
         // First node behind each crossing, where the status of the row turns.
         flips.clear();
         for (const Crossing& c : row(j)) flips.push_back((c.x >> 8) + 1);
+        const auto middle = static_cast<std::ptrdiff_t>(flips.size());
         for (const Crossing& c : row(j + 1)) flips.push_back((c.x >> 8) + 1);
-        std::sort(flips.begin(), flips.end());
+        std::inplace_merge(flips.begin(), flips.begin() + middle, flips.end());
 
         std::uint32_t k = column_starts_[static_cast<std::size_t>(j)];
         const std::uint32_t end = column_starts_[static_cast<std::size_t>(j) + 1];
         const auto check = [&](int i, bool differ) {
             bool odd = false;
             for (; k < end && crossings_[k].x == i * run_unit; ++k) odd = !odd;
-            if (odd != differ) bad.push_back(i);
+            if (odd != differ) wrong_edges.emplace_back(i, j);
         };
         for (std::size_t f = 0; f + 1 <= flips.size(); ++f) {
             const bool differ = f % 2 == 0;
@@ -147,33 +162,12 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
         }
         while (k < end) check(crossings_[k].x >> 8, false);
     }
-    std::sort(bad.begin(), bad.end());
-    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    for (const int i : bad) mend(columns[static_cast<std::size_t>(i)], i);
-    return !bad.empty();
-}
-
-void Lattice::mend(std::vector<std::int32_t>& column, int i) const {
-    // Stretches of nodes that the column gets wrong are turned over as a whole: a face that lies on the
-    // column's line may make all of it wrong. A crossing near an end of the stretch moves over the node;
-    // elsewhere one is put beside it.
-    const std::vector<std::int32_t> before = column;
-    const auto wrong = [&](int j) {
-        const auto place = std::lower_bound(before.begin(), before.end(), j * run_unit);
-        return ((place - before.begin()) % 2 == 1) != solid(i, j);
-    };
-    for (int j = 1; j < grid_.rows; ++j) {
-        if (!wrong(j)) continue;
-        const std::int32_t first = j * run_unit;
-        while (j + 1 < grid_.rows && wrong(j + 1)) ++j;
-        const std::int32_t last = j * run_unit;
-        const auto below = std::lower_bound(before.begin(), before.end(), first);
-        const auto above = std::lower_bound(before.begin(), before.end(), last);
-        const bool near_below = below != before.begin() && first - *(below - 1) <= near_node;
-        const bool near_above = above != before.end() && *above - last <= near_node;
-        toggle(column, near_below ? *(below - 1) : first - 1);
-        toggle(column, near_above ? *above : last + 1);
+    std::sort(wrong_edges.begin(), wrong_edges.end());
+    for (std::size_t k = 0; k + 1 < wrong_edges.size(); k += 2) {
+        const auto [i, first] = wrong_edges[k];
+        turn_over(columns[static_cast<std::size_t>(i)], first + 1, wrong_edges[k + 1].second);
     }
+    return !wrong_edges.empty();
 }
 
 std::int64_t Lattice::before_node(int i, int j) const {

@@ -90,7 +90,6 @@ class Lattice {
     void add_rows(const SliceField& slice, Scratch& scratch);
     void add_columns(const SliceField& slice, Scratch& scratch);
     bool mend_columns(std::vector<std::vector<std::int32_t>>& columns) const;
-    void mend(std::vector<std::int32_t>& column, int i) const;
     void bucket_columns(const std::vector<std::vector<std::int32_t>>& columns);
 
     Grid grid_;

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/beam_rows.h"
 #include "engine/beam_slice.h"
+#include "engine/simd_target.h"
 #include "engine/slice_context.h"
 
 using namespace lamella;
@@ -136,15 +136,15 @@ TEST_CASE("every SIMD target gives the same bits") {
     const OneBeam field(beams[0]);
     const RowBand band{Axis::x, -5, 0.01, -5, 0.01, 0, 1000, 3, 0, 1000};
     std::vector<SpanRows> results;
-    const auto targets = beam_rows_targets();
+    const auto targets = simd_targets();
     REQUIRE(targets.size() >= 2);
     for (const std::string& target : targets) {
-        force_beam_rows_target(target);
+        force_simd_target(target);
         Scratch scratch;
         results.emplace_back();
         BeamSlice(field, beams, 0.1).spans(band, scratch, results.back());
     }
-    force_beam_rows_target("");
+    force_simd_target("");
     for (std::size_t k = 0; k < results.size(); ++k) {
         INFO("target " << targets[k]);
         REQUIRE(results[k].runs().size() > 1000);
