@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <string>
 
 #include "engine/error.h"
@@ -172,7 +174,12 @@ class BitWriter {
         buffer_ |= bits << filled_;
         filled_ += count;
         // All eight bytes go out each time, though only the full ones count: one store and no branch.
-        for (std::size_t i = 0; i < sizeof buffer_; ++i) next_[i] = static_cast<std::byte>(buffer_ >> 8 * i);
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(next_, &buffer_, sizeof buffer_);
+        } else {
+            for (std::size_t i = 0; i < sizeof buffer_; ++i)
+                next_[i] = static_cast<std::byte>(buffer_ >> 8 * i);
+        }
         const unsigned whole = filled_ / 8;
         next_ += whole;
         buffer_ >>= 8 * whole;
