@@ -312,8 +312,9 @@ void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vect
     tokenize(runs, static_cast<std::uint32_t>(width), rows, tokens, sum);
     adler.append(sum);
 
-    const std::array<Symbol, 2> distances = {distance_symbol(1),
-                                             distance_symbol(static_cast<std::uint32_t>(width) + 1)};
+    // A row too long to be copied leaves the second distance unused.
+    const std::uint32_t stride = std::min(static_cast<std::uint32_t>(width) + 1, max_distance);
+    const std::array<Symbol, 2> distances = {distance_symbol(1), distance_symbol(stride)};
     std::array<std::uint32_t, literal_symbols> literal_count{};
     std::array<std::uint32_t, distance_symbols> distance_count{};
     literal_count[end_of_block] = 1;
