@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <string>
 
 #include "engine/error.h"
@@ -172,7 +174,12 @@ class BitWriter {
         buffer_ |= bits << filled_;
         filled_ += count;
         // All eight bytes go out each time, though only the full ones count: one store and no branch.
-        for (std::size_t i = 0; i < sizeof buffer_; ++i) next_[i] = static_cast<std::byte>(buffer_ >> 8 * i);
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(next_, &buffer_, sizeof buffer_);
+        } else {
+            for (std::size_t i = 0; i < sizeof buffer_; ++i)
+                next_[i] = static_cast<std::byte>(buffer_ >> 8 * i);
+        }
         const unsigned whole = filled_ / 8;
         next_ += whole;
         buffer_ >>= 8 * whole;
@@ -305,8 +312,9 @@ void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vect
     tokenize(runs, static_cast<std::uint32_t>(width), rows, tokens, sum);
     adler.append(sum);
 
-    const std::array<Symbol, 2> distances = {distance_symbol(1),
-                                             distance_symbol(static_cast<std::uint32_t>(width) + 1)};
+    // A row too long to be copied leaves the second distance unused.
+    const std::uint32_t stride = std::min(static_cast<std::uint32_t>(width) + 1, max_distance);
+    const std::array<Symbol, 2> distances = {distance_symbol(1), distance_symbol(stride)};
     std::array<std::uint32_t, literal_symbols> literal_count{};
     std::array<std::uint32_t, distance_symbols> distance_count{};
     literal_count[end_of_block] = 1;
