@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 #include "app/identity.h"
 #include "engine/csg.h"
 #include "engine/error.h"
@@ -47,17 +46,23 @@ FieldPtr shape_body(const PartRecipe& part) {
     const dvec3 half = part.size * (k / 2);
     const dvec3 end{0, 0, k * part.height / 2};
     switch (part.shape) {
-        case Shape::sphere: return make_sphere(dvec3(0), radius);
-        case Shape::box: return make_box(Box{-half, half});
-        case Shape::cylinder: return make_cylinder(-end, end, radius);
+        case Shape::sphere:
+            return make_sphere(dvec3(0), radius);
+        case Shape::box:
+            return make_box(Box{-half, half});
+        case Shape::cylinder:
+            return make_cylinder(-end, end, radius);
         case Shape::capsule: {
             const dvec3 ball = end - dvec3(0, 0, radius);
             return make_round_cone({-ball, radius, ball, radius});
         }
-        case Shape::torus: return make_torus(dvec3(0), radius, k * part.tube);
+        case Shape::torus:
+            return make_torus(dvec3(0), radius, k * part.tube);
         case Shape::gyroid:
-            return make_intersection({make_box(Box{-half, half}), make_gyroid(k * part.period, k * part.thickness)});
-        case Shape::none: break;
+            return make_intersection(
+                {make_box(Box{-half, half}), make_gyroid(k * part.period, k * part.thickness)});
+        case Shape::none:
+            break;
     }
     throw InputError("part: no body is given; accepted: a mesh file or a shape");
 }
@@ -72,9 +77,10 @@ FieldPtr join(const FieldPtr& body, const FieldPtr& foam, const FieldPtr& skin) 
 int layers_of(const Box& bounds, double layer_height) {
     const double height = bounds.size().z;
     if (height / layer_height > most_layers) {
-        throw InputError(fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
-                                     "layers; accepted: {} mm or more",
-                                     layer_height, height, most_layers, height / most_layers));
+        throw InputError(
+            fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
+                        "layers; accepted: {} mm or more",
+                        layer_height, height, most_layers, height / most_layers));
     }
     return count_layers(height, layer_height);
 }

@@ -19,7 +19,7 @@ struct MeshReport {
     std::string path;
     std::size_t vertices = 0;
     std::size_t triangles = 0;
-    std::size_t caps = 0;       ///< triangles added to close holes
+    std::size_t caps = 0;            ///< triangles added to close holes
     bool oriented_manifold = false;  ///< closed and consistently oriented
     double volume = 0;               ///< enclosed, mm^3
     std::vector<std::string> notes;  ///< what was mended or left out

@@ -27,7 +27,8 @@ struct DumpOptions {
 Box parse_box(const std::string& text) {
     const auto numbers = parse_numbers(text, 6);
     const auto refuse = [&](const std::string& wrong) {
-        throw InputError("--box: " + wrong + "; accepted: x0,y0,z0,x1,y1,z1 in mm, finite, each lower corner below the upper");
+        throw InputError("--box: " + wrong +
+                         "; accepted: x0,y0,z0,x1,y1,z1 in mm, finite, each lower corner below the upper");
     };
     if (!numbers) refuse("\"" + text.substr(0, 96) + "\" is not six numbers");
     for (const double v : *numbers) {
@@ -47,15 +48,18 @@ void write_seeds(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
 
 void write_beams(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
     for (const Beam& b : foam.beams_touching(box)) {
-        out.write(fmt::format("{},{},{},{},{},{},{},{}\n", b.a.x, b.a.y, b.a.z, b.ra, b.b.x, b.b.y, b.b.z, b.rb));
+        out.write(
+            fmt::format("{},{},{},{},{},{},{},{}\n", b.a.x, b.a.y, b.a.z, b.ra, b.b.x, b.b.y, b.b.z, b.rb));
     }
 }
 
 void run(const DumpOptions& options) {
     const Recipe recipe = options.recipe.read(false);
-    if (!recipe.foam) throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
+    if (!recipe.foam)
+        throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
     const bool has_body = !recipe.part.mesh.empty() || recipe.part.shape != Shape::none;
-    if (options.box.empty() && !has_body) throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
+    if (options.box.empty() && !has_body)
+        throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
     std::optional<Box> box;
     if (!options.box.empty()) box = parse_box(options.box);
     std::shared_ptr<const VoronoiFoam> foam;

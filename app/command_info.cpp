@@ -71,7 +71,8 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
 }
 
 std::string size_text(const Json& v) {
-    return fmt::format("{:.3f} x {:.3f} x {:.3f} mm", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+    return fmt::format("{:.3f} x {:.3f} x {:.3f} mm", v[0].get<double>(), v[1].get<double>(),
+                       v[2].get<double>());
 }
 
 std::string point_text(const Json& v) {
@@ -94,7 +95,8 @@ double mebibytes(const Json& bytes) { return bytes.get<double>() / (1 << 20); }
 
 std::string memory_text(const Json& m) {
     return fmt::format(
-        "memory    about {:.0f} MiB: {:.0f} for the program, {:.1f} for the mesh, {:.1f} for foam cells in reach,\n"
+        "memory    about {:.0f} MiB: {:.0f} for the program, {:.1f} for the mesh, {:.1f} for foam cells in "
+        "reach,\n"
         "          and {} layers in flight of {:.1f} each (rows of the plate, {:.0f} beams)\n",
         mebibytes(m["bytes"]), mebibytes(m["base_bytes"]), mebibytes(m["mesh_bytes"]),
         mebibytes(m["cell_cache_bytes"]), m["layers_in_flight"].get<int>(), mebibytes(m["layer_bytes"]),
@@ -102,19 +104,24 @@ std::string memory_text(const Json& m) {
 }
 
 std::string as_text(const Json& info) {
-    std::string text = fmt::format("part      {}, {}\n", info["name"].get<std::string>(), size_text(info["size_mm"]));
-    text += fmt::format("bounds    {} to {}\n", point_text(info["bounds_mm"]["lo"]), point_text(info["bounds_mm"]["hi"]));
-    text += fmt::format("layers    {} of {} mm\n", info["layers"].get<int>(), info["layer_height_mm"].get<double>());
+    std::string text =
+        fmt::format("part      {}, {}\n", info["name"].get<std::string>(), size_text(info["size_mm"]));
+    text += fmt::format("bounds    {} to {}\n", point_text(info["bounds_mm"]["lo"]),
+                        point_text(info["bounds_mm"]["hi"]));
+    text += fmt::format("layers    {} of {} mm\n", info["layers"].get<int>(),
+                        info["layer_height_mm"].get<double>());
     if (info.contains("mesh")) text += mesh_text(info["mesh"]);
     if (info.contains("foam")) {
         const Json& foam = info["foam"];
-        text += fmt::format("foam      cells of {} mm, beams of radius {} mm, seed {}: about {:.0f} seeds in the bounds, "
-                            "{:.1f} % solid\n",
-                            foam["cell_mm"].get<double>(), foam["beam_mm"].get<double>(),
-                            foam["seed"].get<std::int64_t>(), foam["expected_seeds_in_bounds"].get<double>(),
-                            100 * foam["expected_volume_fraction"].get<double>());
+        text += fmt::format(
+            "foam      cells of {} mm, beams of radius {} mm, seed {}: about {:.0f} seeds in the bounds, "
+            "{:.1f} % solid\n",
+            foam["cell_mm"].get<double>(), foam["beam_mm"].get<double>(), foam["seed"].get<std::int64_t>(),
+            foam["expected_seeds_in_bounds"].get<double>(),
+            100 * foam["expected_volume_fraction"].get<double>());
     }
-    if (info.contains("skin")) text += fmt::format("skin      {} mm\n", info["skin"]["thickness_mm"].get<double>());
+    if (info.contains("skin"))
+        text += fmt::format("skin      {} mm\n", info["skin"]["thickness_mm"].get<double>());
     text += fmt::format("printer   {} ({})\n", info["printer"]["profile"].get<std::string>(),
                         info["printer"]["kind"].get<std::string>());
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
@@ -133,12 +140,14 @@ void run(const InfoOptions& options) {
 
 void add_info_command(CLI::App& root) {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App& command = *root.add_subcommand("info", "Say what a recipe will make: size, layers, foam, mesh, memory");
+    CLI::App& command =
+        *root.add_subcommand("info", "Say what a recipe will make: size, layers, foam, mesh, memory");
     options->recipe.add_to(command);
     command.add_flag("--json", options->json, "As JSON");
     command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
         ->check(CLI::Range(0, 1024));
-    finish_command(command, "  lamella info insole.toml\n  lamella info model.stl --cell 3 --beam 0.5 --json");
+    finish_command(command,
+                   "  lamella info insole.toml\n  lamella info model.stl --cell 3 --beam 0.5 --json");
     command.callback([options] { run(*options); });
 }
 

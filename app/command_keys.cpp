@@ -7,7 +7,8 @@
 namespace lamella {
 
 void add_keys_command(CLI::App& root) {
-    CLI::App& command = *root.add_subcommand("keys", "List every key of a recipe, with its flag, range and default");
+    CLI::App& command =
+        *root.add_subcommand("keys", "List every key of a recipe, with its flag, range and default");
     finish_command(command, "  lamella keys");
     command.callback([] {
         TextOutput out("");

@@ -27,19 +27,20 @@ struct PreviewCommand {
     bool quiet = false;
 };
 
-/// Writes under a name of its own first, so that the picture appears complete. OpenImageIO picks the format by the
-/// ending, which therefore stays last.
+/// Writes under a name of its own first, so that the picture appears complete. OpenImageIO picks the format
+/// by the ending, which therefore stays last.
 void save(const Image& image, const std::string& path) {
     const std::filesystem::path final_path(path);
     const std::filesystem::path unfinished =
         final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
     const auto writer = OIIO::ImageOutput::create(path);
     if (!writer) {
-        throw InputError("--output: " + path + " names no image format; accepted: a file ending in .png, .jpg, .tif, ...");
+        throw InputError("--output: " + path +
+                         " names no image format; accepted: a file ending in .png, .jpg, .tif, ...");
     }
     const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    if (!writer->open(unfinished.string(), spec) || !writer->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) ||
-        !writer->close()) {
+    if (!writer->open(unfinished.string(), spec) ||
+        !writer->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) || !writer->close()) {
         const std::string why = writer->geterror();
         std::error_code ignored;
         std::filesystem::remove(unfinished, ignored);
@@ -60,19 +61,26 @@ void run(PreviewCommand& options) {
     save(render_preview(*built.job.part, built.job.bounds, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::fputs(fmt::format("{}: {} x {} pixels in {:.1f} s\n", path, options.size, options.size, seconds.count()).c_str(),
-               stderr);
+    std::fputs(
+        fmt::format("{}: {} x {} pixels in {:.1f} s\n", path, options.size, options.size, seconds.count())
+            .c_str(),
+        stderr);
 }
 
 }  // namespace
 
 void add_preview_command(CLI::App& root) {
     auto options = std::make_shared<PreviewCommand>();
-    CLI::App& command = *root.add_subcommand("preview", "Make a shaded picture of the part, whole or cut open");
+    CLI::App& command =
+        *root.add_subcommand("preview", "Make a shaded picture of the part, whole or cut open");
     options->recipe.add_to(command);
-    command.add_option("-o,--output", options->output, "Image file; default: the part's name and .png")->type_name("FILE");
-    command.add_option("--size", options->size, "Edge of the picture, px")->check(CLI::Range(16, 8192))->type_name("N");
-    command.add_option("--cut", options->cut, "Axis along which the nearer part is cut away: x, y, z, or none")
+    command.add_option("-o,--output", options->output, "Image file; default: the part's name and .png")
+        ->type_name("FILE");
+    command.add_option("--size", options->size, "Edge of the picture, px")
+        ->check(CLI::Range(16, 8192))
+        ->type_name("N");
+    command
+        .add_option("--cut", options->cut, "Axis along which the nearer part is cut away: x, y, z, or none")
         ->check(CLI::IsMember({"x", "y", "z", "none"}))
         ->type_name("WORD");
     command.add_option("--cut-at", options->picture.cut_at, "Where it is cut, as a share of the part")
@@ -81,14 +89,17 @@ void add_preview_command(CLI::App& root) {
     command.add_option("--azimuth", options->picture.azimuth, "Degrees that the eye walks round the part")
         ->check(CLI::Range(-360.0, 360.0))
         ->type_name("DEG");
-    command.add_option("--elevation", options->picture.elevation, "Degrees that the eye stands over the horizon")
+    command
+        .add_option("--elevation", options->picture.elevation, "Degrees that the eye stands over the horizon")
         ->check(CLI::Range(-89.0, 89.0))
         ->type_name("DEG");
-    command.add_option("--threads", options->picture.threads, "Threads to use; 0: one a core")->check(CLI::Range(0, 1024));
+    command.add_option("--threads", options->picture.threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
     command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error");
-    finish_command(command,
-                   "  lamella preview insole.toml -o insole.png\n"
-                   "  lamella preview model.stl --cell 3 --beam 0.5 --cut z --cut-at 0.7 --size 2048 -o open.png");
+    finish_command(
+        command,
+        "  lamella preview insole.toml -o insole.png\n"
+        "  lamella preview model.stl --cell 3 --beam 0.5 --cut z --cut-at 0.7 --size 2048 -o open.png");
     command.callback([options] { run(*options); });
 }
 

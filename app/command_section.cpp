@@ -37,8 +37,8 @@ std::string section(const SectionOptions& options, const std::string& format) {
     const BuiltJob built = build_job(recipe);
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
-        throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm", options.z,
-                                     bounds.lo.z, bounds.hi.z));
+        throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",
+                                     options.z, bounds.lo.z, bounds.hi.z));
     }
     SliceContext context;
     const SliceField& slice = context.slice(*built.job.part, options.z);
@@ -64,10 +64,13 @@ void add_section_command(CLI::App& root) {
     auto options = std::make_shared<SectionOptions>();
     CLI::App& command = *root.add_subcommand("section", "Cut the part at one height: contours or pixels");
     options->recipe.add_to(command);
-    command.add_option("--z", options->z, "Height of the plane in part coordinates (`lamella info` shows the bounds), mm")
+    command
+        .add_option("--z", options->z,
+                    "Height of the plane in part coordinates (`lamella info` shows the bounds), mm")
         ->required()
         ->type_name("MM");
-    command.add_option("--format", options->format, "svg, png or json; default: by the file's name, else svg")
+    command
+        .add_option("--format", options->format, "svg, png or json; default: by the file's name, else svg")
         ->check(CLI::IsMember({"svg", "png", "json"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");

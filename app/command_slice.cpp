@@ -36,8 +36,7 @@ struct SliceOptions {
 };
 
 std::string quoted(const std::string& argument) {
-    const std::string plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./:,@%";
+    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./:,@%";
     if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
     std::string text = "'";
     for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -56,8 +55,9 @@ std::string resuming(const std::vector<std::string>& arguments) {
 LayerRange parse_layers(const std::string& text, int count) {
     LayerRange range{0, count};
     const auto refuse = [&](const std::string& wrong) {
-        throw InputError(fmt::format("--layers: {}; accepted: A:B with 0 <= A < B <= {} (layers A up to, not including, B)",
-                                     wrong, count));
+        throw InputError(fmt::format(
+            "--layers: {}; accepted: A:B with 0 <= A < B <= {} (layers A up to, not including, B)", wrong,
+            count));
     };
     if (text.empty()) return range;
     const std::size_t colon = text.find(':');
@@ -101,10 +101,11 @@ void summarise(const SliceOptions& options, const Job& job, const StreamReport& 
     }
     if (options.quiet) return;
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
-    std::fputs(fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material, {} MiB at most\n", options.output,
-                           report.layers_written, kept, seconds, report.volume, peak_memory_bytes() >> 20)
-                   .c_str(),
-               stderr);
+    std::fputs(
+        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material, {} MiB at most\n", options.output,
+                    report.layers_written, kept, seconds, report.volume, peak_memory_bytes() >> 20)
+            .c_str(),
+        stderr);
 }
 
 void run(SliceOptions options) {
@@ -147,21 +148,25 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     options->recipe.add_to(command);
     command.add_option("-o,--output", options->output, "File or folder to make; default: the part's name")
         ->type_name("PATH");
-    command.add_option("--layers", options->layers, "Layers A up to, not including, B, counted from 0; default: all")
+    command
+        .add_option("--layers", options->layers,
+                    "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
-    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")->check(CLI::Range(0, 1024));
+    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
     command.add_option("--look-ahead", options->look_ahead, "Layers in flight at most; 0: two a thread")
         ->check(CLI::Range(0, 4096));
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
     command.add_flag("--force", options->force, "Replace an output that exists");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     command.add_flag("--json", options->json, "A summary of the run on standard output");
-    finish_command(command,
-                   "  lamella slice insole.toml -o insole/\n"
-                   "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --layer-height 0.05 --printer png -o out/\n"
-                   "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
-                   "  lamella slice insole.toml --layers 100:200 --json\n"
-                   "Ctrl-C stops cleanly; the same command with --resume goes on.");
+    finish_command(
+        command,
+        "  lamella slice insole.toml -o insole/\n"
+        "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --layer-height 0.05 --printer png -o out/\n"
+        "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
+        "  lamella slice insole.toml --layers 100:200 --json\n"
+        "Ctrl-C stops cleanly; the same command with --resume goes on.");
     command.callback([options] { run(*options); });
 }
 

@@ -1,4 +1,5 @@
-// Identity: a 128-bit hash of everything that decides a job's bytes. Two jobs with equal identity make equal output.
+// Identity: a 128-bit hash of everything that decides a job's bytes. Two jobs with equal identity make equal
+// output.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 
 namespace lamella {
 
-/// FNV-1a with 128 bits (Fowler, Noll, Vo: offset basis and prime as published). It tells jobs apart by accident of
-/// change; it is no defence against forgery.
+/// FNV-1a with 128 bits (Fowler, Noll, Vo: offset basis and prime as published). It tells jobs apart by
+/// accident of change; it is no defence against forgery.
 class Fnv128 {
   public:
     void add(std::string_view bytes);

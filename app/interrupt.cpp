@@ -8,7 +8,8 @@ namespace lamella {
 namespace {
 
 std::atomic<CancelToken*> listening{nullptr};
-static_assert(std::atomic<CancelToken*>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+static_assert(std::atomic<CancelToken*>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
 extern "C" void on_signal(int) {
     if (CancelToken* token = listening.load()) token->cancel();

@@ -1,5 +1,5 @@
-// The `lamella` command: parses the command line, runs a subcommand, and turns exceptions into messages and exit
-// codes.
+// The `lamella` command: parses the command line, runs a subcommand, and turns exceptions into messages and
+// exit codes.
 #include <csignal>
 
 #include "app/run_command.h"

@@ -9,11 +9,13 @@ namespace lamella {
 
 namespace {
 
-constexpr double beams_per_seed = 13.54;       // edges per cell of a Poisson-Voronoi foam, each shared by three cells
-constexpr double beam_length_per_cell = 0.54;  // mean edge length over the mean cell diameter, Poisson-Voronoi
-constexpr double bytes_per_beam = 2 * sizeof(Beam);       // the beam and its place in the bands' index
+constexpr double beams_per_seed =
+    13.54;  // edges per cell of a Poisson-Voronoi foam, each shared by three cells
+constexpr double beam_length_per_cell =
+    0.54;  // mean edge length over the mean cell diameter, Poisson-Voronoi
+constexpr double bytes_per_beam = 2 * sizeof(Beam);  // the beam and its place in the bands' index
 constexpr double bytes_per_seed = 32 + 1.5 * beams_per_seed * sizeof(Beam);
-constexpr double reach_in_cells = 4;           // a unit of the cell cache and its neighbours, below and above
+constexpr double reach_in_cells = 4;  // a unit of the cell cache and its neighbours, below and above
 constexpr std::int64_t bytes_per_triangle = 12 + 8 + 72;  // corners, index, corners again by height
 constexpr std::int64_t band_rows = 64;
 constexpr std::int64_t program_bytes = 48 << 20;
@@ -36,15 +38,17 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
         const double seeds_per_mm = size.x * size.y / cell_volume(recipe.foam->cell);  // per mm of height
         const double met = beam_length_per_cell * recipe.foam->cell / 2 + 2 * recipe.foam->beam;
         bound.beams_per_layer = seeds_per_mm * beams_per_seed / 2 * met;
-        const double reach = bound.layers_in_flight * built.job.layer_height + reach_in_cells * recipe.foam->cell;
-        bound.cell_bytes = static_cast<std::int64_t>(seeds_per_mm * std::min(reach, size.z + 2 * recipe.foam->cell) *
-                                                     bytes_per_seed);
+        const double reach =
+            bound.layers_in_flight * built.job.layer_height + reach_in_cells * recipe.foam->cell;
+        bound.cell_bytes = static_cast<std::int64_t>(
+            seeds_per_mm * std::min(reach, size.z + 2 * recipe.foam->cell) * bytes_per_seed);
     }
     const ImageProfile& image = recipe.printer.image;
-    // The page at one byte in sixteen pixels is what deflate leaves of dense foam; rows hold a run of 8 bytes for every
-    // beam met and sub-row.
+    // The page at one byte in sixteen pixels is what deflate leaves of dense foam; rows hold a run of 8 bytes
+    // for every beam met and sub-row.
     const std::int64_t page = static_cast<std::int64_t>(image.width) * image.height / 16;
-    const std::int64_t rows = band_rows * image.sub_rows * image.width / 8 * static_cast<std::int64_t>(sizeof(Run));
+    const std::int64_t rows =
+        band_rows * image.sub_rows * image.width / 8 * static_cast<std::int64_t>(sizeof(Run));
     bound.layer_bytes = page + rows + static_cast<std::int64_t>(bound.beams_per_layer * bytes_per_beam);
     return bound;
 }

@@ -7,16 +7,18 @@
 
 namespace lamella {
 
-/// An estimate from above for typical parts, bytes. It depends on the plate's area, the layers in flight and the cells
-/// within reach of them, never on the number of layers.
+/// An estimate from above for typical parts, bytes. It depends on the plate's area, the layers in flight and
+/// the cells within reach of them, never on the number of layers.
 struct MemoryBound {
     int layers_in_flight = 0;
-    double beams_per_layer = 0;     ///< beams whose height range meets one plane
-    std::int64_t layer_bytes = 0;   ///< one layer in flight: its beams, row buffers and finished page
-    std::int64_t cell_bytes = 0;    ///< foam cells within reach of the layers in flight
-    std::int64_t mesh_bytes = 0;    ///< vertices, triangles and their index over z
-    std::int64_t base_bytes = 0;    ///< the program and its libraries
-    std::int64_t total() const { return base_bytes + mesh_bytes + cell_bytes + layers_in_flight * layer_bytes; }
+    double beams_per_layer = 0;    ///< beams whose height range meets one plane
+    std::int64_t layer_bytes = 0;  ///< one layer in flight: its beams, row buffers and finished page
+    std::int64_t cell_bytes = 0;   ///< foam cells within reach of the layers in flight
+    std::int64_t mesh_bytes = 0;   ///< vertices, triangles and their index over z
+    std::int64_t base_bytes = 0;   ///< the program and its libraries
+    std::int64_t total() const {
+        return base_bytes + mesh_bytes + cell_bytes + layers_in_flight * layer_bytes;
+    }
 };
 
 /// Threads 0 means one a core.

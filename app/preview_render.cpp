@@ -14,15 +14,16 @@ namespace lamella {
 
 namespace {
 
-constexpr double half_view = 14 * std::numbers::pi / 180;  // half the angle of view; long lenses flatter parts
-constexpr double margin = 0.88;                            // share of the picture that the part may take
+constexpr double half_view =
+    14 * std::numbers::pi / 180;  // half the angle of view; long lenses flatter parts
+constexpr double margin = 0.88;   // share of the picture that the part may take
 constexpr dvec3 part_colour{0.42, 0.52, 0.60};
 constexpr dvec3 cut_colour{0.86, 0.30, 0.09};
 constexpr dvec3 sky_top{0.80, 0.84, 0.88};
 constexpr dvec3 sky_bottom{0.93, 0.93, 0.92};
 constexpr dvec3 key_light{1.00, 0.95, 0.88};
 constexpr dvec3 fill_light{0.55, 0.65, 0.80};
-constexpr double contrast_of_edges = 0.03;  // difference of neighbours, in sRGB, that calls for more samples
+constexpr double contrast_of_edges = 0.08;  // difference of neighbours, in sRGB, that calls for more samples
 
 struct Camera {
     dvec3 eye, forward, right, up;
@@ -67,8 +68,8 @@ Camera frame(const Box& bounds, const PreviewOptions& options) {
 
 /// What is left of the part once the side towards the eye is cut away.
 struct CutAway {
-    int axis = -1;  ///< -1: nothing is cut
-    double at = 0;  ///< mm
+    int axis = -1;    ///< -1: nothing is cut
+    double at = 0;    ///< mm
     double side = 1;  ///< +1: what lies above `at` is gone
     Box kept;
 };
@@ -110,7 +111,7 @@ class Scene {
   public:
     Scene(const Field& part, const Box& bounds, const CutAway& cut, const Camera& camera, int cells)
         : part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(part, cut.kept, cells) {
-        const dvec3 side = camera.right * -0.55 - camera.forward * 0.45;
+        const dvec3 side = camera.right * 0.35 - camera.forward * 0.6;
         key_ = glm::normalize(dvec3(side.x, side.y, 0) + dvec3(0, 0, 0.95));
         reach_ = grid_.size().x + grid_.size().y + grid_.size().z;
     }
@@ -157,22 +158,30 @@ class Scene {
 
     /// The first change from void to solid on a stretch of the ray; `at` moves to where void is certain.
     std::optional<double> surface(dvec3 direction, double& at, double end) const {
-        const double least = grid_.pitch() / 6;
+        const double least = grid_.pitch() / 4;
         const bool distances = part_.metric() != Metric::sign;
         double before = at;
+        double v_before = grid_.pitch();
         while (at <= end) {
             const double v = part_.value(camera_.eye + direction * at);
-            if (v < 0) return bisect(direction, before, at);
+            if (v < 0) return crossing(direction, before, v_before, at, v);
             before = at;
+            v_before = v;
             at += distances ? std::clamp(v, least, grid_.pitch()) : least;
         }
         return std::nullopt;
     }
 
-    double bisect(dvec3 direction, double outside, double inside) const {
-        for (int i = 0; i < 6; ++i) {
-            const double middle = 0.5 * (outside + inside);
-            (part_.value(camera_.eye + direction * middle) < 0 ? inside : outside) = middle;
+    /// The crossing between two points of the ray: where a straight line through the two values crosses, kept
+    /// off the ends, so that each step at least fences it in.
+    double crossing(dvec3 direction, double outside, double v_outside, double inside, double v_inside) const {
+        for (int i = 0; i < 3; ++i) {
+            const double line = v_outside / (v_outside - v_inside);
+            const double share = std::isfinite(line) ? std::clamp(line, 0.1, 0.9) : 0.5;
+            const double t = outside + share * (inside - outside);
+            const double v = part_.value(camera_.eye + direction * t);
+            (v < 0 ? inside : outside) = t;
+            (v < 0 ? v_inside : v_outside) = v;
         }
         return outside;
     }
@@ -214,7 +223,8 @@ class Scene {
         const double front = std::max(0.0, -glm::dot(n, direction));
         const dvec3 half = glm::normalize(key_ - direction);
         const double gloss = sun * std::pow(std::max(0.0, glm::dot(n, half)), 40.0) * 0.25;
-        return albedo * (key_light * (1.15 * sun) + fill_light * (0.75 * sky * open) + dvec3(0.22 * front * open)) +
+        return albedo * (key_light * (1.15 * sun) + fill_light * (0.75 * sky * open) +
+                         dvec3(0.22 * front * open)) +
                dvec3(gloss);
     }
 
@@ -263,7 +273,8 @@ class Picture {
             for (int i = 0; i < width_; ++i) {
                 const dvec3 c = on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)];
                 for (int k = 0; k < 3; ++k) {
-                    image.rgb[at(i, j) * 3 + static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(c[k] * 255 + 0.5);
+                    image.rgb[at(i, j) * 3 + static_cast<std::size_t>(k)] =
+                        static_cast<std::uint8_t>(c[k] * 255 + 0.5);
                 }
             }
         });
@@ -292,8 +303,8 @@ class Picture {
 
     /// The mean of a rotated 2 x 2 grid of samples.
     dvec3 smoothed(int i, int j) const {
-        return encoded((sample(i + 0.375, j + 0.125) + sample(i + 0.875, j + 0.375) + sample(i + 0.625, j + 0.875) +
-                        sample(i + 0.125, j + 0.625)) *
+        return encoded((sample(i + 0.375, j + 0.125) + sample(i + 0.875, j + 0.375) +
+                        sample(i + 0.625, j + 0.875) + sample(i + 0.125, j + 0.625)) *
                        0.25);
     }
 
@@ -309,8 +320,9 @@ Image render_preview(const Field& part, const Box& bounds, const PreviewOptions&
     constexpr int most_cells = 512;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     return arena.execute([&] {
-        const Camera camera = frame(bounds, options);
+        Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);
+        camera = frame(cut.kept, options);
         const int cells = std::clamp(std::max(options.width, options.height) / 2, 64, most_cells);
         const Scene scene(part, bounds, cut, camera, cells);
         return Picture(scene, options.width, options.height).render();

@@ -25,8 +25,9 @@ struct Image {
     std::vector<std::uint8_t> rgb;
 };
 
-/// Perspective view of the part within `bounds` (finite, not empty) on a light ground. Kept of the part is one bit for
-/// each cell of a grid of the picture's resolution, made from slices; surfaces and normals come from the field itself.
+/// Perspective view of the part within `bounds` (finite, not empty) on a light ground. Kept of the part is
+/// one bit for each cell of a grid of the picture's resolution, made from slices; surfaces and normals come
+/// from the field itself.
 Image render_preview(const Field& part, const Box& bounds, const PreviewOptions& options);
 
 }  // namespace lamella

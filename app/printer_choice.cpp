@@ -30,8 +30,10 @@ PrinterProfile default_profile() { return profiles().front(); }
 PrinterProfile profile_named(const std::string& name) {
     const auto machines = profiles();
     const auto is_backend = backend_words();
-    const bool known = std::any_of(machines.begin(), machines.end(), [&](const auto& p) { return p.name == name; });
-    if (known || std::find(is_backend.begin(), is_backend.end(), name) == is_backend.end()) return find_profile(name);
+    const bool known =
+        std::any_of(machines.begin(), machines.end(), [&](const auto& p) { return p.name == name; });
+    if (known || std::find(is_backend.begin(), is_backend.end(), name) == is_backend.end())
+        return find_profile(name);
     PrinterProfile profile;
     profile.name = name;
     profile.backend = name;
@@ -48,13 +50,14 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
 
 std::string printers_listing() {
     std::string text = "Back-ends (--printer-kind, printer.kind)\n";
-    for (const BackendInfo& backend : backends()) text += fmt::format("  {:<14}{}\n", backend.name, backend.description);
+    for (const BackendInfo& backend : backends())
+        text += fmt::format("  {:<14}{}\n", backend.name, backend.description);
     text += "\nProfiles (--printer, printer.profile)\n";
     for (const PrinterProfile& p : profiles()) {
         std::string facts = p.backend;
         if (p.backend == "png") {
-            facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height, p.image.pixel_x,
-                                 p.image.pixel_y, p.image.portrait ? ", portrait" : "");
+            facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height,
+                                 p.image.pixel_x, p.image.pixel_y, p.image.portrait ? ", portrait" : "");
         }
         text += fmt::format("  {:<14}{}\n", p.name, facts);
     }

@@ -14,8 +14,8 @@ std::vector<std::string> backend_words();
 std::vector<std::string> profile_words();
 /// What a recipe without [printer] gets.
 PrinterProfile default_profile();
-/// The profile of this name; the default profile with this back-end when it is a back-end's name. Throws InputError
-/// when it is neither.
+/// The profile of this name; the default profile with this back-end when it is a back-end's name. Throws
+/// InputError when it is neither.
 PrinterProfile profile_named(const std::string& name);
 
 /// Where a run without -o writes: the part's name, with the back-end's usual ending.

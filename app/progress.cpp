@@ -11,8 +11,8 @@ namespace lamella {
 
 namespace {
 
-constexpr double bar_interval = 0.1;   // seconds between two drawings of the bar
-constexpr double line_interval = 5;    // seconds between two lines in a log
+constexpr double bar_interval = 0.1;  // seconds between two drawings of the bar
+constexpr double line_interval = 5;   // seconds between two lines in a log
 constexpr int bar_width = 30;
 
 std::string clock_text(double seconds) {
@@ -26,8 +26,8 @@ std::string clock_text(double seconds) {
 std::string progress_text(const Progress& progress, double seconds) {
     const double share = progress.total > 0 ? static_cast<double>(progress.done) / progress.total : 1;
     const double rate = seconds > 0 ? progress.done / seconds : 0;
-    std::string text = fmt::format("{:3.0f} %  {}/{} layers  {:.1f} layers/s", std::floor(share * 100), progress.done,
-                                   progress.total, rate);
+    std::string text = fmt::format("{:3.0f} %  {}/{} layers  {:.1f} layers/s", std::floor(share * 100),
+                                   progress.done, progress.total, rate);
     if (rate > 0) text += fmt::format("  {} left", clock_text((progress.total - progress.done) / rate));
     return text;
 }
@@ -48,7 +48,8 @@ void ProgressDisplay::show(const Progress& progress) {
     last_shown_ = now;
     const std::string text = progress_text(progress, now);
     if (terminal_) {
-        const int full = progress.total > 0 ? static_cast<int>(1LL * progress.done * bar_width / progress.total) : 0;
+        const int full =
+            progress.total > 0 ? static_cast<int>(1LL * progress.done * bar_width / progress.total) : 0;
         const std::string bar(static_cast<std::size_t>(full), '#');
         std::fputs(fmt::format("\r[{:.<{}}] {}\x1b[K", bar, bar_width, text).c_str(), stderr);
         std::fflush(stderr);

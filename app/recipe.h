@@ -1,4 +1,5 @@
-// Recipe: everything that decides a print, as plain data. The settings table (settings.h) says what is allowed.
+// Recipe: everything that decides a print, as plain data. The settings table (settings.h) says what is
+// allowed.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +41,8 @@ struct SkinRecipe {
     double thickness = 0;  ///< mm, inward from the surface
 };
 
-/// Without foam and skin the part is solid; with foam alone it is bare foam cut by the body; with a skin alone it
-/// is a hollow shell.
+/// Without foam and skin the part is solid; with foam alone it is bare foam cut by the body; with a skin
+/// alone it is a hollow shell.
 struct Recipe {
     PartRecipe part;
     std::optional<FoamRecipe> foam;

@@ -19,10 +19,12 @@ struct ShapeKeys {
 };
 
 const std::vector<ShapeKeys>& shape_keys() {
-    static const std::vector<ShapeKeys> list{
-        {"sphere", {"radius"}},         {"box", {"size"}},
-        {"cylinder", {"radius", "height"}}, {"capsule", {"radius", "height"}},
-        {"torus", {"radius", "tube"}},  {"gyroid", {"size", "period", "thickness"}}};
+    static const std::vector<ShapeKeys> list{{"sphere", {"radius"}},
+                                             {"box", {"size"}},
+                                             {"cylinder", {"radius", "height"}},
+                                             {"capsule", {"radius", "height"}},
+                                             {"torus", {"radius", "tube"}},
+                                             {"gyroid", {"size", "period", "thickness"}}};
     return list;
 }
 
@@ -87,13 +89,17 @@ void RecipeDraft::check_body() {
     const Entry* shape = entry("part", "shape");
     const bool no_shape = !shape || (shape->value && std::get<std::string>(*shape->value) == "none");
     if (mesh && !no_shape) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh or a shape, not both", shape->where, mesh->where));
+        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh or a shape, not both", shape->where,
+                              mesh->where));
         return;
     }
     if (!mesh && no_shape && body_required_) {
         const auto part = sections_.find("part");
-        refuse(0, fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), or part.shape / --shape",
-                              part == sections_.end() ? "part" : part->second));
+        refuse(
+            0,
+            fmt::format(
+                "{}: no body is given; accepted: a mesh file (part.mesh or MODEL), or part.shape / --shape",
+                part == sections_.end() ? "part" : part->second));
     }
     if (shape && !shape->value) return;
     const std::string word = no_shape ? "none" : std::get<std::string>(*shape->value);
@@ -105,8 +111,10 @@ void RecipeDraft::check_body() {
     for (const std::string& key : all_shape_keys) {
         const Entry* given = entry("part", key);
         if (!given || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
-        refuse(0, no_shape ? fmt::format("{}: only a shape has it; accepted: part.shape / --shape with it", given->where)
-                           : fmt::format("{}: a {} does not have it; accepted: {}", given->where, word, listed(wanted)));
+        refuse(0, no_shape ? fmt::format("{}: only a shape has it; accepted: part.shape / --shape with it",
+                                         given->where)
+                           : fmt::format("{}: a {} does not have it; accepted: {}", given->where, word,
+                                         listed(wanted)));
     }
 }
 
@@ -127,8 +135,8 @@ void RecipeDraft::check_printer() {
             entries_.erase(pixel->from_flag ? std::string("printer.") + key : "printer.pixel");
             pixel = entry("printer", "pixel");
         } else {
-            refuse(0, fmt::format("{}: contradicts {}; accepted: pixel alone, or pixel_x and pixel_y", one->where,
-                                  pixel->where));
+            refuse(0, fmt::format("{}: contradicts {}; accepted: pixel alone, or pixel_x and pixel_y",
+                                  one->where, pixel->where));
         }
     }
 }
@@ -141,7 +149,8 @@ Recipe RecipeDraft::assemble() const {
     }
     for (const Setting& setting : settings()) {
         const Entry* given = entry(setting.section, setting.key);
-        if (given && given->value && setting.name() != "printer.profile") setting.store(recipe, *given->value);
+        if (given && given->value && setting.name() != "printer.profile")
+            setting.store(recipe, *given->value);
     }
     if (recipe.skin && recipe.skin->thickness == 0) recipe.skin.reset();
     if (recipe.part.name.empty()) {
@@ -161,15 +170,18 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam && recipe.foam->beam >= recipe.foam->cell / 2) {
         refuse(0, fmt::format("{}: {} mm fills cells of {} mm; accepted: less than half the cell, {} mm",
-                              where("foam", "beam"), recipe.foam->beam, recipe.foam->cell, recipe.foam->cell / 2));
+                              where("foam", "beam"), recipe.foam->beam, recipe.foam->cell,
+                              recipe.foam->cell / 2));
     }
     if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
-        refuse(0, fmt::format("{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
-                              where("part", "height"), part.height, part.radius, 2 * part.radius));
+        refuse(0, fmt::format(
+                      "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
+                      where("part", "height"), part.height, part.radius, 2 * part.radius));
     }
     if (part.shape == Shape::torus && part.tube >= part.radius) {
-        refuse(0, fmt::format("{}: {} mm closes the hole of a torus of radius {} mm; accepted: less than the radius",
-                              where("part", "tube"), part.tube, part.radius));
+        refuse(0, fmt::format(
+                      "{}: {} mm closes the hole of a torus of radius {} mm; accepted: less than the radius",
+                      where("part", "tube"), part.tube, part.radius));
     }
     if (part.shape == Shape::gyroid && part.thickness >= part.period / 2) {
         refuse(0, fmt::format("{}: {} mm fills a gyroid of period {} mm; accepted: less than half the period",

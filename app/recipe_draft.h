@@ -1,5 +1,5 @@
-// RecipeDraft: what a recipe file and the flags assign, before it becomes a Recipe, with every mistake found on the
-// way.
+// RecipeDraft: what a recipe file and the flags assign, before it becomes a Recipe, with every mistake found
+// on the way.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@ namespace lamella {
 /// Collects assignments from a recipe file and from flags (later ones win) and all their mistakes.
 class RecipeDraft {
   public:
-    /// Reads a recipe file. Throws InputError at once when it cannot be read or is no TOML; other mistakes are
-    /// collected.
+    /// Reads a recipe file. Throws InputError at once when it cannot be read or is no TOML; other mistakes
+    /// are collected.
     void read_file(const std::string& path);
     /// The same for a recipe's text; `path` is for messages, and its folder is where relative paths start.
     void read_text(std::string_view text, const std::string& path);
@@ -53,8 +53,8 @@ class RecipeDraft {
     Recipe assemble() const;
     void check_numbers(const Recipe& recipe);
 
-    std::map<std::string, Entry> entries_;          ///< by "section.key"
-    std::map<std::string, std::string> sections_;   ///< sections present in the file: where they begin
+    std::map<std::string, Entry> entries_;         ///< by "section.key"
+    std::map<std::string, std::string> sections_;  ///< sections present in the file: where they begin
     std::vector<Mistake> mistakes_;
     bool body_required_ = true;
 };

@@ -22,19 +22,25 @@ bool names_recipe(std::string_view path) {
 
 std::string placeholder(const Setting& setting) {
     switch (setting.type) {
-        case ValueType::boolean: return "";
-        case ValueType::integer: return "N";
-        case ValueType::number: return setting.unit == "mm" ? "MM" : "X";
-        case ValueType::text: return "TEXT";
-        case ValueType::choice: return "WORD";
-        case ValueType::triple: return "X,Y,Z";
+        case ValueType::boolean:
+            return "";
+        case ValueType::integer:
+            return "N";
+        case ValueType::number:
+            return setting.unit == "mm" ? "MM" : "X";
+        case ValueType::text:
+            return "TEXT";
+        case ValueType::choice:
+            return "WORD";
+        case ValueType::triple:
+            return "X,Y,Z";
     }
     return "";
 }
 
 std::string option_help(const Setting& setting) {
-    return fmt::format("{} Accepts {}; default: {}. Recipe key: {}", setting.help, accepted(setting), setting.fallback,
-                       setting.name());
+    return fmt::format("{} Accepts {}; default: {}. Recipe key: {}", setting.help, accepted(setting),
+                       setting.fallback, setting.name());
 }
 
 }  // namespace
@@ -46,7 +52,8 @@ void RecipeOptions::add_to(CLI::App& command) {
         const Setting& setting = settings()[i];
         CLI::Option* option = nullptr;
         if (setting.type == ValueType::boolean) {
-            const std::string names = fmt::format("{}{{true}},--no-{}{{false}}", setting.flag, setting.flag.substr(2));
+            const std::string names =
+                fmt::format("{}{{true}},--no-{}{{false}}", setting.flag, setting.flag.substr(2));
             option = command.add_flag(names, texts_[i], option_help(setting));
         } else {
             option = command.add_option(setting.flag, texts_[i], option_help(setting));

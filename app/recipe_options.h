@@ -9,14 +9,15 @@
 
 namespace lamella {
 
-/// The input (a recipe or a model) and one option for each setting. Lives as long as the command line is parsed.
+/// The input (a recipe or a model) and one option for each setting. Lives as long as the command line is
+/// parsed.
 class RecipeOptions {
   public:
     /// Adds the options to a subcommand, in one group for each section.
     void add_to(CLI::App& command);
 
-    /// Recipe file first, flags over it. Throws InputError with all mistakes at once. Without `needs_body` the part
-    /// may be missing.
+    /// Recipe file first, flags over it. Throws InputError with all mistakes at once. Without `needs_body`
+    /// the part may be missing.
     Recipe read(bool needs_body = true) const;
 
     /// The input as given; empty when there is none.
@@ -24,7 +25,7 @@ class RecipeOptions {
 
   private:
     std::string input_;
-    std::vector<std::string> texts_;        ///< by row of the table
+    std::vector<std::string> texts_;     ///< by row of the table
     std::vector<CLI::Option*> options_;  ///< by row of the table
 };
 

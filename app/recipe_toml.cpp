@@ -1,11 +1,11 @@
 // Reading a recipe file: TOML into a RecipeDraft, with a line for every mistake.
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <toml++/toml.h>
 
 #include "app/recipe_draft.h"
 #include "engine/error.h"
@@ -28,20 +28,28 @@ std::string read_whole(const std::string& path) {
     if (file.bad()) throw InputError(path + ": cannot be read");
     text.resize(static_cast<std::size_t>(file.gcount()));
     if (text.size() > largest_recipe) {
-        throw InputError(fmt::format("{}: has more than {} bytes, which no recipe needs", path, largest_recipe));
+        throw InputError(
+            fmt::format("{}: has more than {} bytes, which no recipe needs", path, largest_recipe));
     }
     return text;
 }
 
 std::string found_type(const toml::node& node) {
     switch (node.type()) {
-        case toml::node_type::table: return "a table was found";
-        case toml::node_type::array: return "an array was found";
-        case toml::node_type::string: return "a text was found";
-        case toml::node_type::integer: return "a whole number was found";
-        case toml::node_type::floating_point: return "a number with a fraction was found";
-        case toml::node_type::boolean: return "true or false was found";
-        default: return "a date or time was found";
+        case toml::node_type::table:
+            return "a table was found";
+        case toml::node_type::array:
+            return "an array was found";
+        case toml::node_type::string:
+            return "a text was found";
+        case toml::node_type::integer:
+            return "a whole number was found";
+        case toml::node_type::floating_point:
+            return "a number with a fraction was found";
+        case toml::node_type::boolean:
+            return "true or false was found";
+        default:
+            return "a date or time was found";
     }
 }
 
@@ -79,7 +87,8 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
         case ValueType::choice:
             if (const auto* v = node.as_string()) return v->get();
             break;
-        case ValueType::triple: return triple(node);
+        case ValueType::triple:
+            return triple(node);
     }
     return std::nullopt;
 }
@@ -87,7 +96,8 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
 /// Keys are the user's text: cut to a length that a message can bear.
 std::string shown(std::string_view key) {
     std::string text;
-    for (const char c : key.substr(0, 64)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    for (const char c : key.substr(0, 64))
+        text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     return text;
 }
 
@@ -108,7 +118,7 @@ class TomlRecipe {
                 read_section(name, line, node);
             } else if (node.is_table()) {
                 const std::string near = nearest(name, known);
-                refuse(line, "[" + shown(name) + "]",
+                refuse(line, fmt::format("[{}]", shown(name)),
                        "unknown section" + (near.empty() ? "" : fmt::format(", did you mean `[{}]`?", near)),
                        "[part], [foam], [skin], [layers], [printer]");
             } else {
@@ -119,7 +129,9 @@ class TomlRecipe {
     }
 
   private:
-    std::string at(int line, const std::string& what) const { return fmt::format("{}:{}: {}", path_, line, what); }
+    std::string at(int line, const std::string& what) const {
+        return fmt::format("{}:{}: {}", path_, line, what);
+    }
 
     void refuse(int line, const std::string& what, const std::string& wrong, const std::string& right) {
         draft_.refuse(line, fmt::format("{}: {}; accepted: {}", at(line, what), wrong, right));
@@ -166,7 +178,8 @@ class TomlRecipe {
         }
         const std::string near = nearest(key, known);
         refuse(line, section + "." + shown(key),
-               "unknown key" + (near.empty() ? belongs(key) : fmt::format(", did you mean `{}`?", near)), listing);
+               "unknown key" + (near.empty() ? belongs(key) : fmt::format(", did you mean `{}`?", near)),
+               listing);
         // The key that was meant is not missing as well: one mistake, one message.
         if (!near.empty()) draft_.entries_.try_emplace(section + "." + near);
     }

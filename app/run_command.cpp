@@ -20,7 +20,8 @@ constexpr int fault = 3;
 
 int complain(const std::string& message, int code) {
     std::string lines = message;
-    for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;) lines.insert(++at, "lamella: ");
+    for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;)
+        lines.insert(++at, "lamella: ");
     std::fputs(("lamella: " + lines + "\n").c_str(), stderr);
     return code;
 }
@@ -50,7 +51,8 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
     } catch (const CLI::ParseError& error) {
         const CLI::App& command = chosen(root);
         const std::string name = &command == &root ? "lamella" : "lamella " + command.get_name();
-        return complain(std::string(error.what()) + "; `" + name + " --help` shows what is accepted", bad_input);
+        return complain(std::string(error.what()) + "; `" + name + " --help` shows what is accepted",
+                        bad_input);
     }
 }
 
@@ -58,16 +60,18 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
 
 int run_command(const std::vector<std::string>& arguments) {
     try {
-        CLI::App root("Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
-                      "lamella");
+        CLI::App root(
+            "Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
+            "lamella");
         root.require_subcommand(1);
-        finish_command(root,
-                       "  lamella slice insole.toml -o insole/\n"
-                       "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
-                       "  lamella slice --help      all options of one command\n"
-                       "  lamella keys              all keys of a recipe\n"
-                       "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
-                       "130 interrupted.");
+        finish_command(
+            root,
+            "  lamella slice insole.toml -o insole/\n"
+            "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
+            "  lamella slice --help      all options of one command\n"
+            "  lamella keys              all keys of a recipe\n"
+            "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
+            "130 interrupted.");
         add_slice_command(root, arguments);
         add_preview_command(root);
         add_info_command(root);

@@ -25,9 +25,10 @@ int pixels(double length, double pixel) { return std::max(1, static_cast<int>(st
 RowBand page_band(const Rect& page, const ImageProfile& image) {
     const dvec2 size = page.size();
     if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > most_pixels) {
-        throw InputError(fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
-                                     "{} x {} mm; accepted: larger pixels",
-                                     image.pixel_x, image.pixel_y, most_pixels, size.x, size.y));
+        throw InputError(
+            fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
+                        "{} x {} mm; accepted: larger pixels",
+                        image.pixel_x, image.pixel_y, most_pixels, size.x, size.y));
     }
     RowBand band;
     band.along_origin = page.lo.x;
@@ -64,13 +65,15 @@ std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page
 std::string section_svg(const std::vector<Contour>& contours, const Rect& page) {
     const dvec2 size = page.size();
     std::string text = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} "
+        "{1}\">\n"
         "<path fill=\"black\" fill-rule=\"evenodd\" d=\"",
         size.x, size.y);
     for (const Contour& contour : contours) {
         char command = 'M';
         for (const dvec2& p : contour.points) {
-            fmt::format_to(std::back_inserter(text), "{}{:.5f} {:.5f}", command, p.x - page.lo.x, page.hi.y - p.y);
+            fmt::format_to(std::back_inserter(text), "{}{:.5f} {:.5f}", command, p.x - page.lo.x,
+                           page.hi.y - p.y);
             command = 'L';
         }
         text += "Z\n";
@@ -103,9 +106,10 @@ std::string section_png(const SliceField& slice, const Rect& page, const ImagePr
     spec.attribute("ResolutionUnit", "cm");
     spec.attribute("XResolution", static_cast<float>(10 / image.pixel_x));
     spec.attribute("YResolution", static_cast<float>(10 / image.pixel_y));
-    if (!writer || !writer->open("section.png", spec) || !writer->write_image(OIIO::TypeDesc::UINT8, grey.data()) ||
-        !writer->close()) {
-        throw FaultError("the section's PNG cannot be made: " + (writer ? writer->geterror() : OIIO::geterror()));
+    if (!writer || !writer->open("section.png", spec) ||
+        !writer->write_image(OIIO::TypeDesc::UINT8, grey.data()) || !writer->close()) {
+        throw FaultError("the section's PNG cannot be made: " +
+                         (writer ? writer->geterror() : OIIO::geterror()));
     }
     return {bytes.begin(), bytes.end()};
 }

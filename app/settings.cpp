@@ -76,30 +76,38 @@ const Setting* find_setting(std::string_view section, std::string_view key) {
 
 std::string accepted(const Setting& setting) {
     switch (setting.type) {
-        case ValueType::boolean: return "true or false";
+        case ValueType::boolean:
+            return "true or false";
         case ValueType::integer: {
             if (setting.limits.hi > 1e15) return "a whole number from 0 to 9223372036854775807";
             return "a whole number" + range_text(setting) + with_unit(setting);
         }
-        case ValueType::number: return "a number" + range_text(setting) + with_unit(setting);
-        case ValueType::text: return "a text";
-        case ValueType::choice: return "one of " + joined(setting.choices);
-        case ValueType::triple: return "three numbers" + range_text(setting) + with_unit(setting);
+        case ValueType::number:
+            return "a number" + range_text(setting) + with_unit(setting);
+        case ValueType::text:
+            return "a text";
+        case ValueType::choice:
+            return "one of " + joined(setting.choices);
+        case ValueType::triple:
+            return "three numbers" + range_text(setting) + with_unit(setting);
     }
     return {};
 }
 
 std::optional<std::string> objection(const Setting& setting, const Value& value) {
     switch (setting.type) {
-        case ValueType::boolean: return std::nullopt;
+        case ValueType::boolean:
+            return std::nullopt;
         case ValueType::integer: {
             const std::int64_t v = std::get<std::int64_t>(value);
             if (static_cast<double>(v) < setting.limits.lo) return fmt::format("{} is too small", v);
             if (static_cast<double>(v) > setting.limits.hi) return fmt::format("{} is too large", v);
             return std::nullopt;
         }
-        case ValueType::number: return range_objection(setting, std::get<double>(value));
-        case ValueType::text: return text_objection(std::get<std::string>(value));
+        case ValueType::number:
+            return range_objection(setting, std::get<double>(value));
+        case ValueType::text:
+            return text_objection(std::get<std::string>(value));
         case ValueType::choice: {
             const auto& word = std::get<std::string>(value);
             const auto& list = setting.choices;
@@ -132,9 +140,12 @@ std::optional<Value> parse_value(const Setting& setting, const std::string& text
             if (const auto number = entire<double>(text)) value = *number;
             break;
         case ValueType::text:
-        case ValueType::choice: value = text; break;
+        case ValueType::choice:
+            value = text;
+            break;
         case ValueType::triple:
-            if (const auto three = parse_numbers(text, 3)) value = dvec3((*three)[0], (*three)[1], (*three)[2]);
+            if (const auto three = parse_numbers(text, 3))
+                value = dvec3((*three)[0], (*three)[1], (*three)[2]);
             break;
     }
     if (!value) {

@@ -24,8 +24,8 @@ struct Limits {
     double hi = infinity;
 };
 
-/// One row of the table. TOML reading, command-line options, help, the key listing and the job's identity are all
-/// made from it.
+/// One row of the table. TOML reading, command-line options, help, the key listing and the job's identity are
+/// all made from it.
 struct Setting {
     std::string section;
     std::string key;
@@ -67,14 +67,15 @@ std::optional<Value> parse_value(const Setting& setting, const std::string& text
 /// The value as a flag would be given it; numbers in their shortest exact form. parse_value reads it back.
 std::string format_value(const Value& value);
 
-/// Exactly `count` numbers with commas between them; nothing when the text is anything else. The numbers may be infinite
-/// or NaN.
+/// Exactly `count` numbers with commas between them; nothing when the text is anything else. The numbers may
+/// be infinite or NaN.
 std::optional<std::vector<double>> parse_numbers(std::string_view text, std::size_t count);
 
 /// The candidate that a misspelt word most likely means; empty when none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The reference of all keys: one paragraph a section, one line a key with its flag, range, default and meaning.
+/// The reference of all keys: one paragraph a section, one line a key with its flag, range, default and
+/// meaning.
 std::string settings_reference();
 
 }  // namespace lamella

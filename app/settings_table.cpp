@@ -107,123 +107,143 @@ constexpr Limits extent{1e-2, 1e5};
 constexpr Limits speed{0.1, 2000};
 
 void add_part(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.mesh; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.mesh; }>(
         "part", "mesh", "--mesh",
         {.fallback = "a mesh or a shape must be given",
          .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.shape; }>(
-        "part", "shape", "--shape", {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.radius; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.shape; }>(
+        "part", "shape", "--shape",
+        {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.radius; }>(
         "part", "radius", "--shape-radius",
         {.unit = "mm",
          .limits = extent,
          .fallback = "required by sphere, cylinder, capsule, torus",
          .help = "Radius; of a torus, of the circle in the middle of its tube."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.size; }>(
-        "part", "size", "--shape-size",
-        {.unit = "mm",
-         .limits = extent,
-         .fallback = "required by box, gyroid",
-         .help = "Edge lengths along x, y and z."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.height; }>(
-        "part", "height", "--shape-height",
-        {.unit = "mm",
-         .limits = extent,
-         .fallback = "required by cylinder, capsule",
-         .help = "Height from end to end, along z."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.tube; }>(
-        "part", "tube", "--shape-tube",
-        {.unit = "mm", .limits = extent, .fallback = "required by torus", .help = "Radius of the tube of a torus."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.period; }>(
-        "part", "period", "--shape-period",
-        {.unit = "mm", .limits = extent, .fallback = "required by gyroid", .help = "Length of one gyroid cell."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.thickness; }>(
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.size; }>("part", "size", "--shape-size",
+                                                             {.unit = "mm",
+                                                              .limits = extent,
+                                                              .fallback = "required by box, gyroid",
+                                                              .help = "Edge lengths along x, y and z."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.height; }>("part", "height", "--shape-height",
+                                                               {.unit = "mm",
+                                                                .limits = extent,
+                                                                .fallback = "required by cylinder, capsule",
+                                                                .help = "Height from end to end, along z."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.tube; }>("part", "tube", "--shape-tube",
+                                                             {.unit = "mm",
+                                                              .limits = extent,
+                                                              .fallback = "required by torus",
+                                                              .help = "Radius of the tube of a torus."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.period; }>("part", "period", "--shape-period",
+                                                               {.unit = "mm",
+                                                                .limits = extent,
+                                                                .fallback = "required by gyroid",
+                                                                .help = "Length of one gyroid cell."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.thickness; }>(
         "part", "thickness", "--shape-thickness",
         {.unit = "mm",
          .limits = any_length,
          .fallback = "required by gyroid",
          .help = "Thickness of the gyroid's sheet."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.unit; }>(
-        "part", "unit", "--unit", {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.scale; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.unit; }>(
+        "part", "unit", "--unit",
+        {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.scale; }>(
         "part", "scale", "--scale",
         {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Factor on the part's size, after the unit."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.part.name; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
         "part", "name", "--name",
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
 }
 
 void add_structure(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe& r) -> auto& { return foam(r).cell; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return foam(r).cell; }>(
         "foam", "cell", "--cell",
-        {.unit = "mm", .limits = {0.05, 1000}, .fallback = "required in [foam]", .help = "Mean diameter of a foam cell: one seed to every cell cubed."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return foam(r).beam; }>(
-        "foam", "beam", "--beam",
-        {.unit = "mm", .limits = {0.005, 500}, .fallback = "required in [foam]", .help = "Radius of the foam's beams."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return foam(r).seed; }>(
+        {.unit = "mm",
+         .limits = {0.05, 1000},
+         .fallback = "required in [foam]",
+         .help = "Mean diameter of a foam cell: one seed to every cell cubed."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return foam(r).beam; }>("foam", "beam", "--beam",
+                                                              {.unit = "mm",
+                                                               .limits = {0.005, 500},
+                                                               .fallback = "required in [foam]",
+                                                               .help = "Radius of the foam's beams."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return foam(r).seed; }>(
         "foam", "seed", "--seed",
-        {.limits = {0, 9223372036854775807.0}, .fallback = "1", .help = "Number that picks one foam among all."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return skin(r).thickness; }>(
+        {.limits = {0, 9223372036854775807.0},
+         .fallback = "1",
+         .help = "Number that picks one foam among all."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return skin(r).thickness; }>(
         "skin", "thickness", "--skin",
         {.unit = "mm",
          .limits = {0, 1000},
          .fallback = "required in [skin]",
          .help = "Thickness of the closed skin, inward from the surface; 0 for none."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.layer_height; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
         "layers", "height", "--layer-height",
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
 }
 
 void add_printer(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.name; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.name; }>(
         "printer", "profile", "--printer",
         {.choices = profile_words(),
          .fallback = default_profile().name,
-         .help = "Machine profile to start from, or a back-end's name for that back-end with plain settings."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.backend; }>(
-        "printer", "kind", "--printer-kind", {.choices = backend_words(), .help = "Back-end that makes the output."}));
+         .help =
+             "Machine profile to start from, or a back-end's name for that back-end with plain settings."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.backend; }>(
+        "printer", "kind", "--printer-kind",
+        {.choices = backend_words(), .help = "Back-end that makes the output."}));
 }
 
 void add_image(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.width; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.width; }>(
         "printer", "width", "--printer-width",
         {.unit = "px", .limits = {1, 65535}, .help = "Width of the display."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.height; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.height; }>(
         "printer", "height", "--printer-height",
         {.unit = "px", .limits = {1, 65535}, .help = "Height of the display."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.pixel_x; },
-                    [](Recipe& r) -> auto& { return r.printer.image.pixel_y; }>(
-        "printer", "pixel", "--printer-pixel",
-        {.unit = "mm", .limits = any_length, .help = "Edge of a square pixel; pixel_x and pixel_y in one."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.pixel_x; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }, [](Recipe & r) -> auto& {
+        return r.printer.image.pixel_y;
+    }>("printer", "pixel", "--printer-pixel",
+       {.unit = "mm", .limits = any_length, .help = "Edge of a square pixel; pixel_x and pixel_y in one."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }>(
         "printer", "pixel_x", "--printer-pixel-x",
         {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's width."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.pixel_y; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_y; }>(
         "printer", "pixel_y", "--printer-pixel-y",
         {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's height."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.mirror_x; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_x; }>(
         "printer", "mirror_x", "--printer-mirror-x", {.help = "Mirror the images left to right."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.mirror_y; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_y; }>(
         "printer", "mirror_y", "--printer-mirror-y", {.help = "Mirror the images top to bottom."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.portrait; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.portrait; }>(
         "printer", "portrait", "--printer-portrait", {.help = "Image columns run along +y of the plate."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.antialiasing; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.antialiasing; }>(
         "printer", "antialiasing", "--printer-antialiasing",
         {.help = "Grey edges: none, by sub_rows lines a pixel row, or by exact area."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.image.sub_rows; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_rows; }>(
         "printer", "sub_rows", "--printer-sub-rows",
         {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
 }
 
 void add_vector(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.vector.tolerance; },
-                    [](Recipe& r) -> auto& { return r.printer.filament.tolerance; }>(
-        "printer", "tolerance", "--printer-tolerance",
-        {.unit = "mm", .limits = {0.0005, 10}, .help = "Largest distance between a contour and the surface."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.vector.one_file; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.tolerance; }, [](Recipe & r) -> auto& {
+        return r.printer.filament.tolerance;
+    }>("printer", "tolerance", "--printer-tolerance",
+       {.unit = "mm",
+        .limits = {0.0005, 10},
+        .help = "Largest distance between a contour and the surface."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.one_file; }>(
         "printer", "one_file", "--printer-one-file",
         {.help = "One vector file with a group a layer instead of a folder of files."}));
-    t.push_back(row<[](Recipe& r) -> auto& { return r.printer.vector.margin; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.margin; }>(
         "printer", "margin", "--printer-margin",
         {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin round the part in vector files."}));
 }
@@ -234,35 +254,37 @@ void add_filament(std::vector<Setting>& t) {
         t.push_back(row<place>("printer", std::move(key), std::move(flag),
                                {.unit = std::move(unit), .limits = limits, .help = std::move(help)}));
     };
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.bed_x; }>(
-        "bed_x", "--printer-bed-x", "mm", {1, 1e5}, "Width of the bed.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.bed_y; }>(
-        "bed_y", "--printer-bed-y", "mm", {1, 1e5}, "Depth of the bed.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.bed_z; }>(
-        "bed_z", "--printer-bed-z", "mm", {1, 1e5}, "Largest height of a print.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.nozzle; }>(
-        "nozzle", "--printer-nozzle", "mm", {0.05, 10}, "Diameter of the nozzle's bore.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.filament; }>(
-        "filament", "--printer-filament", "mm", {0.5, 10}, "Diameter of the filament.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.line_width; }>(
-        "line_width", "--printer-line-width", "mm", {0.05, 20}, "Width of an extruded line.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.infill_density; }>(
-        "infill_density", "--printer-infill-density", "", {0, 1}, "Share of the inside that is filled.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.nozzle_temperature; }>(
-        "nozzle_temperature", "--printer-nozzle-temperature", "degrees Celsius", {0, 500},
-        "Temperature of the nozzle.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.bed_temperature; }>(
-        "bed_temperature", "--printer-bed-temperature", "degrees Celsius", {0, 250}, "Temperature of the bed.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.print_speed; }>(
-        "print_speed", "--printer-print-speed", "mm/s", speed, "Speed of printing.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.first_layer_speed; }>(
-        "first_layer_speed", "--printer-first-layer-speed", "mm/s", speed, "Speed of printing the first layer.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.travel_speed; }>(
-        "travel_speed", "--printer-travel-speed", "mm/s", speed, "Speed of moves without extrusion.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.retraction; }>(
-        "retraction", "--printer-retraction", "mm", {0, 100}, "Filament drawn back before a move.");
-    add.operator()<[](Recipe& r) -> auto& { return r.printer.filament.retraction_speed; }>(
-        "retraction_speed", "--printer-retraction-speed", "mm/s", speed, "Speed of drawing filament back.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_x; }
+    > ("bed_x", "--printer-bed-x", "mm", {1, 1e5}, "Width of the bed.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_y; }
+    > ("bed_y", "--printer-bed-y", "mm", {1, 1e5}, "Depth of the bed.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_z; }
+    > ("bed_z", "--printer-bed-z", "mm", {1, 1e5}, "Largest height of a print.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.nozzle; }
+    > ("nozzle", "--printer-nozzle", "mm", {0.05, 10}, "Diameter of the nozzle's bore.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.filament; }
+    > ("filament", "--printer-filament", "mm", {0.5, 10}, "Diameter of the filament.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.line_width; }
+    > ("line_width", "--printer-line-width", "mm", {0.05, 20}, "Width of an extruded line.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.infill_density; }
+    > ("infill_density", "--printer-infill-density", "", {0, 1}, "Share of the inside that is filled.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.nozzle_temperature; }
+    > ("nozzle_temperature", "--printer-nozzle-temperature", "degrees Celsius", {0, 500},
+       "Temperature of the nozzle.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_temperature; }
+    > ("bed_temperature", "--printer-bed-temperature", "degrees Celsius", {0, 250},
+       "Temperature of the bed.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.print_speed; }
+    > ("print_speed", "--printer-print-speed", "mm/s", speed, "Speed of printing.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.first_layer_speed; }
+    > ("first_layer_speed", "--printer-first-layer-speed", "mm/s", speed,
+       "Speed of printing the first layer.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.travel_speed; }
+    > ("travel_speed", "--printer-travel-speed", "mm/s", speed, "Speed of moves without extrusion.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.retraction; }
+    > ("retraction", "--printer-retraction", "mm", {0, 100}, "Filament drawn back before a move.");
+    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.retraction_speed; }
+    > ("retraction_speed", "--printer-retraction-speed", "mm/s", speed, "Speed of drawing filament back.");
 }
 
 std::vector<Setting> make_table() {
@@ -283,10 +305,14 @@ std::vector<Setting> make_table() {
 
 double millimetres(LengthUnit unit) {
     switch (unit) {
-        case LengthUnit::mm: return 1;
-        case LengthUnit::cm: return 10;
-        case LengthUnit::m: return 1000;
-        case LengthUnit::inch: return 25.4;
+        case LengthUnit::mm:
+            return 1;
+        case LengthUnit::cm:
+            return 10;
+        case LengthUnit::m:
+            return 1000;
+        case LengthUnit::inch:
+            return 25.4;
     }
     return 1;
 }

@@ -12,13 +12,15 @@ namespace lamella {
 TextOutput::TextOutput(const std::string& path) : path_(path == "-" ? "" : path), file_(stdout) {
     if (path_.empty()) return;
     std::error_code ignored;
-    if (std::filesystem::is_directory(path_, ignored)) throw InputError(path_ + ": is a folder; a file name is needed");
+    if (std::filesystem::is_directory(path_, ignored))
+        throw InputError(path_ + ": is a folder; a file name is needed");
     // Devices and pipes have no final name to be given.
     const bool in_place =
         std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored);
     if (!in_place) temporary_ = path_ + ".part";
     file_ = std::fopen((in_place ? path_ : temporary_).c_str(), "wb");
-    if (!file_) throw FaultError((in_place ? path_ : temporary_) + ": cannot be made: " + std::strerror(errno));
+    if (!file_)
+        throw FaultError((in_place ? path_ : temporary_) + ": cannot be made: " + std::strerror(errno));
 }
 
 TextOutput::~TextOutput() {

@@ -16,8 +16,8 @@ class ReaderGone : public Error {
     int exit_code() const override { return 0; }
 };
 
-/// A buffered sink. Files are written as PATH.part and renamed by close(), so a file under its final name is whole;
-/// without close() the unfinished file is removed.
+/// A buffered sink. Files are written as PATH.part and renamed by close(), so a file under its final name is
+/// whole; without close() the unfinished file is removed.
 class TextOutput {
   public:
     /// Opens the file, or standard output when the path is empty or "-". Throws FaultError when that fails.

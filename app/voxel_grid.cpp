@@ -1,4 +1,5 @@
-// Building the grid from slices, walking rays through it, and cone tracing (Crassin et al. 2011) for soft light.
+// Building the grid from slices, walking rays through it, and cone tracing (Crassin et al. 2011) for soft
+// light.
 #include "app/voxel_grid.h"
 
 #include <tbb/parallel_for.h>
@@ -101,7 +102,8 @@ void VoxelGrid::build_pyramid() {
             for (int y = 0; y < level.ny; ++y) {
                 for (int x = 0; x < level.nx; ++x) {
                     unsigned sum = 7;  // rounds up: only truly empty blocks are 0
-                    for (int c = 0; c < 8; ++c) sum += child(2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2));
+                    for (int c = 0; c < 8; ++c)
+                        sum += child(2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2));
                     level.density[at++] = static_cast<std::uint8_t>(sum / 8);
                 }
             }
@@ -166,8 +168,9 @@ double VoxelGrid::cone(dvec3 start, dvec3 direction, double spread, double reach
     for (double t = 1.5; t < reach && light > enough;) {
         const double width = std::max(2.0, spread * t);
         const dvec3 p = start + direction * t;
-        if ((p.z > far.z && direction.z >= 0) || (p.x > far.x && direction.x >= 0) || (p.y > far.y && direction.y >= 0) ||
-            (p.x < -1 && direction.x <= 0) || (p.y < -1 && direction.y <= 0) || (p.z < -1 && direction.z <= 0)) {
+        if ((p.z > far.z && direction.z >= 0) || (p.x > far.x && direction.x >= 0) ||
+            (p.y > far.y && direction.y >= 0) || (p.x < -1 && direction.x <= 0) ||
+            (p.y < -1 && direction.y <= 0) || (p.z < -1 && direction.z <= 0)) {
             break;
         }
         std::size_t k = 0;

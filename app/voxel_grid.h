@@ -12,9 +12,9 @@ namespace lamella {
 /// Positions handed to the grid are in cells from its lower corner, so that one cell is one unit.
 class VoxelGrid {
   public:
-    /// Cuts the part into planes and marks every cell within the bounds that a run touches, so nothing visible is
-    /// left out. `cells` is
-    /// the number of cells along the longest side. Uses the calling task arena's threads.
+    /// Cuts the part into planes and marks every cell within the bounds that a run touches, so nothing
+    /// visible is left out. `cells` is the number of cells along the longest side. Uses the calling task
+    /// arena's threads.
     VoxelGrid(const Field& part, const Box& bounds, int cells);
 
     double pitch() const { return pitch_; }  ///< edge of a cell, mm
@@ -22,7 +22,8 @@ class VoxelGrid {
     dvec3 to_part(dvec3 g) const { return origin_ + g * pitch_; }
     dvec3 size() const { return {nx_, ny_, nz_}; }
 
-    /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid first.
+    /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid
+    /// first.
     std::optional<Interval> next_solid(dvec3 start, dvec3 direction, double from, double to) const;
 
     /// Light that arrives through a cone, 1 for all of it. The cone's width grows by `spread` cells a cell.
@@ -35,7 +36,8 @@ class VoxelGrid {
     };
 
     bool solid(int x, int y, int z) const {
-        const std::size_t row = static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y);
+        const std::size_t row =
+            static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y);
         return bits_[row * words_ + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
     }
     void mark_plane(const Field& part, const Box& bounds, int z);

@@ -48,7 +48,9 @@ std::string contents(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void write(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
 
 struct Outcome {
     int code = -1;
@@ -59,15 +61,18 @@ struct Outcome {
 /// Runs `lamella` with these arguments (a shell's words).
 Outcome lamella(const std::string& arguments) {
     const Folder folder;
-    const std::string line =
-        std::string(LAMELLA_COMMAND) + " " + arguments + " >" + folder / "out" + " 2>" + folder / "err" + " </dev/null";
+    const std::string line = std::string(LAMELLA_COMMAND) + " " + arguments + " >" + folder / "out" + " 2>" +
+                             folder / "err" + " </dev/null";
     const int status = std::system(line.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"), contents(folder / "err")};
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"),
+                    contents(folder / "err")};
     UNSCOPED_INFO("lamella " << arguments << "\nexit code " << outcome.code << "\n" << outcome.err);
     return outcome;
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 std::size_t count_lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -77,7 +82,8 @@ std::size_t count_lines(const std::string& text) {
 std::map<std::string, std::string> tree(const std::string& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = contents(entry.path().string());
+        if (entry.is_regular_file())
+            files[fs::relative(entry.path(), folder).string()] = contents(entry.path().string());
     }
     return files;
 }
@@ -110,11 +116,12 @@ TEST_CASE("help and version are everywhere and say what a command takes") {
 
 TEST_CASE("wrong command lines end with code 2 and a message") {
     for (const std::string wrong :
-         {"", "slize", "slice", "slice --cell", "slice --no-such", "slice a.stl b.stl", "slice a.stl --threads many",
-          "section --shape sphere --shape-radius 3", "dump clouds --cell 1 --beam 0.1", "info no-such-file.stl",
-          "slice no-such-file.toml", "dump beams --cell 3 --beam 0.3", "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1",
-          "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1,nan", "dump seeds --cell 3 --beam 0.3 --box 5,0,0,1,1,1",
-          "dump seeds --shape sphere --shape-radius 3"}) {
+         {"", "slize", "slice", "slice --cell", "slice --no-such", "slice a.stl b.stl",
+          "slice a.stl --threads many", "section --shape sphere --shape-radius 3",
+          "dump clouds --cell 1 --beam 0.1", "info no-such-file.stl", "slice no-such-file.toml",
+          "dump beams --cell 3 --beam 0.3", "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1",
+          "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1,nan",
+          "dump seeds --cell 3 --beam 0.3 --box 5,0,0,1,1,1", "dump seeds --shape sphere --shape-radius 3"}) {
         const Outcome outcome = lamella(wrong);
         CHECK(outcome.code == 2);
         CHECK(outcome.err.starts_with("lamella: "));
@@ -141,7 +148,8 @@ TEST_CASE("a ball becomes layers in every format, with its volume reported") {
         const std::string kind = backend.name;
         CAPTURE(kind);
         const std::string output = folder / ("ball." + kind);
-        const Outcome outcome = lamella("slice " + ball + small_plate + "--printer " + kind + " --json -o " + output);
+        const Outcome outcome =
+            lamella("slice " + ball + small_plate + "--printer " + kind + " --json -o " + output);
         REQUIRE(outcome.code == 0);
         const auto summary = nlohmann::json::parse(outcome.out);
         CHECK(summary["layers"] == 60);
@@ -153,13 +161,15 @@ TEST_CASE("a ball becomes layers in every format, with its volume reported") {
         CHECK(fs::exists(output));
         const Outcome again = lamella("slice " + ball + small_plate + "--printer " + kind + " -o " + output);
         CHECK(again.code == 2);
-        CHECK(lamella("slice " + ball + small_plate + "--printer " + kind + " --force -o " + output).code == 0);
+        CHECK(lamella("slice " + ball + small_plate + "--printer " + kind + " --force -o " + output).code ==
+              0);
     }
 }
 
 TEST_CASE("a quiet run says nothing, and one thread makes the same bytes as four") {
     const Folder folder;
-    const std::string job = "slice " + ball + small_plate + "--cell 1.5 --beam 0.2 --skin 0.3 --printer png --quiet ";
+    const std::string job =
+        "slice " + ball + small_plate + "--cell 1.5 --beam 0.2 --skin 0.3 --printer png --quiet ";
     const Outcome one = lamella(job + "--threads 1 -o " + folder / "one");
     CHECK(one.code == 0);
     CHECK(one.err.empty());
@@ -186,7 +196,8 @@ TEST_CASE("an interrupted run says how to go on, and going on makes the same byt
     const std::string job =
         "slice --shape box --shape-size 20,20,40 --layer-height 0.02 --cell 1 --beam 0.12 --printer png "
         "--printer-width 1200 --printer-height 1200 --printer-pixel 0.02 --threads 2 ";
-    const std::string line = "exec " + std::string(LAMELLA_COMMAND) + " " + job + "-o " + folder / "cut" + " 2>" + folder / "err";
+    const std::string line =
+        "exec " + std::string(LAMELLA_COMMAND) + " " + job + "-o " + folder / "cut" + " 2>" + folder / "err";
     const pid_t child = fork();
     REQUIRE(child >= 0);
     if (child == 0) {
@@ -197,10 +208,12 @@ TEST_CASE("an interrupted run says how to go on, and going on makes the same byt
     const auto written = [&] {
         std::size_t files = 0;
         std::error_code ignored;
-        for (const auto& entry : fs::recursive_directory_iterator(folder / "", ignored)) files += entry.is_regular_file();
+        for (const auto& entry : fs::recursive_directory_iterator(folder / "", ignored))
+            files += entry.is_regular_file();
         return files;
     };
-    for (int i = 0; i < 600 && written() < 12; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 600 && written() < 12; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(child, SIGINT);
     int status = 0;
     REQUIRE(waitpid(child, &status, 0) == child);
@@ -288,8 +301,8 @@ TEST_CASE("a preview is a picture with the part in its middle") {
 TEST_CASE("a closed pipe ends a run quietly") {
     const Folder folder;
     const std::string line = std::string("{ ") + LAMELLA_COMMAND +
-                             " dump beams --cell 1 --beam 0.1 --box 0,0,0,40,40,40 2>" + folder / "err" + "; echo $? >" +
-                             folder / "code" + "; } | head -n 1 >" + folder / "out";
+                             " dump beams --cell 1 --beam 0.1 --box 0,0,0,40,40,40 2>" + folder / "err" +
+                             "; echo $? >" + folder / "code" + "; } | head -n 1 >" + folder / "out";
     REQUIRE(std::system(line.c_str()) == 0);
     CHECK(count_lines(contents(folder / "out")) == 1);
     CHECK(contents(folder / "err").empty());

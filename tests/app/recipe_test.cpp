@@ -40,7 +40,9 @@ std::string complaint(const std::string& text) {
     return lines.front();
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 std::string message(RecipeDraft& draft) {
     try {
@@ -57,12 +59,18 @@ const std::string sphere = "[part]\nshape = \"sphere\"\nradius = 10\n";
 Value another_value(const Setting& setting) {
     const Value held = setting.load(Recipe{});
     switch (setting.type) {
-        case ValueType::boolean: return !std::get<bool>(held);
-        case ValueType::integer: return std::int64_t{7};
-        case ValueType::number: return setting.limits.hi <= 1 ? 0.375 : 3.0625;
-        case ValueType::text: return std::string("word");
-        case ValueType::choice: return setting.choices.back();
-        case ValueType::triple: return dvec3(1.5, 2.25, 3);
+        case ValueType::boolean:
+            return !std::get<bool>(held);
+        case ValueType::integer:
+            return std::int64_t{7};
+        case ValueType::number:
+            return setting.limits.hi <= 1 ? 0.375 : 3.0625;
+        case ValueType::text:
+            return std::string("word");
+        case ValueType::choice:
+            return setting.choices.back();
+        case ValueType::triple:
+            return dvec3(1.5, 2.25, 3);
     }
     return held;
 }
@@ -159,7 +167,8 @@ TEST_CASE("a flag and its recipe key set the same value") {
 
         RecipeDraft from_file;
         RecipeDraft from_flag;
-        const std::string text = "[" + setting.section + "]\n" + setting.key + " = " + toml_text(setting, value);
+        const std::string text =
+            "[" + setting.section + "]\n" + setting.key + " = " + toml_text(setting, value);
         from_file.read_text(text, "test.toml");
         from_flag.assign_flag(setting, format_value(value));
         const bool wrong_in_file = mentions(message(from_file), "accepted: " + accepted(setting) + "\n");
@@ -196,7 +205,8 @@ TEST_CASE("a wrong value is told with file, line, key and what is accepted") {
     CHECK(complaint(sphere + "[layers]\nheight = \"thin\"\n") ==
           "folder/test.toml:5: layers.height: a text was found; accepted: a number from 0.001 to 10 mm");
     CHECK(complaint(sphere + "[printer]\n\n\nsub_rows = 2.5\n") ==
-          "folder/test.toml:7: printer.sub_rows: a number with a fraction was found; accepted: a whole number from 1 to 64");
+          "folder/test.toml:7: printer.sub_rows: a number with a fraction was found; accepted: a whole "
+          "number from 1 to 64");
     CHECK(complaint(sphere + "[printer]\nmirror_x = 1\n") ==
           "folder/test.toml:5: printer.mirror_x: a whole number was found; accepted: true or false");
 }
@@ -208,7 +218,8 @@ TEST_CASE("numbers that are none are refused") {
         REQUIRE(lines.size() == 1);
         CHECK(mentions(lines[0], "folder/test.toml:5:"));
     }
-    CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = [1, nan, 3]\n"), "test.toml:3: part.size: nan is not"));
+    CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = [1, nan, 3]\n"),
+                   "test.toml:3: part.size: nan is not"));
     for (const std::string bad : {"inf", "nan", "", "1,5", "0x10", "1mm", " 1", "--1"}) {
         CAPTURE(bad);
         std::string wrong;
@@ -225,16 +236,19 @@ TEST_CASE("a triple is exactly three numbers") {
         CAPTURE(bad);
         CHECK_FALSE(parse_value(size, bad, wrong));
     }
-    CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = [1, 2]\n"), "test.toml:3: part.size: an array was found"));
+    CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = [1, 2]\n"),
+                   "test.toml:3: part.size: an array was found"));
     CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = 4\n"), "three numbers"));
 }
 
 TEST_CASE("unknown keys and sections are refused, with the near one named") {
     const std::string key = complaint(sphere + "[skin]\nthicknes = 1\n");
     CHECK(mentions(key, "folder/test.toml:5: skin.thicknes: unknown key, did you mean `thickness`?"));
-    CHECK(mentions(complaint(sphere + "[fom]\ncell = 1\n"), "test.toml:4: [fom]: unknown section, did you mean `[foam]`?"));
+    CHECK(mentions(complaint(sphere + "[fom]\ncell = 1\n"),
+                   "test.toml:4: [fom]: unknown section, did you mean `[foam]`?"));
     CHECK(mentions(complaint(sphere + "[layers]\nbeam = 1\n"), "`beam` belongs to [foam]"));
-    CHECK(mentions(complaint("cell = 3\n" + sphere), "test.toml:1: cell: stands outside a section, `cell` belongs to [foam]"));
+    CHECK(mentions(complaint("cell = 3\n" + sphere),
+                   "test.toml:1: cell: stands outside a section, `cell` belongs to [foam]"));
     CHECK(mentions(complaint(sphere + "[printer]\nantialiasing = \"row\"\n"), "did you mean `rows`?"));
     CHECK(mentions(complaint("foam = 3\n" + sphere), "test.toml:1: foam: a whole number was found"));
     CHECK(mentions(complaint("[[foam]]\ncell = 3\n" + sphere), "foam: an array was found"));
@@ -244,20 +258,27 @@ TEST_CASE("keys that belong together must stand together") {
     CHECK(complaint(sphere + "[foam]\ncell = 3\n") ==
           "folder/test.toml:4: foam.beam: missing, foam needs it; accepted: a number from 0.005 to 500 mm");
     CHECK(mentions(complaint(sphere + "[skin]\n"), "test.toml:4: skin.thickness: missing"));
-    CHECK(mentions(complaint("[part]\nshape = \"sphere\"\n"), "test.toml:1: part.radius: missing, shape sphere needs it"));
+    CHECK(mentions(complaint("[part]\nshape = \"sphere\"\n"),
+                   "test.toml:1: part.radius: missing, shape sphere needs it"));
     CHECK(mentions(complaint("[layers]\nheight = 0.1\n"), "no body is given"));
     CHECK(mentions(complaint(""), "no body is given"));
 }
 
 TEST_CASE("contradictions are refused") {
     CHECK(complaint("[part]\nmesh = \"a.stl\"\nshape = \"sphere\"\n") ==
-          "folder/test.toml:3: part.shape: contradicts folder/test.toml:2: part.mesh; accepted: a mesh or a shape, not both");
-    CHECK(mentions(complaint("[part]\nmesh = \"a.stl\"\nradius = 3\n"), "test.toml:3: part.radius: only a shape has it"));
-    CHECK(mentions(complaint(sphere + "tube = 2\n"), "test.toml:4: part.tube: a sphere does not have it; accepted: radius"));
-    CHECK(mentions(complaint(sphere + "[printer]\npixel = 0.05\npixel_x = 0.04\n"), "test.toml:6: printer.pixel_x: contradicts"));
-    CHECK(mentions(complaint(sphere + "[foam]\ncell = 1\nbeam = 0.5\n"), "test.toml:6: foam.beam: 0.5 mm fills cells of 1 mm"));
+          "folder/test.toml:3: part.shape: contradicts folder/test.toml:2: part.mesh; accepted: a mesh or a "
+          "shape, not both");
+    CHECK(mentions(complaint("[part]\nmesh = \"a.stl\"\nradius = 3\n"),
+                   "test.toml:3: part.radius: only a shape has it"));
+    CHECK(mentions(complaint(sphere + "tube = 2\n"),
+                   "test.toml:4: part.tube: a sphere does not have it; accepted: radius"));
+    CHECK(mentions(complaint(sphere + "[printer]\npixel = 0.05\npixel_x = 0.04\n"),
+                   "test.toml:6: printer.pixel_x: contradicts"));
+    CHECK(mentions(complaint(sphere + "[foam]\ncell = 1\nbeam = 0.5\n"),
+                   "test.toml:6: foam.beam: 0.5 mm fills cells of 1 mm"));
     CHECK(mentions(complaint("[part]\nshape = \"torus\"\nradius = 2\ntube = 2\n"), "closes the hole"));
-    CHECK(mentions(complaint("[part]\nshape = \"capsule\"\nradius = 2\nheight = 3\n"), "test.toml:4: part.height: 3 mm is less"));
+    CHECK(mentions(complaint("[part]\nshape = \"capsule\"\nradius = 2\nheight = 3\n"),
+                   "test.toml:4: part.height: 3 mm is less"));
     CHECK(mentions(complaint(sphere + "name = \"../up\"\n"), "test.toml:4: part.name"));
 }
 
