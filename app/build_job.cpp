@@ -67,13 +67,6 @@ FieldPtr shape_body(const PartRecipe& part) {
     throw InputError("part: no body is given; accepted: a mesh file or a shape");
 }
 
-/// part = body and (foam or skin): the foam and the skin are cut by the body they fill.
-FieldPtr join(const FieldPtr& body, const FieldPtr& foam, const FieldPtr& skin) {
-    if (!foam && !skin) return body;
-    FieldPtr filling = foam && skin ? make_union({foam, skin}) : foam ? foam : skin;
-    return make_intersection({body, std::move(filling)});
-}
-
 int layers_of(const Box& bounds, double layer_height) {
     const double height = bounds.size().z;
     if (height / layer_height > most_layers) {
@@ -116,8 +109,8 @@ BuiltJob build_job(const Recipe& recipe) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds);
-    const FieldPtr skin = recipe.skin ? make_shell(built.body, recipe.skin->thickness) : nullptr;
-    job.part = join(built.body, built.foam, skin);
+    const double skin = recipe.skin ? recipe.skin->thickness : 0;
+    job.part = built.foam || skin > 0 ? make_filled_body(built.body, built.foam, skin) : built.body;
     job.name = recipe.part.name;
     job.layer_height = recipe.layer_height;
     job.layer_count = layers_of(job.bounds, recipe.layer_height);

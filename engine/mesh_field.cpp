@@ -76,8 +76,9 @@ class MeshField : public Field {
   public:
     explicit MeshField(MeshDataPtr data) : data_(std::move(data)) {}
 
-    double value(dvec3 p) const override {
-        const double d = data_->tree.distance(p);
+    double value(dvec3 p) const override { return value_within(p, infinity); }
+    double value_within(dvec3 p, double limit) const override {
+        const double d = data_->tree.distance(p, limit);
         return data_->tree.winding(p) != 0 ? -d : d;
     }
     Interval range(const Box& box) const override { return lipschitz_range(*this, box); }

@@ -1,10 +1,48 @@
-// Shells by the body's own closed form.
+// Shells by the body's own closed form, and filled bodies that ask the body once for each point.
 #include "engine/shell.h"
 
 #include "engine/csg.h"
 #include "engine/error.h"
+#include "engine/slice_context.h"
 
 namespace lamella {
+namespace {
+
+/// Everything but the value at a point is the constructive solid's. The value asks the body once, and for its
+/// distance only as far as it matters: deep inside, the filling alone decides.
+class FilledBody : public Field {
+  public:
+    FilledBody(FieldPtr body, FieldPtr filling, double thickness, FieldPtr solid)
+        : body_(std::move(body)),
+          filling_(std::move(filling)),
+          thickness_(thickness),
+          solid_(std::move(solid)) {}
+
+    double value(dvec3 p) const override {
+        const double f = filling_->value(p);
+        // Inside, at depth d: max(-d, min(f, d - thickness)), which is f once d reaches both -f and f +
+        // thickness.
+        const double enough = std::max(-f, thickness_ > 0 ? f + thickness_ : 0.0);
+        double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
+        if (b > 0) return b < enough ? b : body_->value(p);
+        if (-b >= enough) return f;
+        return std::max(b, thickness_ > 0 ? std::min(f, -b - thickness_) : f);
+    }
+    Interval range(const Box& box) const override { return solid_->range(box); }
+    Metric metric() const override { return solid_->metric(); }
+    FieldPtr offset(double d) const override { return solid_->offset(d); }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.slice(*solid_, z);
+    }
+    Box bounds() const override { return solid_->bounds(); }
+
+  private:
+    FieldPtr body_, filling_;
+    double thickness_;
+    FieldPtr solid_;
+};
+
+}  // namespace
 
 FieldPtr Field::shell(double thickness) const {
     FieldPtr core = offset(-thickness);
@@ -20,6 +58,17 @@ FieldPtr make_shell(const FieldPtr& body, double thickness) {
             "this shape has no exact 3D offset, so it cannot be given a skin of a stated thickness");
     }
     return make_difference(body, make_offset(body, -thickness));
+}
+
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
+    const bool skinned = thickness > 0;
+    if (!body || (!filling && !skinned))
+        throw InputError("a filled body needs a body, and a filling or a skin");
+    FieldPtr shell = skinned ? make_shell(body, thickness) : nullptr;
+    if (!filling) return make_intersection({std::move(body), std::move(shell)});
+    FieldPtr inside = skinned ? make_union({filling, std::move(shell)}) : filling;
+    FieldPtr solid = make_intersection({body, std::move(inside)});
+    return std::make_shared<FilledBody>(std::move(body), std::move(filling), thickness, std::move(solid));
 }
 
 }  // namespace lamella

@@ -50,6 +50,8 @@ std::vector<Named> all_fields() {
         {"L-shaped mesh shell",
          make_intersection({make_mesh_field(shapes::closed(shapes::l_prism())),
                             make_shell(make_mesh_field(shapes::closed(shapes::l_prism())), 0.4)})},
+        {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
+        {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
         {"union", make_union({box, cone, torus})},
         {"intersection", make_intersection({sphere, box, cone})},
         {"difference", make_difference(box, torus)},
@@ -254,6 +256,26 @@ TEST_CASE("an offset solid is the set of points within the offset of the solid")
                 const double v = named.field->value(p) - d;
                 if (std::abs(v) < 1e-9) continue;
                 REQUIRE((moved->value(p) < 0) == (v < 0));
+            }
+        }
+    }
+}
+
+TEST_CASE("a filled body has the value of the set operations that it stands for") {
+    const unsigned seed = 4;
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> at(-3, 3);
+    const FieldPtr filling = make_union({make_torus({0, 0.1, 0}, 1.5, 0.4), make_sphere({1.5, 1, 0.5}, 0.6)});
+    for (const FieldPtr& body :
+         {make_mesh_field(shapes::closed(shapes::icosphere(3, 2.4))), make_sphere({0, 0, 0}, 2.5)}) {
+        for (const double t : {0.0, 0.4}) {
+            const FieldPtr filled = make_filled_body(body, filling, t);
+            const FieldPtr inside = t > 0 ? make_union({filling, make_shell(body, t)}) : filling;
+            const FieldPtr expected = make_intersection({body, inside});
+            for (int k = 0; k < 2000; ++k) {
+                const dvec3 p(at(random), at(random), at(random));
+                REQUIRE(filled->value(p) == Approx(expected->value(p)).margin(1e-12));
             }
         }
     }

@@ -42,7 +42,7 @@ FieldPtr foam_in(const FieldPtr& body, double cell, double beam, double skin) {
 }
 
 std::map<std::string, FieldPtr> solids() {
-    const MeshFile koala = read_mesh(LAMELLA_SOURCE_DIR "/examples/models/koala_mm.obj", {});
+    const MeshFile koala = read_mesh(LAMELLA_SOURCE_DIR "/examples/models/koala_mm.obj", MeshReadOptions{});
     const FieldPtr ball = make_sphere({0.1, 0.2, 0.3}, 9);
     return {
         {"primitives",
