@@ -67,6 +67,15 @@ FieldPtr shape_body(const PartRecipe& part) {
     throw InputError("part: no body is given; accepted: a mesh file or a shape");
 }
 
+FieldPtr skin_of(const FieldPtr& body, const SkinRecipe& skin) {
+    try {
+        return make_shell(body, skin.thickness);
+    } catch (const InputError& error) {
+        throw InputError(std::string("skin.thickness / --skin: ") + error.what() +
+                         "; accepted: a mesh, or another shape than this one");
+    }
+}
+
 /// part = body and (foam or skin): the foam and the skin are cut by the body they fill.
 FieldPtr join(const FieldPtr& body, const FieldPtr& foam, const FieldPtr& skin) {
     if (!foam && !skin) return body;
@@ -116,7 +125,7 @@ BuiltJob build_job(const Recipe& recipe) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds);
-    const FieldPtr skin = recipe.skin ? make_shell(built.body, recipe.skin->thickness) : nullptr;
+    const FieldPtr skin = recipe.skin ? skin_of(built.body, *recipe.skin) : nullptr;
     job.part = join(built.body, built.foam, skin);
     job.name = recipe.part.name;
     job.layer_height = recipe.layer_height;
