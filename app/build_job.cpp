@@ -67,6 +67,17 @@ FieldPtr shape_body(const PartRecipe& part) {
     throw InputError("part: no body is given; accepted: a mesh file or a shape");
 }
 
+/// The body itself, or filled with foam and skin.
+FieldPtr part_of(const FieldPtr& body, const FieldPtr& foam, const std::optional<SkinRecipe>& skin) {
+    if (!foam && !skin) return body;
+    try {
+        return make_filled_body(body, foam, skin ? skin->thickness : 0);
+    } catch (const InputError& error) {
+        throw InputError(std::string("skin.thickness / --skin: ") + error.what() +
+                         "; accepted: a mesh, or another shape than this one");
+    }
+}
+
 int layers_of(const Box& bounds, double layer_height) {
     const double height = bounds.size().z;
     if (height / layer_height > most_layers) {
@@ -109,8 +120,7 @@ BuiltJob build_job(const Recipe& recipe) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds);
-    const double skin = recipe.skin ? recipe.skin->thickness : 0;
-    job.part = built.foam || skin > 0 ? make_filled_body(built.body, built.foam, skin) : built.body;
+    job.part = part_of(built.body, built.foam, recipe.skin);
     job.name = recipe.part.name;
     job.layer_height = recipe.layer_height;
     job.layer_count = layers_of(job.bounds, recipe.layer_height);

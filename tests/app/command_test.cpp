@@ -59,7 +59,7 @@ struct Outcome {
 };
 
 /// Runs `lamella` with these arguments (a shell's words).
-Outcome lamella(const std::string& arguments) {
+Outcome run_lamella(const std::string& arguments) {
     const Folder folder;
     const std::string line = std::string(LAMELLA_COMMAND) + " " + arguments + " >" + folder / "out" + " 2>" +
                              folder / "err" + " </dev/null";
@@ -95,23 +95,23 @@ const double ball_volume = 4.0 / 3.0 * 3.14159265358979 * 27;
 }  // namespace
 
 TEST_CASE("help and version are everywhere and say what a command takes") {
-    const Outcome version = lamella("--version");
+    const Outcome version = run_lamella("--version");
     CHECK(version.code == 0);
     CHECK(mentions(version.out, "lamella "));
     for (const std::string command : {"slice", "preview", "info", "section", "dump", "printers", "keys"}) {
-        const Outcome help = lamella(command + " --help");
+        const Outcome help = run_lamella(command + " --help");
         CHECK(help.code == 0);
         CHECK(mentions(help.out, "Examples:"));
         CHECK(mentions(help.out, "lamella " + command));
-        CHECK(lamella(command + " --version").out == version.out);
+        CHECK(run_lamella(command + " --version").out == version.out);
     }
-    const Outcome slice = lamella("slice --help");
+    const Outcome slice = run_lamella("slice --help");
     for (const auto& setting : lamella::settings()) {
         INFO(setting.name());
         CHECK(mentions(slice.out, setting.flag));
     }
-    CHECK(mentions(lamella("keys").out, "[foam]"));
-    CHECK(mentions(lamella("printers").out, "png"));
+    CHECK(mentions(run_lamella("keys").out, "[foam]"));
+    CHECK(mentions(run_lamella("printers").out, "png"));
 }
 
 TEST_CASE("wrong command lines end with code 2 and a message") {
@@ -122,12 +122,12 @@ TEST_CASE("wrong command lines end with code 2 and a message") {
           "dump beams --cell 3 --beam 0.3", "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1",
           "dump beams --cell 3 --beam 0.3 --box 0,0,0,1,1,nan",
           "dump seeds --cell 3 --beam 0.3 --box 5,0,0,1,1,1", "dump seeds --shape sphere --shape-radius 3"}) {
-        const Outcome outcome = lamella(wrong);
+        const Outcome outcome = run_lamella(wrong);
         CHECK(outcome.code == 2);
         CHECK(outcome.err.starts_with("lamella: "));
         CHECK(outcome.out.empty());
     }
-    const Outcome flag = lamella("slice " + ball + "--cell three --beam 0.2");
+    const Outcome flag = run_lamella("slice " + ball + "--cell three --beam 0.2");
     CHECK(flag.code == 2);
     CHECK(mentions(flag.err, "--cell: \"three\" cannot be read; accepted: a number from 0.05 to 1000 mm"));
 }
@@ -135,7 +135,7 @@ TEST_CASE("wrong command lines end with code 2 and a message") {
 TEST_CASE("a wrong recipe is told with all its lines and makes nothing") {
     const Folder folder;
     write(folder / "wrong.toml", "[part]\nshape = \"sphere\"\nradius = -1\n[skin]\nthicknes = 1\n");
-    const Outcome outcome = lamella("slice " + folder / "wrong.toml" + " -o " + folder / "out");
+    const Outcome outcome = run_lamella("slice " + folder / "wrong.toml" + " -o " + folder / "out");
     CHECK(outcome.code == 2);
     CHECK(mentions(outcome.err, "wrong.toml:3: part.radius: -1 is too small"));
     CHECK(mentions(outcome.err, "wrong.toml:5: skin.thicknes: unknown key, did you mean `thickness`?"));
@@ -149,7 +149,7 @@ TEST_CASE("a ball becomes layers in every format, with its volume reported") {
         CAPTURE(kind);
         const std::string output = folder / ("ball." + kind);
         const Outcome outcome =
-            lamella("slice " + ball + small_plate + "--printer " + kind + " --json -o " + output);
+            run_lamella("slice " + ball + small_plate + "--printer " + kind + " --json -o " + output);
         REQUIRE(outcome.code == 0);
         const auto summary = nlohmann::json::parse(outcome.out);
         CHECK(summary["layers"] == 60);
@@ -159,10 +159,12 @@ TEST_CASE("a ball becomes layers in every format, with its volume reported") {
         CHECK(summary["output"] == output);
         CHECK(summary["identity"].get<std::string>().size() == 32);
         CHECK(fs::exists(output));
-        const Outcome again = lamella("slice " + ball + small_plate + "--printer " + kind + " -o " + output);
+        const Outcome again =
+            run_lamella("slice " + ball + small_plate + "--printer " + kind + " -o " + output);
         CHECK(again.code == 2);
-        CHECK(lamella("slice " + ball + small_plate + "--printer " + kind + " --force -o " + output).code ==
-              0);
+        CHECK(
+            run_lamella("slice " + ball + small_plate + "--printer " + kind + " --force -o " + output).code ==
+            0);
     }
 }
 
@@ -170,22 +172,22 @@ TEST_CASE("a quiet run says nothing, and one thread makes the same bytes as four
     const Folder folder;
     const std::string job =
         "slice " + ball + small_plate + "--cell 1.5 --beam 0.2 --skin 0.3 --printer png --quiet ";
-    const Outcome one = lamella(job + "--threads 1 -o " + folder / "one");
+    const Outcome one = run_lamella(job + "--threads 1 -o " + folder / "one");
     CHECK(one.code == 0);
     CHECK(one.err.empty());
     CHECK(one.out.empty());
-    CHECK(lamella(job + "--threads 4 -o " + folder / "four").code == 0);
+    CHECK(run_lamella(job + "--threads 4 -o " + folder / "four").code == 0);
     CHECK(tree(folder / "one") == tree(folder / "four"));
 }
 
 TEST_CASE("a range of layers is checked against the part") {
     const Folder folder;
     const std::string job = "slice " + ball + small_plate + "--printer png ";
-    const Outcome some = lamella(job + "--json --layers 10:25 -o " + folder / "some");
+    const Outcome some = run_lamella(job + "--json --layers 10:25 -o " + folder / "some");
     REQUIRE(some.code == 0);
     CHECK(nlohmann::json::parse(some.out)["layers"] == 15);
     for (const std::string wrong : {"5", "25:10", "10:10", "0:61", "-1:4", "a:b", "1:2:3"}) {
-        const Outcome outcome = lamella(job + "--layers=" + wrong + " -o " + folder / "wrong");
+        const Outcome outcome = run_lamella(job + "--layers=" + wrong + " -o " + folder / "wrong");
         CHECK(outcome.code == 2);
         CHECK(mentions(outcome.err, "--layers: "));
     }
@@ -223,19 +225,19 @@ TEST_CASE("an interrupted run says how to go on, and going on makes the same byt
     CHECK(mentions(contents(folder / "err"), "--resume"));
     CHECK_FALSE(fs::exists(folder / "cut"));
 
-    const Outcome other = lamella(job + "--seed 2 --resume -o " + folder / "cut");
+    const Outcome other = run_lamella(job + "--seed 2 --resume -o " + folder / "cut");
     CHECK(other.code == 2);
-    const Outcome resumed = lamella(job + "--resume --json -o " + folder / "cut");
+    const Outcome resumed = run_lamella(job + "--resume --json -o " + folder / "cut");
     REQUIRE(resumed.code == 0);
     const auto summary = nlohmann::json::parse(resumed.out);
     CHECK(summary["layers_kept"].get<int>() > 0);
     CHECK(summary["layers_kept"].get<int>() + summary["layers"].get<int>() == 2000);
-    REQUIRE(lamella(job + "--quiet -o " + folder / "whole").code == 0);
+    REQUIRE(run_lamella(job + "--quiet -o " + folder / "whole").code == 0);
     CHECK(tree(folder / "cut") == tree(folder / "whole"));
 }
 
 TEST_CASE("info tells size, layers, foam and memory, as text and as JSON") {
-    const Outcome json = lamella("info " + ball + "--cell 1 --beam 0.1 --skin 0.2 --json");
+    const Outcome json = run_lamella("info " + ball + "--cell 1 --beam 0.1 --skin 0.2 --json");
     REQUIRE(json.code == 0);
     const auto info = nlohmann::json::parse(json.out);
     CHECK(info["layers"] == 60);
@@ -243,14 +245,14 @@ TEST_CASE("info tells size, layers, foam and memory, as text and as JSON") {
     CHECK(info["foam"]["expected_seeds_in_bounds"] == 216);
     CHECK(info["foam"]["expected_volume_fraction"].get<double>() > 0.05);
     CHECK(info["memory"]["bytes"].get<double>() > 0);
-    const Outcome text = lamella("info " + ball + "--cell 1 --beam 0.1");
+    const Outcome text = run_lamella("info " + ball + "--cell 1 --beam 0.1");
     CHECK(text.code == 0);
     CHECK(mentions(text.out, "layers    60 of 0.1 mm"));
 }
 
 TEST_CASE("dumped seeds and beams are lines of numbers, the same whatever the box they come from") {
     const std::string foam = "--cell 2 --beam 0.2 --seed 5 ";
-    const Outcome seeds = lamella("dump seeds " + foam + "--box 0,0,0,10,10,10");
+    const Outcome seeds = run_lamella("dump seeds " + foam + "--box 0,0,0,10,10,10");
     REQUIRE(seeds.code == 0);
     CHECK(count_lines(seeds.out) > 60);
     CHECK(count_lines(seeds.out) < 200);
@@ -260,14 +262,14 @@ TEST_CASE("dumped seeds and beams are lines of numbers, the same whatever the bo
         REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf", &x, &y, &z) == 3);
         CHECK((x >= 0 && x <= 10 && y >= 0 && y <= 10 && z >= 0 && z <= 10));
     }
-    const Outcome header = lamella("dump beams --header " + foam + "--box 4,4,4,6,6,6");
+    const Outcome header = run_lamella("dump beams --header " + foam + "--box 4,4,4,6,6,6");
     CHECK(header.out.starts_with("x0,y0,z0,r0,x1,y1,z1,r1\n"));
     // The beams of a small box are among those of a larger one, digit for digit.
-    const Outcome all = lamella("dump beams " + foam + "--box 0,0,0,10,10,10");
+    const Outcome all = run_lamella("dump beams " + foam + "--box 0,0,0,10,10,10");
     std::istringstream few(header.out.substr(header.out.find('\n') + 1));
     for (std::string line; std::getline(few, line);) CHECK(mentions(all.out, line + "\n"));
     const Folder folder;
-    CHECK(lamella("dump seeds " + foam + "--box 0,0,0,10,10,10 -o " + folder / "seeds.csv").code == 0);
+    CHECK(run_lamella("dump seeds " + foam + "--box 0,0,0,10,10,10 -o " + folder / "seeds.csv").code == 0);
     CHECK(contents(folder / "seeds.csv") == seeds.out);
     CHECK(tree(folder / "").size() == 1);
 }
@@ -275,27 +277,27 @@ TEST_CASE("dumped seeds and beams are lines of numbers, the same whatever the bo
 TEST_CASE("a section through a ball's centre is a disc in every format") {
     const Folder folder;
     const std::string job = "section " + ball + small_plate + "--z 0 ";
-    const Outcome json = lamella(job + "--format json");
+    const Outcome json = run_lamella(job + "--format json");
     REQUIRE(json.code == 0);
     const auto section = nlohmann::json::parse(json.out);
     CHECK(section["contours"].size() == 1);
     CHECK(section["area_mm2"].get<double>() == Approx(9 * 3.14159265).epsilon(0.02));
-    const Outcome svg = lamella(job);
+    const Outcome svg = run_lamella(job);
     CHECK(svg.out.starts_with("<svg"));
-    const Outcome png = lamella(job + "-o " + folder / "disc.png");
+    const Outcome png = run_lamella(job + "-o " + folder / "disc.png");
     CHECK(png.code == 0);
     CHECK(contents(folder / "disc.png").starts_with("\x89PNG"));
-    const Outcome missed = lamella("section " + ball + "--z 3.5");
+    const Outcome missed = run_lamella("section " + ball + "--z 3.5");
     CHECK(missed.code == 2);
     CHECK(mentions(missed.err, "--z: 3.5 misses the part; accepted: a height from -3 to 3 mm"));
 }
 
 TEST_CASE("a preview is a picture with the part in its middle") {
     const Folder folder;
-    REQUIRE(lamella("preview " + ball + "--size 64 --cut none -o " + folder / "ball.png").code == 0);
+    REQUIRE(run_lamella("preview " + ball + "--size 64 --cut none -o " + folder / "ball.png").code == 0);
     CHECK(contents(folder / "ball.png").starts_with("\x89PNG"));
     CHECK(tree(folder / "").size() == 1);
-    CHECK(lamella("preview " + ball + "--size 64 -o " + folder / "ball.nonsense").code == 2);
+    CHECK(run_lamella("preview " + ball + "--size 64 -o " + folder / "ball.nonsense").code == 2);
 }
 
 TEST_CASE("a closed pipe ends a run quietly") {
@@ -310,7 +312,7 @@ TEST_CASE("a closed pipe ends a run quietly") {
 }
 
 TEST_CASE("a full disk is a fault, told once") {
-    const Outcome outcome = lamella("dump seeds --cell 1 --beam 0.1 --box 0,0,0,30,30,30 -o /dev/full");
+    const Outcome outcome = run_lamella("dump seeds --cell 1 --beam 0.1 --box 0,0,0,30,30,30 -o /dev/full");
     CHECK(outcome.code == 3);
     CHECK(count_lines(outcome.err) == 1);
 }
