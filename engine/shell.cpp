@@ -24,7 +24,10 @@ class FilledBody : public Field {
         // thickness.
         const double enough = std::max(-f, thickness_ > 0 ? f + thickness_ : 0.0);
         double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
-        if (b > 0) return b < enough ? b : body_->value(p);
+        if (b > 0) {
+            if (b >= enough) b = body_->value(p);
+            return thickness_ > 0 ? b : std::max(b, f);
+        }
         if (-b >= enough) return f;
         return std::max(b, thickness_ > 0 ? std::min(f, -b - thickness_) : f);
     }
