@@ -35,7 +35,7 @@ class RunCollector {
     std::vector<Piece> pieces_;
     std::vector<std::int32_t> begins_, ends_;
     std::size_t used_ = 0;
-    std::vector<std::uint32_t> starts_;
+    std::vector<std::uint32_t> starts_, ends_of_lines_;
     std::vector<Run> runs_;
 };
 
