@@ -274,7 +274,7 @@ class Picture {
                 const dvec3 c = on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)];
                 for (int k = 0; k < 3; ++k) {
                     image.rgb[at(i, j) * 3 + static_cast<std::size_t>(k)] =
-                        static_cast<std::uint8_t>(c[k] * 255 + 0.5);
+                        static_cast<std::uint8_t>(std::lround(c[k] * 255));
                 }
             }
         });

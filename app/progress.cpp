@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace lamella {
@@ -16,7 +17,7 @@ constexpr double line_interval = 5;   // seconds between two lines in a log
 constexpr int bar_width = 30;
 
 std::string clock_text(double seconds) {
-    const int s = static_cast<int>(std::min(seconds, 359999.0) + 0.5);
+    const int s = static_cast<int>(std::lround(std::min(seconds, 359999.0)));
     if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
     return fmt::format("{}:{:02}", s / 60, s % 60);
 }

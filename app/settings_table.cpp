@@ -101,7 +101,6 @@ Setting row(std::string section, std::string key, std::string flag, Facts facts)
     return s;
 }
 
-constexpr double int_max = 1 << 20;
 constexpr Limits any_length{1e-3, 1e4};
 constexpr Limits extent{1e-2, 1e5};
 constexpr Limits speed{0.1, 2000};
@@ -248,43 +247,47 @@ void add_vector(std::vector<Setting>& t) {
         {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin round the part in vector files."}));
 }
 
+/// A number of the printer's section.
+template <auto member>
+void add_machine_number(std::vector<Setting>& t, const char* key, const char* flag, const char* unit,
+                        Limits limits, const char* help) {
+    constexpr auto place = [](Recipe & r) -> auto& { return r.printer.filament.*member; };
+    t.push_back(row<place>("printer", key, flag, {.unit = unit, .limits = limits, .help = help}));
+}
+
 void add_filament(std::vector<Setting>& t) {
-    const auto add = [&]<auto place>(std::string key, std::string flag, std::string unit, Limits limits,
-                                     std::string help) {
-        t.push_back(row<place>("printer", std::move(key), std::move(flag),
-                               {.unit = std::move(unit), .limits = limits, .help = std::move(help)}));
-    };
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_x; }
-    > ("bed_x", "--printer-bed-x", "mm", {1, 1e5}, "Width of the bed.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_y; }
-    > ("bed_y", "--printer-bed-y", "mm", {1, 1e5}, "Depth of the bed.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_z; }
-    > ("bed_z", "--printer-bed-z", "mm", {1, 1e5}, "Largest height of a print.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.nozzle; }
-    > ("nozzle", "--printer-nozzle", "mm", {0.05, 10}, "Diameter of the nozzle's bore.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.filament; }
-    > ("filament", "--printer-filament", "mm", {0.5, 10}, "Diameter of the filament.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.line_width; }
-    > ("line_width", "--printer-line-width", "mm", {0.05, 20}, "Width of an extruded line.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.infill_density; }
-    > ("infill_density", "--printer-infill-density", "", {0, 1}, "Share of the inside that is filled.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.nozzle_temperature; }
-    > ("nozzle_temperature", "--printer-nozzle-temperature", "degrees Celsius", {0, 500},
-       "Temperature of the nozzle.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.bed_temperature; }
-    > ("bed_temperature", "--printer-bed-temperature", "degrees Celsius", {0, 250},
-       "Temperature of the bed.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.print_speed; }
-    > ("print_speed", "--printer-print-speed", "mm/s", speed, "Speed of printing.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.first_layer_speed; }
-    > ("first_layer_speed", "--printer-first-layer-speed", "mm/s", speed,
-       "Speed of printing the first layer.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.travel_speed; }
-    > ("travel_speed", "--printer-travel-speed", "mm/s", speed, "Speed of moves without extrusion.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.retraction; }
-    > ("retraction", "--printer-retraction", "mm", {0, 100}, "Filament drawn back before a move.");
-    add.operator() < [](Recipe & r) -> auto& { return r.printer.filament.retraction_speed; }
-    > ("retraction_speed", "--printer-retraction-speed", "mm/s", speed, "Speed of drawing filament back.");
+    add_machine_number<&FilamentProfile::bed_x>(t, "bed_x", "--printer-bed-x", "mm", {1, 1e5},
+                                                "Width of the bed.");
+    add_machine_number<&FilamentProfile::bed_y>(t, "bed_y", "--printer-bed-y", "mm", {1, 1e5},
+                                                "Depth of the bed.");
+    add_machine_number<&FilamentProfile::bed_z>(t, "bed_z", "--printer-bed-z", "mm", {1, 1e5},
+                                                "Largest height of a print.");
+    add_machine_number<&FilamentProfile::nozzle>(t, "nozzle", "--printer-nozzle", "mm", {0.05, 10},
+                                                 "Diameter of the nozzle's bore.");
+    add_machine_number<&FilamentProfile::filament>(t, "filament", "--printer-filament", "mm", {0.5, 10},
+                                                   "Diameter of the filament.");
+    add_machine_number<&FilamentProfile::line_width>(t, "line_width", "--printer-line-width", "mm",
+                                                     {0.05, 20}, "Width of an extruded line.");
+    add_machine_number<&FilamentProfile::infill_density>(t, "infill_density", "--printer-infill-density", "",
+                                                         {0, 1}, "Share of the inside that is filled.");
+    add_machine_number<&FilamentProfile::nozzle_temperature>(
+        t, "nozzle_temperature", "--printer-nozzle-temperature", "degrees Celsius", {0, 500},
+        "Temperature of the nozzle.");
+    add_machine_number<&FilamentProfile::bed_temperature>(t, "bed_temperature", "--printer-bed-temperature",
+                                                          "degrees Celsius", {0, 250},
+                                                          "Temperature of the bed.");
+    add_machine_number<&FilamentProfile::print_speed>(t, "print_speed", "--printer-print-speed", "mm/s",
+                                                      speed, "Speed of printing.");
+    add_machine_number<&FilamentProfile::first_layer_speed>(t, "first_layer_speed",
+                                                            "--printer-first-layer-speed", "mm/s", speed,
+                                                            "Speed of printing the first layer.");
+    add_machine_number<&FilamentProfile::travel_speed>(t, "travel_speed", "--printer-travel-speed", "mm/s",
+                                                       speed, "Speed of moves without extrusion.");
+    add_machine_number<&FilamentProfile::retraction>(t, "retraction", "--printer-retraction", "mm", {0, 100},
+                                                     "Filament drawn back before a move.");
+    add_machine_number<&FilamentProfile::retraction_speed>(t, "retraction_speed",
+                                                           "--printer-retraction-speed", "mm/s", speed,
+                                                           "Speed of drawing filament back.");
 }
 
 std::vector<Setting> make_table() {

@@ -49,7 +49,7 @@ void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lin
 
 }  // namespace
 
-BeamRows::BeamRows(std::vector<Beam> beams, double z) : z_(z) {
+BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
     std::vector<double> lo_x, lo_y;
     for (const Beam& beam : beams) {
         const Interval part = axis_near_plane(beam, z);

@@ -15,7 +15,7 @@ namespace lamella {
 class BeamRows {
   public:
     /// Keeps the beams that meet the plane at height z, mm.
-    BeamRows(std::vector<Beam> beams, double z);
+    BeamRows(const std::vector<Beam>& beams, double z);
 
     /// Adds the runs of all beams that meet the band.
     void collect(const RowBand& band, RunCollector& runs) const;
@@ -38,8 +38,8 @@ class BeamRows {
 class BeamSlice : public SampledSlice {
   public:
     /// beams: at least all beams of the field that meet the plane.
-    BeamSlice(const Field& field, std::vector<Beam> beams, double z)
-        : SampledSlice(field, z), rows_(std::move(beams), z) {}
+    BeamSlice(const Field& field, const std::vector<Beam>& beams, double z)
+        : SampledSlice(field, z), rows_(beams, z) {}
 
     void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
     Rect bounds() const override { return rows_.bounds(); }

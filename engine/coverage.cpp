@@ -86,7 +86,7 @@ std::vector<std::uint8_t> grey_table(int sub) {
 }
 
 /// Twice the area of a whole cell, in run units squared.
-constexpr std::int64_t full_cell = 2 * run_unit * run_unit;
+constexpr std::int64_t full_cell = std::int64_t{2} * run_unit * run_unit;
 
 /// Twice the area of the solid part of a cell, in run units squared, by its border arcs and chords.
 std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> crossings) {

@@ -145,7 +145,7 @@ GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, doubl
     : SampledSlice(field, z), grown_(grown), z_(z) {
     std::vector<Beam> capsules;
     grown.near_plane(z, triangles_, capsules);
-    capsules_ = std::make_unique<BeamRows>(std::move(capsules), z);
+    capsules_ = std::make_unique<BeamRows>(capsules, z);
     bounds_ = capsules_->bounds();
     std::vector<Interval> x, y;
     std::vector<double> lo_x, lo_y;

@@ -66,7 +66,8 @@ class RingSearch {
     };
     glm::ivec3 octant_of(dvec3 p) const;
     std::size_t slot(glm::ivec3 octant) const {
-        return static_cast<std::size_t>((octant.z * size_.y + octant.y) * size_.x + octant.x);
+        const auto at = [](int v) { return static_cast<std::size_t>(v); };
+        return (at(octant.z) * at(size_.y) + at(octant.y)) * at(size_.x) + at(octant.x);
     }
     void collect_block(glm::ivec3 center, dvec3 own, double limit_squared);
     bool clip_beyond_block(glm::ivec3 center, dvec3 own, VoronoiCell& cell);
