@@ -16,7 +16,7 @@ namespace {
 
 constexpr double half_view =
     14 * std::numbers::pi / 180;  // half the angle of view; long lenses flatter parts
-constexpr double margin = 0.88;   // share of the picture that the part may take
+constexpr double margin = 0.86;   // share of the picture that the part may take
 constexpr dvec3 part_colour{0.42, 0.52, 0.60};
 constexpr dvec3 cut_colour{0.86, 0.30, 0.09};
 constexpr dvec3 sky_top{0.80, 0.84, 0.88};
@@ -27,13 +27,12 @@ constexpr double contrast_of_edges = 0.08;  // difference of neighbours, in sRGB
 
 struct Camera {
     dvec3 eye, forward, right, up;
-    dvec2 shift{0};  ///< of the picture's centre, so that the part stands in the middle
-    double aspect = 1;
+    dvec2 shift{0};                      ///< of the picture's centre, so that the part stands in the middle
+    double reach = std::tan(half_view);  ///< half of the shorter side of the picture, at distance 1
 
     /// Direction through a point of the picture; x and y from -1 to 1 across the shorter side.
     dvec3 ray(double x, double y) const {
-        const double k = std::tan(half_view);
-        return glm::normalize(forward + right * (x * k + shift.x) + up * (y * k + shift.y));
+        return glm::normalize(forward + right * (x * reach + shift.x) + up * (y * reach + shift.y));
     }
 };
 
@@ -54,16 +53,24 @@ Camera frame(const Box& bounds, const PreviewOptions& options) {
         back = std::max(back, std::max(x, y) - glm::dot(corner, camera.forward));
     }
     camera.eye = bounds.center() - camera.forward * back;
+    return camera;
+}
+
+/// Turns the camera and narrows its view until these points just fill the picture.
+void zoom_to(Camera& camera, const std::vector<dvec3>& points, const PreviewOptions& options) {
     Rect seen;
-    for (int c = 0; c < 8; ++c) {
-        const dvec3 d = bounds.lo + dvec3(c & 1, c >> 1 & 1, c >> 2) * bounds.size() - camera.eye;
+    for (const dvec3& point : points) {
+        const dvec3 d = point - camera.eye;
         const double depth = glm::dot(d, camera.forward);
         const dvec2 p{glm::dot(d, camera.right) / depth, glm::dot(d, camera.up) / depth};
         seen.lo = glm::min(seen.lo, p);
         seen.hi = glm::max(seen.hi, p);
     }
+    if (seen.empty()) return;
+    const double shorter = std::min(options.width, options.height);
+    const dvec2 half = seen.size() * 0.5 / (dvec2(options.width, options.height) / shorter);
     camera.shift = seen.center();
-    return camera;
+    camera.reach = std::max(half.x, half.y) / margin;
 }
 
 /// What is left of the part once the side towards the eye is cut away.
@@ -109,8 +116,9 @@ struct Hit {
 
 class Scene {
   public:
-    Scene(const Field& part, const Box& bounds, const CutAway& cut, const Camera& camera, int cells)
-        : part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(part, cut.kept, cells) {
+    Scene(const Field& part, const Box& bounds, const CutAway& cut, const Camera& camera,
+          const VoxelGrid& grid)
+        : part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(grid) {
         const dvec3 side = camera.right * 0.35 - camera.forward * 0.6;
         key_ = glm::normalize(dvec3(side.x, side.y, 0) + dvec3(0, 0, 0.95));
         reach_ = grid_.size().x + grid_.size().y + grid_.size().z;
@@ -244,7 +252,7 @@ class Scene {
     Box bounds_;
     CutAway cut_;
     Camera camera_;
-    VoxelGrid grid_;
+    const VoxelGrid& grid_;
     dvec3 key_;
     double reach_;
 };
@@ -322,9 +330,11 @@ Image render_preview(const Field& part, const Box& bounds, const PreviewOptions&
     return arena.execute([&] {
         Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);
-        camera = frame(cut.kept, options);
         const int cells = std::clamp(std::max(options.width, options.height) / 2, 64, most_cells);
-        const Scene scene(part, bounds, cut, camera, cells);
+        const VoxelGrid grid(part, cut.kept, cells);
+        camera = frame(cut.kept, options);
+        zoom_to(camera, grid.solid_places(), options);
+        const Scene scene(part, bounds, cut, camera, grid);
         return Picture(scene, options.width, options.height).render();
     });
 }

@@ -45,7 +45,7 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
     const bool folder =
         kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
     if (folder) return part_name + ".layers";
-    return part_name + (printer.backend == "marlin" ? ".gcode" : "." + printer.backend);
+    return part_name + "." + printer.backend;
 }
 
 std::string printers_listing() {

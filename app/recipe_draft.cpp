@@ -88,7 +88,7 @@ void RecipeDraft::check_body() {
     const Entry* mesh = entry("part", "mesh");
     const Entry* shape = entry("part", "shape");
     const bool no_shape = !shape || (shape->value && std::get<std::string>(*shape->value) == "none");
-    if (mesh && !no_shape) {
+    if (mesh && !no_shape && shape->value) {
         refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh or a shape, not both", shape->where,
                               mesh->where));
         return;

@@ -115,6 +115,22 @@ void VoxelGrid::build_pyramid() {
     }
 }
 
+std::vector<dvec3> VoxelGrid::solid_places() const {
+    const std::size_t depth = std::min<std::size_t>(2, levels_.size() - 1);
+    const Level& level = levels_[depth];
+    const double edge = static_cast<double>(std::size_t{2} << depth);
+    std::vector<dvec3> places;
+    std::size_t cell = 0;
+    for (int z = 0; z < level.nz; ++z) {
+        for (int y = 0; y < level.ny; ++y) {
+            for (int x = 0; x < level.nx; ++x, ++cell) {
+                if (level.density[cell] > 0) places.push_back(to_part((dvec3(x, y, z) + 0.5) * edge));
+            }
+        }
+    }
+    return places;
+}
+
 std::optional<Interval> VoxelGrid::next_solid(dvec3 start, dvec3 direction, double from, double to) const {
     constexpr double nudge = 1e-4;  // cells; carries the walk over a wall in spite of rounding
     const std::size_t skip = std::min<std::size_t>(skip_level, levels_.size() - 1);

@@ -22,6 +22,9 @@ class VoxelGrid {
     dvec3 to_part(dvec3 g) const { return origin_ + g * pitch_; }
     dvec3 size() const { return {nx_, ny_, nz_}; }
 
+    /// The middles, in part coordinates, of coarse cells (8 cells wide) that hold something solid.
+    std::vector<dvec3> solid_places() const;
+
     /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid
     /// first.
     std::optional<Interval> next_solid(dvec3 start, dvec3 direction, double from, double to) const;

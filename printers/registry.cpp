@@ -18,7 +18,7 @@ constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
                 OutputKind::file_or_folder, make_svg},
-    BackendInfo{"marlin", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
+    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
 };
 
 PrinterProfile display(const char* name, int width, int height, double pixel, bool portrait) {
@@ -92,7 +92,7 @@ std::span<const PrinterProfile> profiles() {
         display("prusa-sl1", 2560, 1440, 0.04725, true),
         display("prusa-sl1s", 2560, 1620, 0.05, true),
         plain("svg", "svg"),
-        plain("marlin", "marlin"),
+        plain("marlin", "gcode"),
     };
     return table;
 }
