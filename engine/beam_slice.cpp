@@ -1,7 +1,6 @@
 // Prepares beams for the row kernel, and takes the exact path where single precision would not do.
 #include "engine/beam_slice.h"
 
-#include "engine/beam_rows.h"
 #include "engine/line_frame.h"
 #include "engine/slice_context.h"
 
@@ -101,12 +100,7 @@ void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowB
     const double s = (part.lo + part.hi) * 0.5 * length;
     const dvec3 reference = beam.a + axis * s;
     const double radius = beam.ra - s * sine, z = z_ - reference.z;
-    const LineFrame frame = line_frame(band, dvec2(reference));
-
-    BeamRowParameters p;
-    p.line0 = static_cast<float>(frame.line0);
-    p.line_pitch = static_cast<float>(frame.line_pitch);
-    p.first = frame.first + lines.first;
+    BeamInPlane p;
     p.ux = static_cast<float>(axis[along_axis]);
     p.uy = static_cast<float>(axis[across_axis]);
     p.z = static_cast<float>(z);
@@ -125,13 +119,10 @@ void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowB
     p.bx = static_cast<float>(second[along_axis]);
     p.by = static_cast<float>(second[across_axis]);
     p.bh = static_cast<float>(beam.rb * beam.rb - (z - second.z) * (z - second.z));
-    p.scale = static_cast<float>(frame.scale);
-    p.shift = static_cast<float>(frame.shift);
-    p.unit0 = frame.unit0;
 
     const int count = lines.last - lines.first;
     const auto out = runs.add(lines.first, count);
-    beam_rows(p, count, out.begin, out.end);
+    beam_rows(line_frame(band, lines.first, dvec2(reference)), p, count, out.begin, out.end);
 }
 
 void BeamSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {

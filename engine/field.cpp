@@ -6,10 +6,6 @@
 
 namespace lamella {
 
-void Field::values(std::span<const dvec3> points, std::span<double> out) const {
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = value(points[i]);
-}
-
 Interval Field::range(const Box& box) const {
     if (metric() == Metric::sign || box.empty()) return {-infinity, infinity};
     const dvec3 half = box.size() * 0.5;

@@ -54,8 +54,6 @@ class Field : public std::enable_shared_from_this<Field> {
     /// The value where its magnitude is below `limit` (> 0); elsewhere any number of the same sign and at
     /// least that magnitude. For fields that find out sooner that a surface is far than how far.
     virtual double value_within(dvec3 p, double /*limit*/) const { return value(p); }
-    /// The field at many points; out has the size of points.
-    virtual void values(std::span<const dvec3> points, std::span<double> out) const;
     /// Encloses every value over the box. The default derives it from the centre's value and the metric.
     virtual Interval range(const Box& box) const;
     virtual Metric metric() const { return Metric::bound; }

@@ -2,7 +2,6 @@
 #include "engine/grown_mesh.h"
 
 #include "engine/line_frame.h"
-#include "engine/prism_rows.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -116,7 +115,7 @@ void GrownMesh::collect_prism(std::uint32_t triangle, double z, const RowBand& b
 
     const dvec3 center = (corner[0] + corner[1] + corner[2]) / 3.0;
     const double dz = z - center.z;
-    PrismRowParameters p;
+    PrismInPlane p;
     const auto set = [&](std::size_t k, dvec3 normal, double limit) {
         p.nx[k] = static_cast<float>(normal[along]);
         p.ny[k] = static_cast<float>(normal[across]);
@@ -130,15 +129,8 @@ void GrownMesh::collect_prism(std::uint32_t triangle, double z, const RowBand& b
         const double l = std::sqrt(glm::dot(side, side));
         set(2 + e, side / l, glm::dot(side / l, corner[e] - center));
     }
-    const LineFrame frame = line_frame(band, dvec2(center));
-    p.line0 = static_cast<float>(frame.line0);
-    p.line_pitch = static_cast<float>(frame.line_pitch);
-    p.first = frame.first + lines.first;
-    p.scale = static_cast<float>(frame.scale);
-    p.shift = static_cast<float>(frame.shift);
-    p.unit0 = frame.unit0;
     const auto out = runs.add(lines.first, lines.last - lines.first);
-    prism_rows(p, lines.last - lines.first, out.begin, out.end);
+    prism_rows(line_frame(band, lines.first, dvec2(center)), p, lines.last - lines.first, out.begin, out.end);
 }
 
 GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, double z)

@@ -1,6 +1,7 @@
-// Lines of a band counted from a reference point, so that single-precision kernels keep every digit.
+// From a band of lines to the frame that the row kernels work in.
 #pragma once
 
+#include "engine/row_kernels.h"
 #include "engine/runs.h"
 
 namespace lamella {
@@ -22,18 +23,10 @@ inline LineRange lines_across(const RowBand& band, const Interval& across) {
             static_cast<int>(std::min(std::max(hi, 0.0), lines))};
 }
 
-/// Coordinates relative to a reference point. The reference line is counted from row 0 of the whole layer, so
-/// that a line gives the same run in whichever band it is asked for.
-struct LineFrame {
-    double line0;        ///< mm across from the point to the reference line
-    double line_pitch;   ///< mm from line to line
-    std::int32_t first;  ///< first line of the band, counted from the reference line
-    double scale;        ///< run units per mm
-    double shift;        ///< fraction of a run unit to add
-    std::int32_t unit0;  ///< run unit of the point, floored
-};
-
-inline LineFrame line_frame(const RowBand& band, dvec2 reference) {
+/// The lines of the band from number `first` on, as seen from a reference point. The reference line is
+/// counted from row 0 of the whole layer, so that a line gives the same run in whichever band it is asked
+/// for.
+inline LineFrame line_frame(const RowBand& band, int first, dvec2 reference) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     const double pitch = band.across_pitch / band.sub;
     const double line = std::floor((reference[across] - band.across_origin) / pitch - 0.5);
@@ -43,12 +36,12 @@ inline LineFrame line_frame(const RowBand& band, dvec2 reference) {
     const auto clamped = [](double v) {
         return static_cast<std::int32_t>(std::min(std::max(v, -limit), limit));
     };
-    return {position - reference[across],
-            pitch,
-            clamped(static_cast<double>(band.first) * band.sub - line),
-            run_unit / band.along_pitch,
-            unit - unit0,
-            clamped(unit0)};
+    return {.line0 = static_cast<float>(position - reference[across]),
+            .line_pitch = static_cast<float>(pitch),
+            .first = clamped(static_cast<double>(band.first) * band.sub + first - line),
+            .scale = static_cast<float>(run_unit / band.along_pitch),
+            .shift = static_cast<float>(unit - unit0),
+            .unit0 = clamped(unit0)};
 }
 
 }  // namespace lamella

@@ -6,9 +6,9 @@
 
 namespace lamella::bench {
 
-inline constexpr int plate_width = 7680, plate_height = 4320;   // px
-inline constexpr double plate_pixel = 0.025;                    // mm
-inline constexpr double plate_z = 50;                           // mm, where it is cut
+inline constexpr int plate_width = 7680, plate_height = 4320;  // px
+inline constexpr double plate_pixel = 0.025;                   // mm
+inline constexpr double plate_z = 50;                          // mm, where it is cut
 
 /// 192 x 108 mm of foam: cells of 4.4 mm, beams of 0.3 mm; about 5,000 beams meet a plane.
 inline FoamSettings plate_foam() {

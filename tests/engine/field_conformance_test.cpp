@@ -19,6 +19,7 @@ namespace {
 struct Named {
     std::string name;
     FieldPtr field;
+    bool sampled = false;  ///< has no closed-form runs
 };
 
 std::vector<Named> all_fields() {
@@ -41,7 +42,7 @@ std::vector<Named> all_fields() {
         {"steep cone", make_round_cone({{-1, 0, 0}, 1.8, {1.5, 0.1, 0.1}, 0.2})},
         {"torus", torus},
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
-        {"gyroid in a ball", make_intersection({make_gyroid(2.2, 0.3), sphere})},
+        {"gyroid in a ball", make_intersection({make_gyroid(2.2, 0.3), sphere}), true},
         {"mesh", mesh},
         {"grown mesh", make_offset(mesh, 0.35)},
         {"shrunk mesh", make_offset(mesh, -0.35)},
@@ -55,9 +56,10 @@ std::vector<Named> all_fields() {
         {"union", make_union({box, cone, torus})},
         {"intersection", make_intersection({sphere, box, cone})},
         {"difference", make_difference(box, torus)},
-        {"smooth union", make_smooth_union(make_sphere({-1, 0, 0}, 1.2), make_sphere({1.2, 0.3, 0}, 1), 0.8)},
-        {"offset of a cylinder", make_offset(make_cylinder({-1, 0, -1}, {1, 0.5, 1}, 0.8), 0.3)},
-        {"turned box", make_transform(box, turn, {0.2, 0.1, -0.1})},
+        {"smooth union", make_smooth_union(make_sphere({-1, 0, 0}, 1.2), make_sphere({1.2, 0.3, 0}, 1), 0.8),
+         true},
+        {"offset of a cylinder", make_offset(make_cylinder({-1, 0, -1}, {1, 0.5, 1}, 0.8), 0.3), true},
+        {"turned box", make_transform(box, turn, {0.2, 0.1, -0.1}), true},
         {"mirrored and stretched union", make_transform(make_union({box, cone}), mirror, {0.3, 0, 0.2})},
     };
 }
@@ -121,12 +123,8 @@ TEST_CASE("runs are solid exactly where the value is negative") {
                         const double quarter = std::abs(band.along_pitch) / 4;
                         const Box around{position(band, u, l, z) - quarter,
                                          position(band, u, l, z) + quarter};
-                        const bool sampled_sliver = named.field->range(around).contains(0) &&
-                                                    std::abs(v) < quarter &&
-                                                    (named.name.find("turned") != std::string::npos ||
-                                                     named.name.find("gyroid") != std::string::npos ||
-                                                     named.name.find("smooth") != std::string::npos ||
-                                                     named.name.find("offset") != std::string::npos);
+                        const bool sampled_sliver =
+                            named.sampled && named.field->range(around).contains(0) && std::abs(v) < quarter;
                         REQUIRE(sampled_sliver);
                     }
                 }
