@@ -23,6 +23,10 @@ const std::vector<std::string>& words(LengthUnit) {
     static const std::vector<std::string> list{"mm", "cm", "m", "inch"};
     return list;
 }
+const std::vector<std::string>& words(ImageFormat) {
+    static const std::vector<std::string> list{"png", "tiff", "bmp", "pgm"};
+    return list;
+}
 const std::vector<std::string>& words(Antialiasing) {
     static const std::vector<std::string> list{"off", "rows", "exact"};
     return list;
@@ -218,6 +222,8 @@ void add_image(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_y; }>(
         "printer", "pixel_y", "--printer-pixel-y",
         {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's height."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.format; }>(
+        "printer", "format", "--printer-format", {.help = "File format of the images of a stack."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_x; }>(
         "printer", "mirror_x", "--printer-mirror-x", {.help = "Mirror the images left to right."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_y; }>(

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/error.h"
+#include "printers/image_encoder.h"
 #include "printers/mask.h"
 #include "printers/png_writer.h"
 #include "printers/unfinished_folder.h"
@@ -42,22 +43,28 @@ nlohmann::ordered_json describe(const ImageProfile& image) {
 class PngStack : public Backend {
   public:
     PngStack(const PrinterProfile& profile, const std::string& path, bool force)
-        : profile_(profile), output_(path, ".png", force) {}
+        : profile_(profile), output_(path, extension(profile.image.format), force) {}
 
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         layout_.emplace(profile_.image, job.bounds);
-        description_ = describe_job(job, range, ".png");
+        description_ = describe_job(job, range, extension(profile_.image.format));
         description_["printer"] = profile_.name;
         description_["width"] = layout_->width();
         description_["height"] = layout_->height();
         description_.update(describe(profile_.image));
         description_["placement"] = placement();
-        return output_.begin({job.identity, "png " + describe(profile_.image).dump(), range}, resume);
+        return output_.begin(
+            {job.identity, extension(profile_.image.format) + (" " + describe(profile_.image).dump()), range},
+            resume);
     }
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<PngProduct>();
+        if (profile_.image.format != ImageFormat::png) {
+            render_pixels(layer, *product);
+            return product;
+        }
         PngWriter writer({layout_->width(), layout_->height(), layout_->column_pitch(), layout_->row_pitch()},
                          product->file);
         product->area =
@@ -74,6 +81,18 @@ class PngStack : public Backend {
     void end() override { output_.end(description_); }
 
   private:
+    /// The layer through a whole page of pixels, for formats that are not written from runs.
+    void render_pixels(const Layer& layer, PngProduct& product) const {
+        std::vector<std::uint8_t> pixels;
+        pixels.reserve(static_cast<std::size_t>(layout_->width()) *
+                       static_cast<std::size_t>(layout_->height()));
+        product.area =
+            mask_layer(layer, *layout_, profile_.image, [&](std::span<const GreyRun> runs, int /*rows*/) {
+                for (const GreyRun& run : runs) pixels.insert(pixels.end(), run.length, run.value);
+            });
+        product.file = encode_image(profile_.image.format, layout_->width(), layout_->height(), pixels);
+    }
+
     /// Part coordinates, mm, of the corner of pixel (0, 0) and the way to the next column and row.
     nlohmann::ordered_json placement() const {
         const RowBand band = layout_->rows(0, 1, 1);

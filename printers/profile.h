@@ -12,7 +12,11 @@ enum class Antialiasing : unsigned char {
     exact  ///< area under the contour's chords
 };
 
+/// File format of an image stack. PNG is written straight from runs; the others go through pixels.
+enum class ImageFormat : unsigned char { png, tiff, bmp, pgm };
+
 struct ImageProfile {
+    ImageFormat format = ImageFormat::png;
     int width = 2560;       ///< px
     int height = 1620;      ///< px
     double pixel_x = 0.05;  ///< mm

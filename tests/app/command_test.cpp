@@ -180,6 +180,40 @@ TEST_CASE("a quiet run says nothing, and one thread makes the same bytes as four
     CHECK(tree(folder / "one") == tree(folder / "four"));
 }
 
+TEST_CASE("memory does not grow with the number of layers") {
+    const Folder folder;
+    std::map<int, double> peak;
+    for (const int layers : {100, 2000}) {
+        const Outcome run = run_lamella(
+            "slice --shape box --shape-size 20,20,40 --cell 2.5 --beam 0.3 --skin 0.6 --printer-width 1000 "
+            "--printer-height 1000 --printer-pixel 0.025 --threads 2 --json --quiet --layer-height " +
+            std::to_string(40.0 / layers) + " -o " + folder / std::to_string(layers));
+        REQUIRE(run.code == 0);
+        const auto summary = nlohmann::json::parse(run.out);
+        REQUIRE(summary["layers"] == layers);
+        peak[layers] = summary["peak_memory_bytes"];
+    }
+    CHECK(peak[2000] < 1.1 * peak[100]);
+}
+
+TEST_CASE("layers of a range are the files of the whole run") {
+    const Folder folder;
+    const std::string part = "slice " + ball + small_plate + "--cell 1.5 --beam 0.2 --skin 0.3 -o ";
+    REQUIRE(run_lamella(part + folder / "all").code == 0);
+    REQUIRE(run_lamella(part + folder / "low" + " --layers 0:30").code == 0);
+    REQUIRE(run_lamella(part + folder / "high" + " --layers 30:60").code == 0);
+    const auto all = tree(folder / "all"), low = tree(folder / "low"), high = tree(folder / "high");
+    std::size_t compared = 0;
+    for (const auto* shard : {&low, &high}) {
+        for (const auto& [name, bytes] : *shard) {
+            if (!name.ends_with(".png")) continue;
+            CHECK(all.at(name) == bytes);
+            ++compared;
+        }
+    }
+    CHECK(compared == 60);
+}
+
 TEST_CASE("a range of layers is checked against the part") {
     const Folder folder;
     const std::string job = "slice " + ball + small_plate + "--printer png ";

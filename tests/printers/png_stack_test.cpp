@@ -127,6 +127,32 @@ TEST_CASE("masks of discs have the area of discs", "[png_stack]") {
     }
 }
 
+TEST_CASE("every image format holds the pixels of the PNG", "[png_stack]") {
+    const TemporaryFolder folder;
+    const Job job = cone();
+    PrinterProfile profile = small_display();
+    run_layers(job, *make_png_stack(profile, folder / "png", false), {0, job.layer_count});
+    const DecodedImage expected = decode_image(folder / "png/00001.png");
+    for (const auto& [format, ending] :
+         {std::pair{ImageFormat::tiff, "tif"}, {ImageFormat::bmp, "bmp"}, {ImageFormat::pgm, "pgm"}}) {
+        INFO(ending);
+        profile.image.format = format;
+        run_layers(job, *make_png_stack(profile, folder / ending, false), {0, job.layer_count});
+        const auto input = OIIO::ImageInput::open(folder / (std::string(ending) + "/00001." + ending));
+        REQUIRE(input);
+        REQUIRE(input->spec().width == expected.width);
+        REQUIRE(input->spec().height == expected.height);
+        // A grey BMP comes back as equal channels of colour.
+        const auto channels = static_cast<std::size_t>(input->spec().nchannels);
+        std::vector<unsigned char> pixels(expected.pixels.size() * channels);
+        REQUIRE(input->read_image(0, 0, 0, input->spec().nchannels, OIIO::TypeDesc::UINT8, pixels.data()));
+        std::size_t wrong = 0;
+        for (std::size_t k = 0; k < pixels.size(); ++k)
+            wrong += pixels[k] != expected.pixels[k / channels] ? 1 : 0;
+        REQUIRE(wrong == 0);
+    }
+}
+
 TEST_CASE("job.json says what the images are", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = asymmetric_l();
