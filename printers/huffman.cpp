@@ -62,7 +62,7 @@ void enforce_limit(std::array<int, max_depth + 1>& count, int limit) {
         for (int depth = limit - 1; depth > 0; --depth) {
             if (count[static_cast<std::size_t>(depth)] == 0) continue;
             --count[static_cast<std::size_t>(depth)];
-            count[static_cast<std::size_t>(depth + 1)] += 2;
+            count[static_cast<std::size_t>(depth) + 1] += 2;
             break;
         }
     }
