@@ -6,16 +6,32 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <mutex>
+#include <optional>
+#include <vector>
+
 #include "engine/error.h"
 
 namespace lamella {
 namespace {
 
-/// A layer on its way through the pipeline.
-struct InFlight {
-    explicit InFlight(const Job& job, int index) : layer(job, index) {}
-    Layer layer;
+/// A place for one layer in flight. The pipeline hands layers from thread to thread by itself; the lock makes
+/// that visible to whoever cannot see into it, such as a race detector.
+struct Slot {
+    std::mutex busy;
+    std::optional<Layer> layer;
     std::unique_ptr<LayerProduct> product;
+};
+
+/// Takes and gives back every lock when the stream is left, by whichever way: what the threads did is then
+/// visible here.
+struct Rejoin {
+    std::mutex& in_order;
+    std::vector<Slot>& slots;
+    ~Rejoin() {
+        for (Slot& slot : slots) const std::lock_guard lock(slot.busy);
+        const std::lock_guard lock(in_order);
+    }
 };
 
 void check_range(const Job& job, const LayerRange& range) {
@@ -40,8 +56,17 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     Progress progress;
     progress.total = options.range.last - start;
 
+    // At most `look_ahead` layers are in flight and they leave in order, so layer k's slot is free again when
+    // k + look_ahead comes.
+    std::vector<Slot> slots(static_cast<std::size_t>(look_ahead));
+    std::mutex in_order;
+    const auto slot_of = [&](int index) -> Slot& {
+        const std::lock_guard lock(in_order);
+        return slots[static_cast<std::size_t>(index) % slots.size()];
+    };
     int next = start;
     const auto issue = [&](tbb::flow_control& control) -> int {
+        const std::lock_guard lock(in_order);
         if (next >= options.range.last || cancelled()) {
             control.stop();
             return -1;
@@ -49,29 +74,36 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
         return next++;
     };
     const auto render = [&](int index) {
-        auto flying = std::make_shared<InFlight>(job, index);
-        flying->product = backend.render(flying->layer);
-        return flying;
+        Slot& slot = slot_of(index);
+        const std::lock_guard lock(slot.busy);
+        slot.layer.emplace(job, index);
+        slot.product = backend.render(*slot.layer);
+        return index;
     };
-    const auto write = [&](const std::shared_ptr<InFlight>& flying) {
-        backend.write(flying->layer, *flying->product);
+    const auto write = [&](int index) {
+        Slot& slot = slot_of(index);
+        const std::lock_guard lock(slot.busy);
+        backend.write(*slot.layer, *slot.product);
         ++report.layers_written;
-        report.volume += flying->product->area * flying->layer.thickness();
+        report.volume += slot.product->area * slot.layer->thickness();
         progress.done = report.layers_written;
-        progress.layer = flying->layer.index();
+        progress.layer = index;
         progress.volume = report.volume;
         if (options.on_progress) options.on_progress(progress);
+        slot.product.reset();
+        slot.layer.reset();
+        const std::lock_guard done(in_order);
     };
 
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
-        tbb::parallel_pipeline(
-            static_cast<std::size_t>(look_ahead),
-            tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, issue) &
-                tbb::make_filter<int, std::shared_ptr<InFlight>>(tbb::filter_mode::parallel, render) &
-                tbb::make_filter<std::shared_ptr<InFlight>, void>(tbb::filter_mode::serial_in_order, write));
+        const Rejoin rejoin{in_order, slots};
+        tbb::parallel_pipeline(static_cast<std::size_t>(look_ahead),
+                               tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, issue) &
+                                   tbb::make_filter<int, int>(tbb::filter_mode::parallel, render) &
+                                   tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order, write));
     });
     if (cancelled() && next < options.range.last) {
         throw Interrupted("stopped after " + std::to_string(report.layers_kept + report.layers_written) +

@@ -7,4 +7,5 @@ preset=${1:-release}
 bash cmake/install_packages.sh cmake/packages-build.txt cmake/packages-test.txt
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" | tail -n 1
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp}
 ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
