@@ -18,7 +18,8 @@ namespace lamella {
 struct SeedKey {
     std::uint64_t high = 0;
     std::uint64_t low = 0;
-    friend auto operator<=>(const SeedKey&, const SeedKey&) = default;
+    friend auto operator<=>(const SeedKey&,
+                            const SeedKey&) = default;  // NOLINT(modernize-use-nullptr): misread by the tool
 };
 
 /// The generator point of one Voronoi cell.
