@@ -134,7 +134,7 @@ class IslandPlanner {
     /// Lines spread evenly over a region, with the flow that gives its volume.
     void fill_solid(const Polygons& region, const Polygons& clip) {
         const Interval across = extent(region, normal());
-        const int count = std::max(1, static_cast<int>(across.width() / spacing_ + 0.5));
+        const int count = std::max(1, static_cast<int>(std::lround(across.width() / spacing_)));
         const double pitch = across.width() / count;
         // In a narrow region the lines' ends matter: there they are taken up to its border.
         for (const Polygons* within : {&clip, &region}) {
@@ -181,7 +181,7 @@ double squared_distance(dvec2 a, dvec2 b) {
 void begin_near(Bead& loop, dvec2 from) {
     const auto nearest =
         std::ranges::min_element(loop.points, {}, [&](dvec2 p) { return squared_distance(p, from); });
-    std::ranges::rotate(loop.points, nearest);
+    std::rotate(loop.points.begin(), nearest, loop.points.end());
 }
 
 dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
@@ -248,8 +248,8 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         for (Bead& bead : beads) bead.island = island;
         // Walls before infill: they hold what comes inside.
         const auto infill =
-            std::ranges::stable_partition(beads, [](const Bead& bead) { return bead.closed; });
-        const auto walls = static_cast<std::size_t>(infill.begin() - beads.begin());
+            std::stable_partition(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; });
+        const auto walls = static_cast<std::size_t>(infill - beads.begin());
         append_nearest(std::span(beads).first(walls), at, result.beads);
         append_nearest(std::span(beads).subspan(walls), at, result.beads);
     }
