@@ -20,7 +20,7 @@ bool names_recipe(std::string_view path) {
     return ending == ".toml";
 }
 
-std::string placeholder(const Setting& setting) {
+std::string value_hint(const Setting& setting) {
     switch (setting.type) {
         case ValueType::boolean:
             return "";
@@ -57,7 +57,7 @@ void RecipeOptions::add_to(CLI::App& command) {
             option = command.add_flag(names, texts_[i], option_help(setting));
         } else {
             option = command.add_option(setting.flag, texts_[i], option_help(setting));
-            option->type_name(placeholder(setting));
+            option->type_name(value_hint(setting));
         }
         option->group("Recipe [" + setting.section + "]");
         option->take_last();
