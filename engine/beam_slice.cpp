@@ -49,33 +49,26 @@ void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lin
 }  // namespace
 
 BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
-    std::vector<double> lo_x, lo_y;
+    std::vector<Rect> sections;
     for (const Beam& beam : beams) {
         const Interval part = axis_near_plane(beam, z);
         if (part.empty()) continue;
         beams_.push_back(beam);
-        extent_x_.push_back(extent(beam, part, 0));
-        extent_y_.push_back(extent(beam, part, 1));
-        lo_x.push_back(extent_x_.back().lo);
-        lo_y.push_back(extent_y_.back().lo);
-        bounds_ = unite(bounds_, Rect{{extent_x_.back().lo, extent_y_.back().lo},
-                                      {extent_x_.back().hi, extent_y_.back().hi}});
+        const Interval x = extent(beam, part, 0), y = extent(beam, part, 1);
+        sections.push_back({{x.lo, y.lo}, {x.hi, y.hi}});
     }
-    rows_ = IntervalIndex(extent_y_, lo_x);
-    columns_ = IntervalIndex(extent_x_, lo_y);
+    sections_ = PlaneIndex(std::move(sections));
 }
 
 void BeamRows::collect(const RowBand& band, RunCollector& runs) const {
     const Rect rect = band.rect();
-    const bool row = band.axis == Axis::x;
-    const Interval across = row ? Interval{rect.lo.y, rect.hi.y} : Interval{rect.lo.x, rect.hi.x};
-    const Interval along = row ? Interval{rect.lo.x, rect.hi.x} : Interval{rect.lo.y, rect.hi.y};
+    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     std::vector<std::uint32_t> items;
-    (row ? rows_ : columns_).query(across, items);
+    sections_.query(band, items);
     for (const std::uint32_t i : items) {
-        const Interval& extent_along = row ? extent_x_[i] : extent_y_[i];
-        if (extent_along.hi < along.lo || along.hi < extent_along.lo) continue;
-        collect_beam(beams_[i], row ? extent_y_[i] : extent_x_[i], band, runs);
+        const Rect& section = sections_.rect(i);
+        if (section.hi[along] < rect.lo[along] || rect.hi[along] < section.lo[along]) continue;
+        collect_beam(beams_[i], {section.lo[across], section.hi[across]}, band, runs);
     }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/beam.h"
-#include "engine/interval_index.h"
+#include "engine/plane_index.h"
 #include "engine/run_collector.h"
 #include "engine/tile_walk.h"
 
@@ -20,7 +20,7 @@ class BeamRows {
     /// Adds the runs of all beams that meet the band.
     void collect(const RowBand& band, RunCollector& runs) const;
     /// Encloses the beams' sections, mm.
-    Rect bounds() const { return bounds_; }
+    Rect bounds() const { return sections_.bounds(); }
     std::size_t size() const { return beams_.size(); }
 
   private:
@@ -29,9 +29,7 @@ class BeamRows {
 
     std::vector<Beam> beams_;
     double z_;
-    std::vector<Interval> extent_x_, extent_y_;
-    IntervalIndex rows_, columns_;
-    Rect bounds_;
+    PlaneIndex sections_;  ///< where each beam meets the plane
 };
 
 /// Spans of a field that is a union of beams; samples and ranges by the field itself.

@@ -138,30 +138,19 @@ GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, doubl
     std::vector<Beam> capsules;
     grown.near_plane(z, triangles_, capsules);
     capsules_ = std::make_unique<BeamRows>(capsules, z);
-    bounds_ = capsules_->bounds();
-    std::vector<Interval> x, y;
-    std::vector<double> lo_x, lo_y;
+    std::vector<Rect> prisms;
     for (const std::uint32_t triangle : triangles_) {
         const auto& t = grown.mesh().triangles[triangle];
         Box box;
         for (const std::uint32_t v : t) box.include(grown.mesh().vertices[v]);
-        const Rect rect = lamella::grown(box.rect(), grown.distance());
-        bounds_ = unite(bounds_, rect);
-        x.push_back({rect.lo.x, rect.hi.x});
-        y.push_back({rect.lo.y, rect.hi.y});
-        lo_x.push_back(rect.lo.x);
-        lo_y.push_back(rect.lo.y);
+        prisms.push_back(lamella::grown(box.rect(), grown.distance()));
     }
-    rows_ = IntervalIndex(y, lo_x);
-    columns_ = IntervalIndex(x, lo_y);
+    prisms_ = PlaneIndex(std::move(prisms));
 }
 
 void GrownMeshSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
-    const Rect rect = band.rect();
-    const bool row = band.axis == Axis::x;
     std::vector<std::uint32_t> items;
-    (row ? rows_ : columns_)
-        .query(row ? Interval{rect.lo.y, rect.hi.y} : Interval{rect.lo.x, rect.hi.x}, items);
+    prisms_.query(band, items);
     scratch.collector.clear();
     for (const std::uint32_t i : items) grown_.collect_prism(triangles_[i], z_, band, scratch.collector);
     capsules_->collect(band, scratch.collector);

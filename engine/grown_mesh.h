@@ -39,15 +39,14 @@ class GrownMeshSlice : public SampledSlice {
   public:
     GrownMeshSlice(const Field& field, const GrownMesh& grown, double z);
     void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
-    Rect bounds() const override { return bounds_; }
+    Rect bounds() const override { return unite(capsules_->bounds(), prisms_.bounds()); }
 
   private:
     const GrownMesh& grown_;
     double z_;
     std::vector<std::uint32_t> triangles_;
     std::unique_ptr<BeamRows> capsules_;
-    IntervalIndex rows_, columns_;
-    Rect bounds_;
+    PlaneIndex prisms_;
 };
 
 }  // namespace lamella

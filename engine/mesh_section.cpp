@@ -50,29 +50,20 @@ void add_crossings(const SectionSegment& s, const RowBand& band, std::vector<Lin
 }  // namespace
 
 MeshSection::MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double z) {
-    std::vector<Interval> x, y;
-    std::vector<double> lo_x, lo_y;
+    std::vector<Rect> boxes;
     for (const std::uint32_t t : triangles) {
         SectionSegment s;
         if (!section_segment(mesh, t, z, s)) continue;
         segments_.push_back(s);
-        const Rect box{glm::min(s.from, s.to), glm::max(s.from, s.to)};
-        bounds_ = unite(bounds_, box);
-        x.push_back({box.lo.x, box.hi.x});
-        y.push_back({box.lo.y, box.hi.y});
-        lo_x.push_back(box.lo.x);
-        lo_y.push_back(box.lo.y);
+        boxes.push_back({glm::min(s.from, s.to), glm::max(s.from, s.to)});
     }
-    rows_ = IntervalIndex(y, lo_x);
-    columns_ = IntervalIndex(x, lo_y);
+    boxes_ = PlaneIndex(std::move(boxes));
 }
 
 void MeshSection::spans(const RowBand& band, SpanRows& out) const {
-    const Rect rect = band.rect();
-    const bool row = band.axis == Axis::x;
+    // Segments outside the band count too: they wind round what lies in it.
     std::vector<std::uint32_t> items;
-    (row ? rows_ : columns_)
-        .query(row ? Interval{rect.lo.y, rect.hi.y} : Interval{rect.lo.x, rect.hi.x}, items);
+    boxes_.query(band, items);
     std::vector<LineCrossing> found;
     for (const std::uint32_t i : items) add_crossings(segments_[i], band, found);
 

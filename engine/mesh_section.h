@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/interval_index.h"
+#include "engine/plane_index.h"
 #include "engine/runs.h"
 #include "engine/triangle_tree.h"
 
@@ -18,13 +18,12 @@ class MeshSection {
     MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double z);
 
     void spans(const RowBand& band, SpanRows& out) const;
-    Rect bounds() const { return bounds_; }
+    Rect bounds() const { return boxes_.bounds(); }
     const std::vector<SectionSegment>& segments() const { return segments_; }
 
   private:
     std::vector<SectionSegment> segments_;
-    IntervalIndex rows_, columns_;
-    Rect bounds_;
+    PlaneIndex boxes_;
 };
 
 }  // namespace lamella

@@ -1,0 +1,31 @@
+// An index of things in a layer's plane by the bands of lines they meet, rows and columns alike.
+#pragma once
+
+#include <vector>
+
+#include "engine/interval_index.h"
+#include "engine/runs.h"
+
+namespace lamella {
+
+/// Finds the items that a band's lines can meet, wherever along them, also outside the band. They come back
+/// sorted along the lines.
+class PlaneIndex {
+  public:
+    PlaneIndex() = default;
+    /// One rectangle an item, mm.
+    explicit PlaneIndex(std::vector<Rect> rects);
+
+    /// Replaces `items` by the numbers of the items whose extent across the lines meets the band's.
+    void query(const RowBand& band, std::vector<std::uint32_t>& items) const;
+    const Rect& rect(std::uint32_t item) const { return rects_[item]; }
+    /// Encloses all rectangles.
+    const Rect& bounds() const { return bounds_; }
+
+  private:
+    std::vector<Rect> rects_;
+    IntervalIndex rows_, columns_;
+    Rect bounds_;
+};
+
+}  // namespace lamella
