@@ -1,0 +1,136 @@
+// Constants, depths and limits; narrow ranges by best-first division; surveys over a lattice.
+#include "engine/grading.h"
+
+#include <cmath>
+#include <queue>
+
+#include "engine/error.h"
+
+namespace lamella {
+namespace {
+
+class ConstantGrading : public Grading {
+  public:
+    explicit ConstantGrading(double number) : number_(number) {}
+    double at(dvec3 /*p*/) const override { return number_; }
+    Interval range(const Box& /*box*/) const override {
+        return std::isnan(number_) ? Interval{infinity, infinity} : Interval{number_, number_};
+    }
+
+  private:
+    double number_;
+};
+
+class DepthGrading : public Grading {
+  public:
+    explicit DepthGrading(FieldPtr body) : body_(std::move(body)) {}
+    double at(dvec3 p) const override { return -body_->value(p); }
+    Interval range(const Box& box) const override {
+        const Interval values = body_->range(box);
+        return {-values.hi, -values.lo};
+    }
+
+  private:
+    FieldPtr body_;
+};
+
+class ClampedGrading : public Grading {
+  public:
+    ClampedGrading(GradingPtr grading, Interval limits) : grading_(std::move(grading)), limits_(limits) {}
+    double at(dvec3 p) const override {
+        const double number = grading_->at(p);
+        if (number < limits_.lo) return limits_.lo;
+        return number <= limits_.hi ? number : limits_.hi;
+    }
+    Interval range(const Box& box) const override {
+        const Interval r = grading_->range(box);
+        return {std::min(std::max(r.lo, limits_.lo), limits_.hi),
+                std::max(std::min(r.hi, limits_.hi), limits_.lo)};
+    }
+
+  private:
+    GradingPtr grading_;
+    Interval limits_;
+};
+
+constexpr int most_divisions = 4000;
+constexpr double tight_enough = 0.02;
+
+/// A box whose enclosure is still wide.
+struct Open {
+    double bound;
+    Box box;
+    friend bool operator<(const Open& a, const Open& b) { return a.bound < b.bound; }
+};
+
+/// The least upper bound of sign * grading over the box that a bounded search finds.
+double upper_bound(const Grading& grading, const Box& box, double sign) {
+    const auto bound = [&](const Box& b) {
+        const Interval r = grading.range(b);
+        return sign > 0 ? r.hi : -r.lo;
+    };
+    std::priority_queue<Open> open;
+    open.push({bound(box), box});
+    double found = -infinity, least = infinity;
+    for (int i = 0; i < most_divisions; ++i) {
+        const Open worst = open.top();
+        const double number = grading.at(worst.box.center());
+        if (!std::isnan(number)) {
+            found = std::max(found, sign * number);
+            least = std::min(least, sign * number);
+        }
+        const double slack = tight_enough * std::max(found - least, 1e-9 * std::abs(found));
+        if (worst.bound <= found + slack) break;
+        open.pop();
+        const dvec3 center = worst.box.center();
+        for (int octant = 0; octant < 8; ++octant) {
+            Box part = worst.box;
+            for (int axis = 0; axis < 3; ++axis) {
+                ((octant >> axis) & 1 ? part.lo : part.hi)[axis] = center[axis];
+            }
+            open.push({bound(part), part});
+        }
+    }
+    return open.top().bound;
+}
+
+}  // namespace
+
+GradingPtr make_constant_grading(double number) { return std::make_shared<ConstantGrading>(number); }
+
+GradingPtr make_depth_grading(FieldPtr body) { return std::make_shared<DepthGrading>(std::move(body)); }
+
+GradingPtr make_clamped_grading(GradingPtr grading, Interval limits) {
+    if (limits.empty()) throw InputError("the lower limit of a graded number exceeds the upper one");
+    return std::make_shared<ClampedGrading>(std::move(grading), limits);
+}
+
+Interval tight_range(const Grading& grading, const Box& box) {
+    return {-upper_bound(grading, box, -1), upper_bound(grading, box, 1)};
+}
+
+GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side) {
+    GradingSurvey survey;
+    const Box box = body.bounds();
+    const dvec3 size = box.size();
+    const double step = std::max({size.x, size.y, size.z}) / per_side;
+    if (!(step > 0) || !std::isfinite(step)) return survey;
+    for (double z = box.lo.z + step / 2; z < box.hi.z; z += step) {
+        for (double y = box.lo.y + step / 2; y < box.hi.y; y += step) {
+            for (double x = box.lo.x + step / 2; x < box.hi.x; x += step) {
+                const dvec3 p(x, y, z);
+                if (!(body.value(p) < 0)) continue;
+                const double number = grading.at(p);
+                ++survey.points;
+                survey.below += number < limits.lo;
+                survey.above += number > limits.hi;
+                survey.undefined += std::isnan(number);
+                if (std::isnan(number)) continue;
+                survey.asked = {std::min(survey.asked.lo, number), std::max(survey.asked.hi, number)};
+            }
+        }
+    }
+    return survey;
+}
+
+}  // namespace lamella

@@ -1,0 +1,51 @@
+// Grading: a number that varies in space, for cell sizes, radii, thicknesses and everything else that may be
+// graded.
+#pragma once
+
+#include <memory>
+
+#include "engine/field.h"
+
+namespace lamella {
+
+/// A number at every point of space. Immutable and thread-safe; a pure function of place, the same bits on
+/// every machine.
+class Grading {
+  public:
+    virtual ~Grading() = default;
+    /// The number at a point (mm); NaN where none is defined.
+    virtual double at(dvec3 p) const = 0;
+    /// Encloses the numbers at all points of the closed box; a NaN counts as +infinity.
+    virtual Interval range(const Box& box) const = 0;
+};
+using GradingPtr = std::shared_ptr<const Grading>;
+
+/// The same number everywhere.
+GradingPtr make_constant_grading(double number);
+
+/// How deep a point lies below the body's surface, mm: minus the body's value, so positive inside. A body
+/// whose metric is `bound` gives a lower bound of the depth.
+GradingPtr make_depth_grading(FieldPtr body);
+
+/// The grading kept within limits; where it is NaN, the upper limit. Limits that are not in order are an
+/// InputError.
+GradingPtr make_clamped_grading(GradingPtr grading, Interval limits);
+
+/// Encloses the numbers over the box as narrowly as a bounded search can: the box is divided where the
+/// enclosure is widest until it exceeds the numbers found at centres by at most 2 % of their spread.
+Interval tight_range(const Grading& grading, const Box& box);
+
+/// What part of a body asks for numbers outside limits, by a fixed lattice of points.
+struct GradingSurvey {
+    int points = 0;     ///< lattice points inside the body
+    int below = 0;      ///< ... that ask for less than the lower limit
+    int above = 0;      ///< ... that ask for more than the upper limit
+    int undefined = 0;  ///< ... whose number is NaN
+    Interval asked;     ///< the least and the greatest number asked for
+};
+
+/// Asks for the grading at the points inside the body of a lattice with `per_side` points along its longest
+/// side.
+GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side = 48);
+
+}  // namespace lamella

@@ -1,0 +1,79 @@
+// Gradings as numbers and as enclosures.
+#include "engine/grading.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/error.h"
+#include "engine/primitives.h"
+
+using namespace lamella;
+
+namespace {
+
+/// A wave along x whose enclosure is honest but poor: the slope's bound from the centre.
+class Wave : public Grading {
+  public:
+    double at(dvec3 p) const override { return p.z > 9.5 ? std::nan("") : 2 + std::sin(p.x); }
+    Interval range(const Box& box) const override {
+        const double reach = box.size().x / 2, middle = 2 + std::sin(box.center().x);
+        return {middle - reach, box.hi.z > 9.5 ? infinity : middle + reach};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a constant is the same everywhere") {
+    const GradingPtr two = make_constant_grading(2);
+    CHECK(two->at({1, 2, 3}) == 2);
+    CHECK(two->range({{0, 0, 0}, {9, 9, 9}}).lo == 2);
+    CHECK(two->range({{0, 0, 0}, {9, 9, 9}}).hi == 2);
+}
+
+TEST_CASE("depth is positive inside and its range encloses it") {
+    const GradingPtr depth = make_depth_grading(make_sphere(dvec3(0), 10));
+    CHECK(depth->at(dvec3(0)) == 10);
+    CHECK(depth->at({12, 0, 0}) == -2);
+    const Interval r = depth->range({{-1, -1, -1}, {3, 1, 1}});
+    CHECK(r.lo <= 10 - std::sqrt(11.0));
+    CHECK(r.hi >= 10);
+}
+
+TEST_CASE("clamping keeps numbers and ranges within limits, and NaN at the upper one") {
+    const GradingPtr clamped = make_clamped_grading(std::make_shared<Wave>(), {1.5, 2.5});
+    CHECK(clamped->at({1.5707963, 0, 0}) == 2.5);
+    CHECK(clamped->at({-1.5707963, 0, 0}) == 1.5);
+    CHECK(clamped->at({0, 0, 0}) == 2);
+    CHECK(clamped->at({0, 0, 9.8}) == 2.5);
+    const Interval r = clamped->range({{-50, 0, 0}, {50, 1, 10}});
+    CHECK(r.lo == 1.5);
+    CHECK(r.hi == 2.5);
+    CHECK_THROWS_AS(make_clamped_grading(make_constant_grading(1), {2, 1}), InputError);
+}
+
+TEST_CASE("a tight range encloses the numbers and exceeds them little") {
+    const Interval r = tight_range(Wave(), {{-50, 0, 0}, {50, 1, 1}});
+    CHECK(r.lo <= 1);
+    CHECK(r.lo > 0.95);
+    CHECK(r.hi >= 3);
+    CHECK(r.hi < 3.05);
+    const Interval flat = tight_range(*make_constant_grading(4), {{0, 0, 0}, {1, 1, 1}});
+    CHECK(flat.lo == 4);
+    CHECK(flat.hi == 4);
+}
+
+TEST_CASE("a survey counts what lies outside the limits, in the body alone") {
+    const FieldPtr body = make_box({{-10, -10, -10}, {10, 10, 10}});
+    const GradingSurvey survey = survey_grading(Wave(), *body, {1.5, 2.5}, 40);
+    CHECK(survey.points == 40 * 40 * 40);
+    CHECK(survey.undefined == 40 * 40);
+    int below = 0, above = 0;
+    for (int i = 0; i < 40; ++i) {
+        const double number = 2 + std::sin(-9.75 + 0.5 * i);
+        below += number < 1.5;
+        above += number > 2.5;
+    }
+    CHECK(survey.below == below * 40 * 39);
+    CHECK(survey.above == above * 40 * 39);
+    CHECK(survey.asked.lo >= 1);
+    CHECK(survey.asked.hi <= 3);
+}
