@@ -82,14 +82,12 @@ double upper_bound(const Grading& grading, const Box& box, double sign) {
         const double slack = tight_enough * std::max(found - least, 1e-9 * std::abs(found));
         if (worst.bound <= found + slack) break;
         open.pop();
-        const dvec3 center = worst.box.center();
-        for (int octant = 0; octant < 8; ++octant) {
-            Box part = worst.box;
-            for (int axis = 0; axis < 3; ++axis) {
-                ((octant >> axis) & 1 ? part.lo : part.hi)[axis] = center[axis];
-            }
-            open.push({bound(part), part});
-        }
+        const dvec3 size = worst.box.size(), center = worst.box.center();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        Box lower = worst.box, upper = worst.box;
+        lower.hi[axis] = upper.lo[axis] = center[axis];
+        open.push({bound(lower), lower});
+        open.push({bound(upper), upper});
     }
     return open.top().bound;
 }
