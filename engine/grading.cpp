@@ -1,6 +1,7 @@
 // Constants, depths and limits; narrow ranges by best-first division; surveys over a lattice.
 #include "engine/grading.h"
 
+#include <array>
 #include <cmath>
 #include <queue>
 
@@ -63,6 +64,8 @@ struct Open {
     friend bool operator<(const Open& a, const Open& b) { return a.bound < b.bound; }
 };
 
+using Halves = std::array<Open, 2>;
+
 /// The least upper bound of sign * grading over the box that a bounded search finds.
 double upper_bound(const Grading& grading, const Box& box, double sign) {
     const auto bound = [&](const Box& b) {
@@ -82,12 +85,22 @@ double upper_bound(const Grading& grading, const Box& box, double sign) {
         const double slack = tight_enough * std::max(found - least, 1e-9 * std::abs(found));
         if (worst.bound <= found + slack) break;
         open.pop();
-        const dvec3 size = worst.box.size(), center = worst.box.center();
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        Box lower = worst.box, upper = worst.box;
-        lower.hi[axis] = upper.lo[axis] = center[axis];
-        open.push({bound(lower), lower});
-        open.push({bound(upper), upper});
+        Halves best{};
+        double least_sum = infinity;
+        // Of axes that serve alike, the one along the longest side; first of all where nothing helps yet.
+        const dvec3 size = worst.box.size();
+        const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        for (int i = 0; i < 3; ++i) {
+            const int axis = (longest + i) % 3;
+            Halves halves{worst, worst};
+            halves[0].box.hi[axis] = halves[1].box.lo[axis] = worst.box.center()[axis];
+            for (Open& half : halves) half.bound = bound(half.box);
+            const double sum = halves[0].bound + halves[1].bound;
+            if (i > 0 && !(sum < least_sum)) continue;
+            least_sum = sum;
+            best = halves;
+        }
+        for (const Open& half : best) open.push(half);
     }
     return open.top().bound;
 }
