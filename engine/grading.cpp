@@ -66,7 +66,28 @@ struct Open {
 
 using Halves = std::array<Open, 2>;
 
-/// The least upper bound of sign * grading over the box that a bounded search finds.
+/// The two halves of the box along the axis that lowers their bounds most. Of axes that serve alike, the one
+/// along the longest side.
+template <typename Bound>
+Halves divide(const Open& open, const Bound& bound) {
+    const dvec3 size = open.box.size();
+    const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    Halves best{};
+    double least = infinity;
+    for (int turn = 0; turn < 3; ++turn) {
+        const int axis = (longest + turn) % 3;
+        Halves halves{open, open};
+        halves[0].box.hi[axis] = halves[1].box.lo[axis] = open.box.center()[axis];
+        for (Open& half : halves) half.bound = bound(half.box);
+        const double sum = halves[0].bound + halves[1].bound;
+        if (turn > 0 && !(sum < least)) continue;
+        least = sum;
+        best = halves;
+    }
+    return best;
+}
+
+/// An upper bound of sign * grading over the box, close to the least one.
 double upper_bound(const Grading& grading, const Box& box, double sign) {
     const auto bound = [&](const Box& b) {
         const Interval r = grading.range(b);
@@ -74,33 +95,17 @@ double upper_bound(const Grading& grading, const Box& box, double sign) {
     };
     std::priority_queue<Open> open;
     open.push({bound(box), box});
-    double found = -infinity, least = infinity;
+    double most = -infinity, least = infinity;
     for (int i = 0; i < most_divisions; ++i) {
         const Open worst = open.top();
-        const double number = grading.at(worst.box.center());
+        const double number = sign * grading.at(worst.box.center());
         if (!std::isnan(number)) {
-            found = std::max(found, sign * number);
-            least = std::min(least, sign * number);
+            most = std::max(most, number);
+            least = std::min(least, number);
         }
-        const double slack = tight_enough * std::max(found - least, 1e-9 * std::abs(found));
-        if (worst.bound <= found + slack) break;
+        if (worst.bound <= most + tight_enough * (most - least)) break;
         open.pop();
-        Halves best{};
-        double least_sum = infinity;
-        // Of axes that serve alike, the one along the longest side; first of all where nothing helps yet.
-        const dvec3 size = worst.box.size();
-        const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        for (int i = 0; i < 3; ++i) {
-            const int axis = (longest + i) % 3;
-            Halves halves{worst, worst};
-            halves[0].box.hi[axis] = halves[1].box.lo[axis] = worst.box.center()[axis];
-            for (Open& half : halves) half.bound = bound(half.box);
-            const double sum = halves[0].bound + halves[1].bound;
-            if (i > 0 && !(sum < least_sum)) continue;
-            least_sum = sum;
-            best = halves;
-        }
-        for (const Open& half : best) open.push(half);
+        for (const Open& half : divide(worst, bound)) open.push(half);
     }
     return open.top().bound;
 }
