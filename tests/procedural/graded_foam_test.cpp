@@ -185,9 +185,9 @@ TEST_CASE("the graded foam's value is the distance to the nearest of all beams",
     const auto cell = std::make_shared<const Step>(1.1, 0.5, 4);
     const auto beam = std::make_shared<const Ramp>(-4, 0.05, 6, 0.6);
     const VoronoiFoam foam(settings(cell, GradingPtr(beam), {dvec3(-4), dvec3(6)}));
-    const Box box{{-1, 0, 0}, {3, 2, 2}};
-    const auto beams = foam.beams_touching(grown(box, 6));
-    for (int i = 0; i < 2000; ++i) {
+    const Box box{{0.4, 0, 0}, {2.4, 1, 1}};
+    const auto beams = foam.beams_touching(grown(box, 2.5));
+    for (int i = 0; i < 500; ++i) {
         const dvec3 p = random_point(box, i);
         double expected = infinity;
         for (const Beam& b : beams) expected = std::min(expected, signed_distance(b, p));
