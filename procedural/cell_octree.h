@@ -31,6 +31,11 @@ class CellOctree {
     CellOctree(GradingPtr size, const Box& region, std::size_t cache_bytes);
 
     double coarse_side() const { return coarse_side_; }
+    /// A corner of a coarse cube: the region's lower corner.
+    dvec3 origin() const { return region_.lo; }
+    const Box& region() const { return region_; }
+    /// Points farther from the origin along some axis, in coarse sides, belong to no cube.
+    static constexpr double farthest = 1e9;
     /// The smallest cubes have side coarse_side / 2^levels at least.
     int levels() const { return levels_; }
     double side(int level) const { return coarse_side_ / static_cast<double>(1 << level); }

@@ -8,8 +8,8 @@
 #include "engine/beam.h"
 #include "engine/field.h"
 #include "engine/grading.h"
-#include "procedural/cell_octree.h"
 #include "procedural/distance_brick.h"
+#include "procedural/lattice_struts.h"
 #include "procedural/unit_cells.h"
 
 namespace lamella {
@@ -35,7 +35,8 @@ class StrutLattice : public Field {
     explicit StrutLattice(const LatticeSettings& settings);
 
     /// The minimum of the signed distances to all beams, mm: the exact distance outside; inside, its
-    /// magnitude never exceeds the distance to the surface. NaN at points that are not finite.
+    /// magnitude never exceeds the distance to the surface. NaN at points that are not finite or
+    /// 1e9 cells away.
     double value(dvec3 p) const override;
     Interval range(const Box& box) const override;
     Metric metric() const override { return Metric::bound; }
@@ -46,16 +47,19 @@ class StrutLattice : public Field {
     Box bounds() const override { return settings_.region; }
 
     const LatticeSettings& settings() const { return settings_; }
-    const CellOctree& cells() const { return *cells_; }
+    const CellOctree& cells() const { return struts_->cells(); }
     /// Every beam whose solid touches the box, once, in an order that does not depend on the box. A strut
     /// along which the radius bends by more than 2 % is several beams end to end.
     std::vector<Beam> beams_touching(const Box& box) const;
 
   private:
-    StrutLattice(const StrutLattice& other, double growth);
+    StrutLattice(const StrutLattice& thinner, double growth);
+    double radius_at(dvec3 p) const;
+    void append(const Beam& beam, int splits, const Box& box, std::vector<Beam>& beams) const;
 
     LatticeSettings settings_;
-    std::shared_ptr<const CellOctree> cells_;
+    std::shared_ptr<const LatticeStruts> struts_;
+    bool constant_radius_;
     double growth_ = 0;       ///< added to every radius, mm
     double greatest_radius_;  ///< of all beams, mm
     mutable CellCache<DistanceBrick> bricks_;

@@ -21,8 +21,11 @@ struct Strut {
 /// Mech. Phys. Solids 49, 2001). Another name is an InputError that lists these.
 std::vector<Strut> unit_cell(std::string_view name);
 
-/// Throws InputError for a list that is empty, has more than 64 struts, or a strut without length or outside
-/// the unit cube.
+/// The shortest strut, in cells.
+inline constexpr double least_strut = 1e-3;
+
+/// Throws InputError for a list that is empty, has more than 64 struts, a strut shorter than least_strut or
+/// one outside the unit cube.
 void check_unit_cell(const std::vector<Strut>& struts);
 
 }  // namespace lamella

@@ -10,6 +10,7 @@
 #include "engine/shell.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
+#include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
 #include "tests/engine/shapes.h"
 #include "tests/procedural/graded_lengths.h"
@@ -32,6 +33,11 @@ FieldPtr gyroid(double period, double thickness) {
     return tpms(TpmsKind::gyroid, false, make_constant_grading(period), make_constant_grading(thickness));
 }
 
+FieldPtr lattice(const char* cell_name, GradingPtr cell, GradingPtr beam) {
+    return make_strut_lattice(
+        {unit_cell(cell_name), std::move(cell), std::move(beam), {dvec3(-4.5), dvec3(4.5)}});
+}
+
 std::vector<Named> all_fields() {
     const FieldPtr sphere = make_sphere({0.3, -0.2, 0.1}, 2.5);
     const FieldPtr box = make_box({{-2, -1.5, -1}, {1.5, 2.25, 1.75}});
@@ -40,7 +46,7 @@ std::vector<Named> all_fields() {
     const FieldPtr mesh = make_mesh_field(shapes::closed(shapes::icosphere(3, 2.4)));
     const glm::dmat3 turn(glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.6, 0.8, 0), glm::dvec3(0, 0, 1));
     const glm::dmat3 mirror(glm::dvec3(-1.1, 0, 0), glm::dvec3(0, 0.9, 0), glm::dvec3(0, 0, 1.2));
-    const auto slope = std::make_shared<LinearGrading>(0.3, dvec3(0.02, 0.01, -0.015));
+    const auto slope = std::make_shared<LinearGrading>(0.3, dvec3(0.02, 0.01, -0.01));
     const auto steep_slope = std::make_shared<LinearGrading>(2.5, dvec3(0.15, -0.1, 0.1));
     return {
         {"sphere", sphere},
@@ -54,6 +60,10 @@ std::vector<Named> all_fields() {
         {"steep cone", make_round_cone({{-1, 0, 0}, 1.8, {1.5, 0.1, 0.1}, 0.2})},
         {"torus", torus},
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
+        {"octet lattice", lattice("octet", make_constant_grading(1.9), make_constant_grading(0.12))},
+        {"bcc lattice in cells of several sizes",
+         lattice("bcc", std::make_shared<LinearGrading>(2, dvec3(0.25, 0, 0.05)),
+                 std::make_shared<LinearGrading>(0.15, dvec3(0.01, 0, -0.005)))},
         {"gyroid", gyroid(2.2, 0.3)},
         {"Schwarz P network",
          tpms(TpmsKind::schwarz_p, true, make_constant_grading(1.7), make_constant_grading(0.4))},

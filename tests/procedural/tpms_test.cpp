@@ -253,7 +253,7 @@ TEST_CASE("a solid with one graded number has the runs of its definition", "[tpm
                 }
                 const auto field = make_tpms(s);
                 CHECK(field->metric() == Metric::sign);
-                const double z = -0.43, pitch = 0.04;
+                const double z = -0.43, pitch = 0.08;
                 for (const Axis axis : {Axis::x, Axis::y}) {
                     const RowBand band = band_over(region, axis, pitch);
                     const SpanRows rows = runs_of(*field, band, z);
@@ -264,7 +264,7 @@ TEST_CASE("a solid with one graded number has the runs of its definition", "[tpm
                         const Interval levels = defined_levels(kind, network, s.thickness->at(p) / period);
                         return levels.lo < g && g < levels.hi;
                     };
-                    for (int l = 0; l < band.lines(); l += 3) {
+                    for (int l = 0; l < band.lines(); l += 5) {
                         const auto line = rows.line(static_cast<std::size_t>(l));
                         for (int u = 64; u < band.hi * run_unit - 64; u += 97) {
                             // Slivers under a quarter pitch need not be seen.
