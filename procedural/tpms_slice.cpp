@@ -1,9 +1,10 @@
-// One wave a line; where something is graded, samples with the sines of each column worked out once.
+// One wave a line; where something is graded, a walk along the line.
 #include "procedural/tpms_slice.h"
 
 #include <array>
 
 #include "engine/closed_slice.h"
+#include "procedural/line_walk.h"
 
 namespace lamella {
 namespace {
@@ -29,12 +30,12 @@ TpmsSlice::TpmsSlice(const Field& field, const TpmsSolid& solid, double z)
       region_(region_at(solid.region(), z)),
       height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {}
 
-void TpmsSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+void TpmsSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
     out.clear();
     if (solid_.is_constant()) {
         closed_spans(band, out);
     } else {
-        sampled_spans_in_region(band, scratch, out);
+        walked_spans(band, out);
     }
 }
 
@@ -60,19 +61,40 @@ void TpmsSlice::closed_spans(const RowBand& band, SpanRows& out) const {
     }
 }
 
-void TpmsSlice::sampled_spans_in_region(const RowBand& band, Scratch& scratch, SpanRows& out) const {
-    const auto everywhere = scratch.rows();
-    sampled_spans(*this, Metric::sign, band, *everywhere);
+void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
+    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
-    const double u = band.coordinate(room.lo), v = band.coordinate(room.hi);
-    const std::int32_t first = round_run(std::min(u, v)), last = round_run(std::max(u, v));
+    const double u0 = band.coordinate(room.lo), u1 = band.coordinate(room.hi);
+    const std::int32_t lo = std::max(band.lo * run_unit, round_run(std::min(u0, u1)));
+    const std::int32_t hi = std::min(band.hi * run_unit, round_run(std::max(u0, u1)));
+    const double steepest = solid_.steepest() * std::abs(band.along_pitch) / run_unit;
+    const dvec3 center = solid_.center();
     for (int l = 0; l < band.lines(); ++l) {
-        if (lines.contains(band.line(l))) {
-            for (const Run& run : everywhere->line(static_cast<std::size_t>(l))) {
-                out.push(std::max(run.begin, first), std::min(run.end, last));
-            }
+        const double place = band.line(l);
+        if (lo >= hi || !lines.contains(place)) {
+            out.end_line();
+            continue;
         }
-        out.end_line();
+        dvec3 p(0, 0, z_);
+        p[across_axis] = place;
+        const auto walk = [&](const auto& value) { LineWalk(value, steepest, lo, hi, out).walk(); };
+        if (solid_.has_constant_period()) {
+            const double period = solid_.period();
+            const Wave wave = tpms_wave(solid_.kind(), band.axis,
+                                        TpmsSolid::angle(place - center[across_axis], period), height_);
+            walk([&](double u) {
+                dvec3 q = p;
+                q[along_axis] = band.along(u);
+                const double g = wave.at(TpmsSolid::angle(q[along_axis] - center[along_axis], period));
+                return solid_.value_of(g, period, solid_.thickness_at(q));
+            });
+        } else {
+            walk([&](double u) {
+                dvec3 q = p;
+                q[along_axis] = band.along(u);
+                return solid_.value(q);
+            });
+        }
     }
 }
 

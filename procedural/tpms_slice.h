@@ -16,7 +16,7 @@ class TpmsSlice : public SampledSlice {
 
   private:
     void closed_spans(const RowBand& band, SpanRows& out) const;
-    void sampled_spans_in_region(const RowBand& band, Scratch& scratch, SpanRows& out) const;
+    void walked_spans(const RowBand& band, SpanRows& out) const;
     void sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
                     std::span<float> out) const;
 

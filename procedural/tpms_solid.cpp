@@ -4,6 +4,11 @@
 namespace lamella {
 namespace {
 
+constexpr int survey_side = 16;
+constexpr double survey_safety = 1.5;
+
+double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
+
 bool is_constant_over(const Grading& grading, const Box& box) {
     const Interval range = tight_range(grading, box);
     return range.lo == range.hi;
@@ -23,7 +28,31 @@ TpmsSolid::TpmsSolid(const TpmsSettings& settings)
       period_(settings.period->at(center_)),
       thickness_(settings.thickness->at(center_)),
       constant_period_(is_constant_over(*settings.period, settings.region)),
-      constant_thickness_(is_constant_over(*settings.thickness, settings.region)) {}
+      constant_thickness_(is_constant_over(*settings.thickness, settings.region)) {
+    if (!is_constant()) steepest_ = survey_steepest();
+}
+
+double TpmsSolid::survey_steepest() const {
+    const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
+    double graded = 0;
+    for (int i = 0; i < survey_side * survey_side * survey_side; ++i) {
+        const dvec3 at(i % survey_side, i / survey_side % survey_side, i / survey_side / survey_side);
+        const dvec3 p = settings_.region.lo + at * step;
+        const double period = period_at(p), thickness = thickness_at(p);
+        dvec3 of_period(0), of_thickness(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(step[axis] > 0)) continue;
+            dvec3 q = p;
+            q[axis] += step[axis];
+            of_period[axis] = (period_at(q) - period) / step[axis];
+            of_thickness[axis] = (thickness_at(q) - thickness) / step[axis];
+        }
+        const double stretch = length(of_period) * length(p - center_) / period;
+        const double scale = length(of_period) * 2 * g_.greatest / (turn * g_.steepest);
+        graded = std::max(graded, stretch + scale + length(of_thickness) / 2);
+    }
+    return 1 + graded * survey_safety;
+}
 
 double TpmsSolid::value_of(double g, double period, double thickness) const {
     const double scale = period / (turn * g_.steepest);

@@ -31,6 +31,9 @@ class TpmsSolid {
     static SineCosine angle(double distance, double period) { return sine_cosine(distance * turn / period); }
     /// The value where g is g, mm.
     double value_of(double g, double period, double thickness) const;
+    /// How much the value changes per mm at most, as far as the gradings' differences on a lattice of the
+    /// region tell.
+    double steepest() const { return steepest_; }
     /// The values of g that are solid: strictly between these.
     Interval solid_levels(double period, double thickness) const;
 
@@ -38,6 +41,8 @@ class TpmsSolid {
     Interval range(const Box& box) const;
 
   private:
+    double survey_steepest() const;
+
     static constexpr double turn = 6.28318530717958647693;
 
     TpmsSettings settings_;
@@ -45,6 +50,7 @@ class TpmsSolid {
     dvec3 center_;
     double period_, thickness_;
     bool constant_period_, constant_thickness_;
+    double steepest_ = 1;
 };
 
 }  // namespace lamella
