@@ -80,8 +80,8 @@ bool CellOctree::Divisions::contains(const OctreeCell& cell) const {
 }
 
 std::size_t CellOctree::Divisions::bytes() const {
-    std::size_t sum = sizeof(Divisions) + by_level.capacity() * sizeof(by_level[0]);
-    for (const auto& level : by_level) sum += level.capacity() * sizeof(level[0]);
+    std::size_t sum = sizeof(Divisions) + by_level.capacity() * sizeof(std::vector<glm::i64vec3>);
+    for (const auto& level : by_level) sum += level.capacity() * sizeof(glm::i64vec3);
     return sum;
 }
 

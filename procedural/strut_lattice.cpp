@@ -21,7 +21,8 @@ constexpr int most_splits = 5;      // into 32 beams
 
 bool finite(dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-const LatticeSettings& checked(const LatticeSettings& settings) {
+/// Keeps the radius to what the region asks for.
+LatticeSettings checked(const LatticeSettings& settings) {
     check_unit_cell(settings.struts);
     if (!settings.cell || !settings.beam) throw InputError("the lattice needs a cell size and a beam radius");
     const Box& region = settings.region;
@@ -29,7 +30,7 @@ const LatticeSettings& checked(const LatticeSettings& settings) {
         throw InputError("the lattice's region is empty or not finite; give a box with finite corners");
     }
     positive_range(*settings.cell, region, "the lattice's cell size");
-    positive_range(*settings.beam, region, "the lattice's beam radius");
+    const Interval radii = positive_range(*settings.beam, region, "the lattice's beam radius");
     const double thickest = tight_range(*make_quotient_grading(settings.beam, settings.cell), region).hi;
     if (!(thickest < 0.5)) {
         throw InputError(
@@ -37,7 +38,9 @@ const LatticeSettings& checked(const LatticeSettings& settings) {
                         "the cells; it must be less than half",
                         thickest));
     }
-    return settings;
+    LatticeSettings result = settings;
+    result.beam = make_clamped_grading(settings.beam, radii);
+    return result;
 }
 
 void check_count(const LatticeSettings& settings, const LatticeStruts& struts) {
@@ -64,7 +67,7 @@ StrutLattice::StrutLattice(const LatticeSettings& settings)
           settings.struts)),
       bricks_(settings.cache_bytes) {
     check_count(settings_, *struts_);
-    const Interval radii = tight_range(*settings_.beam, settings_.region);
+    const Interval radii = settings_.beam->range(settings_.region);
     constant_radius_ = radii.lo == radii.hi;
     greatest_radius_ = radii.hi;
 }

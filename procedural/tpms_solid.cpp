@@ -9,8 +9,9 @@ constexpr double survey_safety = 1.5;
 
 double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
 
+/// Gradings are clamped to what they ask for, so that a constant's range is one number.
 bool is_constant_over(const Grading& grading, const Box& box) {
-    const Interval range = tight_range(grading, box);
+    const Interval range = grading.range(box);
     return range.lo == range.hi;
 }
 

@@ -31,6 +31,7 @@ std::vector<Strut> cubic() {
 
 std::vector<Strut> bcc() {
     std::vector<Strut> struts;
+    struts.reserve(8);
     for (int i = 0; i < 8; ++i) struts.push_back({dvec3(0.5), corner(i)});
     return struts;
 }
