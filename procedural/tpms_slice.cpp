@@ -67,7 +67,7 @@ void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
     const double u0 = band.coordinate(room.lo), u1 = band.coordinate(room.hi);
     const std::int32_t lo = std::max(band.lo * run_unit, round_run(std::min(u0, u1)));
     const std::int32_t hi = std::min(band.hi * run_unit, round_run(std::max(u0, u1)));
-    const double steepest = solid_.steepest() * std::abs(band.along_pitch) / run_unit;
+    const double unit = std::abs(band.along_pitch) / run_unit;
     const dvec3 center = solid_.center();
     for (int l = 0; l < band.lines(); ++l) {
         const double place = band.line(l);
@@ -77,19 +77,21 @@ void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
         }
         dvec3 p(0, 0, z_);
         p[across_axis] = place;
-        const auto walk = [&](const auto& value) { LineWalk(value, steepest, lo, hi, out).walk(); };
+        const auto walk = [&](double steepest, const auto& value) {
+            LineWalk(value, steepest * unit, lo, hi, out).walk();
+        };
         if (solid_.has_constant_period()) {
             const double period = solid_.period();
             const Wave wave = tpms_wave(solid_.kind(), band.axis,
                                         TpmsSolid::angle(place - center[across_axis], period), height_);
-            walk([&](double u) {
+            walk(solid_.steepest(wave.amplitude()), [&](double u) {
                 dvec3 q = p;
                 q[along_axis] = band.along(u);
                 const double g = wave.at(TpmsSolid::angle(q[along_axis] - center[along_axis], period));
                 return solid_.value_of(g, period, solid_.thickness_at(q));
             });
         } else {
-            walk([&](double u) {
+            walk(solid_.steepest(), [&](double u) {
                 dvec3 q = p;
                 q[along_axis] = band.along(u);
                 return solid_.value(q);

@@ -30,10 +30,10 @@ TpmsSolid::TpmsSolid(const TpmsSettings& settings)
       thickness_(settings.thickness->at(center_)),
       constant_period_(is_constant_over(*settings.period, settings.region)),
       constant_thickness_(is_constant_over(*settings.thickness, settings.region)) {
-    if (!is_constant()) steepest_ = survey_steepest();
+    if (!is_constant()) graded_change_ = survey_gradings();
 }
 
-double TpmsSolid::survey_steepest() const {
+double TpmsSolid::survey_gradings() const {
     const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
     double graded = 0;
     for (int i = 0; i < survey_side * survey_side * survey_side; ++i) {
@@ -52,7 +52,7 @@ double TpmsSolid::survey_steepest() const {
         const double scale = length(of_period) * 2 * g_.greatest / (turn * g_.steepest);
         graded = std::max(graded, stretch + scale + length(of_thickness) / 2);
     }
-    return 1 + graded * survey_safety;
+    return graded * survey_safety;
 }
 
 double TpmsSolid::value_of(double g, double period, double thickness) const {

@@ -31,9 +31,11 @@ class TpmsSolid {
     static SineCosine angle(double distance, double period) { return sine_cosine(distance * turn / period); }
     /// The value where g is g, mm.
     double value_of(double g, double period, double thickness) const;
-    /// How much the value changes per mm at most, as far as the gradings' differences on a lattice of the
-    /// region tell.
-    double steepest() const { return steepest_; }
+    /// How much the value changes per mm at most along a line in a plane on which g changes by at most
+    /// `change_of_g` per angle, as far as the gradings' differences on a lattice of the region tell.
+    double steepest(double change_of_g) const { return change_of_g / g_.steepest + graded_change_; }
+    /// The same for any line along an axis.
+    double steepest() const { return steepest(g_.steepest_along); }
     /// The values of g that are solid: strictly between these.
     Interval solid_levels(double period, double thickness) const;
 
@@ -41,7 +43,7 @@ class TpmsSolid {
     Interval range(const Box& box) const;
 
   private:
-    double survey_steepest() const;
+    double survey_gradings() const;
 
     static constexpr double turn = 6.28318530717958647693;
 
@@ -50,7 +52,7 @@ class TpmsSolid {
     dvec3 center_;
     double period_, thickness_;
     bool constant_period_, constant_thickness_;
-    double steepest_ = 1;
+    double graded_change_ = 0;  ///< what the gradings add to the change of the value per mm
 };
 
 }  // namespace lamella

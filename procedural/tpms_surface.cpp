@@ -51,15 +51,15 @@ Interval interval_range(TpmsKind kind, const Box& angles) {
 TpmsConstants tpms_constants(TpmsKind kind) {
     switch (kind) {
         case TpmsKind::gyroid:
-            return {root_3, root_3, -root_2, 1.5};
+            return {root_3, root_2, root_3, -root_2, 1.5};
         case TpmsKind::schwarz_p:
-            return {root_3, root_3, -1, 3};
+            return {root_3, 1, root_3, -1, 3};
         case TpmsKind::schwarz_d:
-            return {root_3, root_3, -1, root_2};
+            return {root_3, root_2, root_3, -1, root_2};
         case TpmsKind::neovius:
             break;
     }
-    return {7, 3 * root_3, -0.75, 13};
+    return {7, 7, 3 * root_3, -0.75, 13};
 }
 
 Wave tpms_wave(TpmsKind kind, Axis axis, const SineCosine& across, const SineCosine& z) {

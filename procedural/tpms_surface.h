@@ -1,6 +1,8 @@
 // The functions g whose zero sets are the triply periodic surfaces: values, waves along lines, intervals.
 #pragma once
 
+#include <cmath>
+
 #include "engine/deterministic_math.h"
 #include "engine/runs.h"
 #include "procedural/tpms.h"
@@ -12,6 +14,7 @@ struct Wave {
     double sine;
     double cosine;
     double constant;
+    double amplitude() const { return std::sqrt(sine * sine + cosine * cosine); }
     double at(const SineCosine& t) const { return sine * t.sine + cosine * t.cosine + constant; }
 };
 
@@ -19,6 +22,7 @@ struct Wave {
 /// along some axes, g becomes -g.
 struct TpmsConstants {
     double steepest;          ///< the largest gradient anywhere, angles
+    double steepest_along;    ///< the largest derivative along one axis
     double steepest_surface;  ///< the largest gradient on g = 0
     double joined;            ///< the least level at which g < level hangs together
     double greatest;          ///< the largest |g|

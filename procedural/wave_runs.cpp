@@ -27,7 +27,7 @@ double turns_of(double cosine, double sine) {
 
 WaveRuns wave_runs(const Wave& wave, Interval levels) {
     const Interval room{levels.lo - wave.constant, levels.hi - wave.constant};
-    const double amplitude = std::sqrt(wave.sine * wave.sine + wave.cosine * wave.cosine);
+    const double amplitude = wave.amplitude();
     if (!(room.lo < amplitude && -amplitude < room.hi)) return {};
     const bool over_crest = room.hi >= amplitude, under_trough = room.lo <= -amplitude;
     if (over_crest && under_trough) return {{{-infinity, infinity}}, 1};

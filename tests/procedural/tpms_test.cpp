@@ -129,7 +129,7 @@ TEST_CASE("the constants of the surfaces are those of their definitions", "[tpms
     for (const TpmsKind kind : kinds) {
         INFO("kind " << static_cast<int>(kind));
         const TpmsConstants constants = tpms_constants(kind);
-        double steepest = 0, steepest_surface = 0, greatest = 0;
+        double steepest = 0, steepest_along = 0, steepest_surface = 0, greatest = 0;
         const auto look = [&](dvec3 u) {
             dvec3 gradient(0);
             for (int i = 0; i < 3; ++i) {
@@ -139,6 +139,7 @@ TEST_CASE("the constants of the surfaces are those of their definitions", "[tpms
             }
             const double g = defined_g(kind, u), steep = glm::length(gradient);
             greatest = std::max(greatest, std::abs(g));
+            for (int i = 0; i < 3; ++i) steepest_along = std::max(steepest_along, std::abs(gradient[i]));
             steepest = std::max(steepest, steep);
             if (std::abs(g) < 1e-3) steepest_surface = std::max(steepest_surface, steep);
         };
@@ -149,6 +150,8 @@ TEST_CASE("the constants of the surfaces are those of their definitions", "[tpms
         CHECK(steepest_surface == Approx(constants.steepest_surface).epsilon(1e-3));
         CHECK(greatest <= constants.greatest + 1e-12);
         CHECK(steepest <= constants.steepest + 1e-6);
+        CHECK(steepest_along == Approx(constants.steepest_along).epsilon(1e-3));
+        CHECK(steepest_along <= constants.steepest_along + 1e-6);
         CHECK(hangs_together(kind, constants.joined + 0.02 * constants.greatest));
         CHECK_FALSE(hangs_together(kind, constants.joined - 0.02 * constants.greatest));
     }
