@@ -84,14 +84,14 @@ void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
             const double period = solid_.period();
             const Wave wave = tpms_wave(solid_.kind(), band.axis,
                                         TpmsSolid::angle(place - center[across_axis], period), height_);
-            walk(solid_.steepest(wave.amplitude()), [&](double u) {
+            walk(solid_.steepest(along_axis, wave.amplitude()), [&](double u) {
                 dvec3 q = p;
                 q[along_axis] = band.along(u);
                 const double g = wave.at(TpmsSolid::angle(q[along_axis] - center[along_axis], period));
                 return solid_.value_of(g, period, solid_.thickness_at(q));
             });
         } else {
-            walk(solid_.steepest(), [&](double u) {
+            walk(solid_.steepest(along_axis), [&](double u) {
                 dvec3 q = p;
                 q[along_axis] = band.along(u);
                 return solid_.value(q);

@@ -33,26 +33,26 @@ TpmsSolid::TpmsSolid(const TpmsSettings& settings)
     if (!is_constant()) graded_change_ = survey_gradings();
 }
 
-double TpmsSolid::survey_gradings() const {
+dvec3 TpmsSolid::survey_gradings() const {
     const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
-    double graded = 0;
+    dvec3 most(0);
     for (int i = 0; i < survey_side * survey_side * survey_side; ++i) {
         const dvec3 at(i % survey_side, i / survey_side % survey_side, i / survey_side / survey_side);
         const dvec3 p = settings_.region.lo + at * step;
         const double period = period_at(p), thickness = thickness_at(p);
-        dvec3 of_period(0), of_thickness(0);
         for (int axis = 0; axis < 3; ++axis) {
             if (!(step[axis] > 0)) continue;
             dvec3 q = p;
             q[axis] += step[axis];
-            of_period[axis] = (period_at(q) - period) / step[axis];
-            of_thickness[axis] = (thickness_at(q) - thickness) / step[axis];
+            const double of_period = std::abs(period_at(q) - period) / step[axis];
+            const double of_thickness = std::abs(thickness_at(q) - thickness) / step[axis];
+            const double farther = std::max(length(p - center_), length(q - center_));
+            const double stretch = of_period * farther / std::min(period, period_at(q));
+            const double scale = of_period * 2 * g_.greatest / (turn * g_.steepest);
+            most[axis] = std::max(most[axis], stretch + scale + of_thickness / 2);
         }
-        const double stretch = length(of_period) * length(p - center_) / period;
-        const double scale = length(of_period) * 2 * g_.greatest / (turn * g_.steepest);
-        graded = std::max(graded, stretch + scale + length(of_thickness) / 2);
     }
-    return graded * survey_safety;
+    return most * survey_safety;
 }
 
 double TpmsSolid::value_of(double g, double period, double thickness) const {

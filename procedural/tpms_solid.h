@@ -31,11 +31,14 @@ class TpmsSolid {
     static SineCosine angle(double distance, double period) { return sine_cosine(distance * turn / period); }
     /// The value where g is g, mm.
     double value_of(double g, double period, double thickness) const;
-    /// How much the value changes per mm at most along a line in a plane on which g changes by at most
-    /// `change_of_g` per angle, as far as the gradings' differences on a lattice of the region tell.
-    double steepest(double change_of_g) const { return change_of_g / g_.steepest + graded_change_; }
-    /// The same for any line along an axis.
-    double steepest() const { return steepest(g_.steepest_along); }
+    /// How much the value changes per mm at most along a line in the direction of `axis` (0 to 2) on which g
+    /// changes by at most `change_of_g` per angle, as far as the gradings' differences on a lattice of the
+    /// region tell.
+    double steepest(int axis, double change_of_g) const {
+        return change_of_g / g_.steepest + graded_change_[axis];
+    }
+    /// The same for any line in that direction.
+    double steepest(int axis) const { return steepest(axis, g_.steepest_along); }
     /// The values of g that are solid: strictly between these.
     Interval solid_levels(double period, double thickness) const;
 
@@ -43,7 +46,7 @@ class TpmsSolid {
     Interval range(const Box& box) const;
 
   private:
-    double survey_gradings() const;
+    dvec3 survey_gradings() const;
 
     static constexpr double turn = 6.28318530717958647693;
 
@@ -52,7 +55,7 @@ class TpmsSolid {
     dvec3 center_;
     double period_, thickness_;
     bool constant_period_, constant_thickness_;
-    double graded_change_ = 0;  ///< what the gradings add to the change of the value per mm
+    dvec3 graded_change_{0};  ///< what the gradings add to the change of the value per mm along each axis
 };
 
 }  // namespace lamella
