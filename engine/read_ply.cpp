@@ -3,7 +3,10 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/mesh_attribute.h"
 #include "engine/mesh_source.h"
+#include "engine/triangulate.h"
+#include "engine/whole_file.h"
 
 namespace lamella {
 
@@ -232,6 +235,25 @@ class PlyReader {
         : source_(source), header_(HeaderReader(source).read()), body_(source, header_) {}
 
     MeshFile read() {
+        read_elements();
+        return build();
+    }
+
+    /// Strict where read() mends: a number must not end up at another corner.
+    AttributedMesh read_with(const std::string& attribute) {
+        choose(attribute);
+        read_elements();
+        if (!notes_.empty()) reject(source_, notes_.front());
+        if (!has_faces_) reject(source_, without_faces());
+        AttributedMesh out;
+        out.mesh.vertices = std::move(vertices_);
+        out.values = std::move(values_);
+        cut_faces(out.mesh);
+        return out;
+    }
+
+  private:
+    void read_elements() {
         for (const Element& element : header_.elements) {
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -242,10 +264,34 @@ class PlyReader {
             }
             if (!body_.ok()) break;
         }
-        return build();
     }
 
-  private:
+    /// Finds the property to be read at each vertex, and what one stands for.
+    void choose(const std::string& attribute) {
+        std::string names;
+        for (const Element& element : header_.elements) {
+            if (element.name != "vertex") continue;
+            if (!names.empty()) reject(source_, "its header announces vertices twice");
+            for (const Property& p : element.properties) {
+                if (p.name == "x" || p.name == "y" || p.name == "z" || p.count) continue;
+                names += (names.empty() ? "" : ", ") + quoted(p.name);
+                if (p.name != attribute) continue;
+                attribute_ = element.index_of(attribute);
+                const bool channel =
+                    attribute == "red" || attribute == "green" || attribute == "blue" || attribute == "alpha";
+                if (channel && p.value.kind != Scalar::Kind::real) full_scale_ = greatest(p.value);
+            }
+        }
+        if (attribute_ != none) return;
+        reject(source_, "its vertices have no number named " + quoted(attribute) + "; there " +
+                            (names.empty() ? "is none beside x, y and z" : "are " + names));
+    }
+
+    static double greatest(const Scalar& scalar) {
+        const std::size_t bits = 8 * scalar.bytes - (scalar.kind == Scalar::Kind::signed_integer ? 1 : 0);
+        return static_cast<double>((std::uint64_t{1} << bits) - 1);
+    }
+
     /// How many rows can be there at most, so that no announced count makes us allocate.
     std::size_t possible_rows(const Element& element) const {
         const std::size_t least =
@@ -263,15 +309,19 @@ class PlyReader {
         vertices_.reserve(possible_rows(element));
         for (std::size_t row = 0; row < element.count; ++row) {
             dvec3 p(0.0);
+            double number = 0.0;
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const double value = read_property(element.properties[i], nullptr);
                 if (i == x) p.x = value;
                 if (i == y) p.y = value;
                 if (i == z) p.z = value;
+                if (i == attribute_) number = value;
             }
             if (!body_.ok()) cut_off(element, row);
             if (!body_.ok()) return;
             vertices_.push_back(p * source_.unit_mm);
+            if (attribute_ != none)
+                values_.push_back(std::isfinite(number) ? number / full_scale_ : std::nan(""));
         }
     }
 
@@ -330,16 +380,56 @@ class PlyReader {
                          (rows == 1 ? " is" : " are") + " there whole");
     }
 
-    MeshFile build() {
-        if (!has_faces_) {
-            std::string why = "it holds points but no faces";
-            if (has_strips_)
-                why =
-                    "its triangles are stored as strips (tristrips), which are not read; export it with "
-                    "plain faces";
-            if (!notes_.empty()) why = notes_.front();
-            reject(source_, why + ", so there is nothing to print");
+    std::string without_faces() const {
+        if (!notes_.empty()) return notes_.front();
+        if (has_strips_) {
+            return "its triangles are stored as strips (tristrips), which are not read; export it with plain "
+                   "faces";
         }
+        return "it holds points but no faces";
+    }
+
+    /// Cuts the faces into triangles over the vertices as they stand; leaves out triangles without extent.
+    void cut_faces(TriangleMesh& mesh) const {
+        std::vector<dvec3> loop;
+        std::vector<std::array<std::uint32_t, 3>> cut;
+        std::size_t begin = 0;
+        for (std::size_t face = 0; face < face_ends_.size(); begin = face_ends_[face++]) {
+            loop.clear();
+            for (std::size_t i = begin; i < face_ends_[face]; ++i) {
+                loop.push_back(checked_corner(mesh, face, corners_[i]));
+            }
+            cut.clear();
+            triangulate_loop(loop, cut);
+            for (const auto& t : cut) {
+                if (loop[t[0]] == loop[t[1]] || loop[t[1]] == loop[t[2]] || loop[t[2]] == loop[t[0]])
+                    continue;
+                mesh.triangles.push_back({static_cast<std::uint32_t>(corners_[begin + t[0]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[1]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[2]])});
+            }
+        }
+        if (mesh.triangles.empty()) reject(source_, "none of its faces has an extent");
+    }
+
+    dvec3 checked_corner(const TriangleMesh& mesh, std::size_t face, std::int64_t corner) const {
+        const auto fail = [&](const std::string& what) {
+            reject(source_, "face " + grouped(face + 1) + " " + what);
+        };
+        if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.vertices.size()) {
+            fail("points to a vertex that does not exist");
+        }
+        const dvec3 p = mesh.vertices[static_cast<std::size_t>(corner)];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(p[axis]) <= MeshWelder::largest_coordinate)) {
+                fail("has a corner that is NaN, infinite or absurdly large");
+            }
+        }
+        return p;
+    }
+
+    MeshFile build() {
+        if (!has_faces_) reject(source_, without_faces() + ", so there is nothing to print");
         PolygonWelder welder(std::move(vertices_));
         std::size_t begin = 0;
         std::size_t bad_index = 0;
@@ -371,7 +461,11 @@ class PlyReader {
     const MeshSource& source_;
     Header header_;
     BodyCursor body_;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::size_t attribute_ = none;
+    double full_scale_ = 1.0;
     std::vector<dvec3> vertices_;
+    std::vector<double> values_;
     std::vector<std::int64_t> corners_;
     std::vector<std::size_t> face_ends_;
     std::vector<std::string> notes_;
@@ -382,5 +476,21 @@ class PlyReader {
 }  // namespace
 
 MeshFile read_ply(const MeshSource& source) { return PlyReader(source).read(); }
+
+AttributedMesh read_ply_attribute(std::string_view name, std::span<const std::byte> bytes,
+                                  const std::string& attribute, double unit_mm) {
+    const MeshSource source = mesh_source(name, bytes, unit_mm);
+    if (!source.bytes.starts_with("ply\n") && !source.bytes.starts_with("ply\r")) {
+        reject(source,
+               "a PLY file begins with a line \"ply\", and this one does not; no other mesh format "
+               "is read for numbers at its vertices");
+    }
+    return PlyReader(source).read_with(attribute);
+}
+
+AttributedMesh read_ply_attribute(const std::string& path, const std::string& attribute, double unit_mm) {
+    const std::string bytes = whole_file(path, "a PLY file");
+    return read_ply_attribute(path, std::as_bytes(std::span(bytes)), attribute, unit_mm);
+}
 
 }  // namespace lamella
