@@ -33,6 +33,10 @@ struct Volume {
     std::optional<Box> box;   ///< where the file says it lies, mm: voxels are centred on their samples
 };
 
+/// Throws InputError("path: ...") for a volume beyond the limits.
+void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes_each,
+                       const std::string& path);
+
 /// Reads a volume. Throws InputError with the path.
 /// - a folder: all its files but hidden ones as pages; names sort naturally, 2 before 10
 /// - a pattern with * and ? in the last part of the path: the files whose name fits, sorted likewise
