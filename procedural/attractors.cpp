@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "engine/deterministic_math.h"
 #include "engine/error.h"
 
 namespace lamella {
@@ -253,9 +254,9 @@ class FalloffGrading : public Grading {
             case Falloff::inverse:
                 return 1 / (1 + t);
             case Falloff::gaussian:
-                break;
+                return exponential(-4.5 * t * t);
         }
-        throw InputError("a falloff is linear, smooth or inverse");
+        throw InputError("a falloff is linear, smooth, gaussian or inverse");
     }
 
     GradingPtr distance_;

@@ -268,10 +268,9 @@ Volume read_nrrd(std::istream& in, const std::string& name, const std::string& f
     }
     const std::string path = (std::filesystem::path(folder) / header.data_file).string();
     std::error_code error;
-    std::ifstream data(path, std::ios::binary);
-    if (!data || !std::filesystem::is_regular_file(path, error)) {
-        fail(name, "its data file " + path + " cannot be opened");
-    }
+    std::ifstream data;
+    if (std::filesystem::is_regular_file(path, error)) data.open(path, std::ios::binary);
+    if (!data.is_open()) fail(name, "its data file " + path + " cannot be opened");
     volume.samples = samples_of(data, header, path);
     return volume;
 }
