@@ -146,6 +146,33 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     return cells;
 }
 
+/// Takes the next line of a text away, without its end and what follows a #.
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
+    return line.substr(0, line.find('#'));
+}
+
+/// The row that the cells of a line give. `where` is "path:line: ".
+std::pair<double, double> row_of(const std::vector<std::string_view>& cells, const std::string& where) {
+    std::vector<double> numbers;
+    numbers.reserve(cells.size());
+    for (const std::string_view cell : cells) {
+        const auto number = parse_double(cell);
+        if (!number) throw InputError(where + quoted(cell) + " is not a number (such as 12.5, with a point)");
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != 2) {
+        throw InputError(where + "a row needs two numbers, position and number; here " +
+                         (numbers.size() == 1 ? "is " : "are ") + std::to_string(numbers.size()));
+    }
+    if (!(std::abs(numbers[0]) <= largest_number && std::abs(numbers[1]) <= largest_number)) {
+        throw InputError(where + "both numbers must be finite and at most 1e100");
+    }
+    return {numbers[0], numbers[1]};
+}
+
 }  // namespace
 
 GradingPtr make_table_grading(GradingPtr along, Table rows, bool smooth) {
@@ -158,37 +185,22 @@ Table read_table(std::string_view text, const std::string& name) {
     bool headed = false;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the byte order mark of spreadsheets
     for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        std::string_view content = text.substr(0, end);
-        text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
-        content = content.substr(0, content.find('#'));
-        const auto fail = [&](const std::string& what) {
-            throw InputError(name + ":" + std::to_string(line) + ": " + what);
-        };
-        const std::vector<std::string_view> cells = cells_of(content);
+        const std::vector<std::string_view> cells = cells_of(take_line(text));
         if (cells.empty()) continue;
-        std::vector<std::optional<double>> numbers;
-        for (const std::string_view cell : cells) numbers.push_back(parse_double(cell));
-        const auto is_word = [](const auto& number) { return !number.has_value(); };
-        if (rows.empty() && !headed && std::all_of(numbers.begin(), numbers.end(), is_word)) {
+        const auto is_word = [](std::string_view cell) { return !parse_double(cell); };
+        if (rows.empty() && !headed && std::all_of(cells.begin(), cells.end(), is_word)) {
             headed = true;
             continue;
         }
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (!numbers[i]) fail(quoted(cells[i]) + " is not a number (such as 12.5, with a point)");
+        std::string where = name;
+        where += ":" + std::to_string(line) + ": ";
+        const auto row = row_of(cells, where);
+        if (!rows.empty() && !(rows.back().first < row.first)) {
+            throw InputError(
+                where +
+                "positions must increase from row to row, and this one does not exceed the one before");
         }
-        if (cells.size() != 2) {
-            fail("a row needs two numbers, position and number; here " +
-                 std::string(cells.size() == 1 ? "is " : "are ") + std::to_string(cells.size()));
-        }
-        const double position = *numbers[0], number = *numbers[1];
-        if (!(std::abs(position) <= largest_number && std::abs(number) <= largest_number)) {
-            fail("both numbers must be finite and at most 1e100");
-        }
-        if (!rows.empty() && !(rows.back().first < position)) {
-            fail("positions must increase from row to row, and this one does not exceed the one before");
-        }
-        rows.emplace_back(position, number);
+        rows.push_back(row);
     }
     if (rows.empty()) throw InputError(name + ": the table holds no rows (two numbers a line)");
     return rows;
