@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "engine/error.h"
-#include "engine/mesh_source.h"
+#include "procedural/tiff_pages.h"
 
 namespace lamella {
 namespace {
@@ -104,7 +104,15 @@ class StackReader {
                           "this is no image that can be read; volumes are image stacks, multi-page TIFF "
                           "or NRRD files, and a folder must hold nothing but images of one size");
         }
-        for (int page = 0; input->seek_subimage(page, 0); ++page) add_page(*input, path, page);
+        int page = 0;
+        for (; input->seek_subimage(page, 0); ++page) add_page(*input, path, page);
+        input->geterror();
+        std::ifstream file(path, std::ios::binary);
+        const auto announced = count_tiff_pages(file, path);
+        if (announced && *announced != static_cast<std::size_t>(page)) {
+            reject_volume(path, "only " + std::to_string(page) + " of its " + std::to_string(*announced) +
+                                    " pages can be read");
+        }
     }
 
     Volume finish() {

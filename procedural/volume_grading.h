@@ -11,9 +11,9 @@ namespace lamella {
 
 /// Where a volume comes from and where it lies.
 struct VolumeSource {
-    std::string path;        ///< see read_volume
-    std::optional<Box> box;  ///< mm; what the file says when not given
-    int channel = 0;         ///< of an image, from 0
+    std::string path;             ///< see read_volume
+    std::optional<Box> box = {};  ///< mm; what the file says when not given
+    int channel = 0;              ///< of an image, from 0
 };
 
 /// The number at a point, trilinear between the centres of the voxels that fill the box, and constant beyond

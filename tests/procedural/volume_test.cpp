@@ -272,11 +272,16 @@ TEST_CASE("pages that do not belong together are refused by name") {
     CHECK_THROWS_AS(read_image_stack({}), InputError);
 }
 
+// As TIFF: OpenImageIO 2.4 leaks a string where libpng gives up.
 TEST_CASE("an image cut off is refused") {
     const ScratchFolder folder("cut");
-    write_image<std::uint8_t>(folder / "1.png", 0);
-    fs::resize_file(folder / "1.png", fs::file_size(folder / "1.png") / 2);
-    CHECK(volume_message(folder.path()).find((folder / "1.png").string() + ": ") == 0);
+    write_pages<std::uint16_t>(folder / "1.tif", 3, true);
+    const auto whole = fs::file_size(folder / "1.tif");
+    for (const auto length : {whole / 8, whole / 3, whole / 2, whole * 2 / 3, whole * 9 / 10, whole - 20}) {
+        write_pages<std::uint16_t>(folder / "1.tif", 3, true);
+        fs::resize_file(folder / "1.tif", length);
+        CHECK(volume_message(folder.path()).find((folder / "1.tif").string() + ": ") == 0);
+    }
 }
 
 TEST_CASE("NRRD samples of every type, encoding and byte order are read") {
