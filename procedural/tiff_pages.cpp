@@ -40,8 +40,8 @@ std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string&
         return std::nullopt;
     OrderedBytes bytes(in, order[0] == 'M');
     const auto magic = bytes.number(2, 2);
-    if (magic != classic && magic != big) return std::nullopt;
     const bool wide = magic == big;
+    if (!wide && magic != classic) return std::nullopt;
     const std::size_t offset_bytes = wide ? 8 : 4, count_bytes = wide ? 8 : 2, entry_bytes = wide ? 20 : 12;
     auto at = bytes.number(wide ? 8 : 4, offset_bytes);
     std::size_t pages = 0;
