@@ -18,10 +18,11 @@ bool finite(dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::i
 
 double BeamFoam::value(dvec3 p) const {
     if (!finite(p)) return std::numeric_limits<double>::quiet_NaN();
-    const auto [level, side] = brick_size(p);
+    const BrickSize size = brick_size(p);
+    const double side = size.side;
     const dvec3 index = glm::floor(p / side);
     const PlaceKey key{static_cast<std::int64_t>(index.x), static_cast<std::int64_t>(index.y),
-                       static_cast<std::int64_t>(index.z), level, 0};
+                       static_cast<std::int64_t>(index.z), size.level, 0};
     const auto brick = bricks_.find_or_make(key, p.z, [&] {
         return DistanceBrick({index * side, (index + 1.0) * side},
                              [this](const Box& box) { return beams_touching(box); });

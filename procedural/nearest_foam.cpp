@@ -20,6 +20,11 @@ double diagonal(const Box& box) {
     return std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z) * safe_side;
 }
 
+/// The number of the octant about the center that holds the point.
+std::size_t octant_about(dvec3 center, dvec3 p) {
+    return (p.x >= center.x ? 1U : 0U) | (p.y >= center.y ? 2U : 0U) | (p.z >= center.z ? 4U : 0U);
+}
+
 /// The largest ratio of two factors anywhere in the region.
 double check_metric(const NearestFoamSettings& settings) {
     if (settings.neighbours < 1 || settings.neighbours > 26) {
@@ -110,8 +115,7 @@ double NearestSource::sure_radius(dvec3 p, int deepest_level) const {
         radius = diagonal(node->box);
         if (node->first_child < 0 || node->level == deepest_level) break;
         const dvec3 center = node->box.center();
-        const int octant = (p.x >= center.x) | (p.y >= center.y) << 1 | (p.z >= center.z) << 2;
-        node = &block->nodes[static_cast<std::size_t>(node->first_child + octant)];
+        node = &block->nodes[static_cast<std::size_t>(node->first_child) + octant_about(center, p)];
     }
     return radius;
 }
@@ -135,10 +139,9 @@ void NearestSource::visit(const SeedBlock& block, std::size_t node, Search& sear
         return;
     }
     // The octant of the seed first: it makes the others fail sooner.
-    const dvec3 center = here.box.center(), p = search.own.position;
-    const int first = (p.x >= center.x) | (p.y >= center.y) << 1 | (p.z >= center.z) << 2;
-    for (int turn = 0; turn < 8; ++turn) {
-        visit(block, static_cast<std::size_t>(here.first_child + (first ^ turn)), search);
+    const std::size_t first = octant_about(here.box.center(), search.own.position);
+    for (std::size_t turn = 0; turn < 8; ++turn) {
+        visit(block, static_cast<std::size_t>(here.first_child) + (first ^ turn), search);
     }
 }
 

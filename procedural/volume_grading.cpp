@@ -86,7 +86,7 @@ class BlockPyramid {
         }
     }
 
-    /// Encloses the samples of a box: exact where it is a few blocks long, within an eighth of its length
+    /// Encloses the samples of a box: exact where it is a few blocks long, within a quarter of its length
     /// beyond where it is longer.
     Extremes<T> over(const IndexBox& box) const {
         auto found = no_extremes<T>();
