@@ -43,19 +43,14 @@ struct Wedge {
 };
 
 /// The hull of the six points in which the two planes that touch all three balls touch them. With the three
-/// edge beams it makes up the round triangle. Empty where no plane touches all three balls: there the beams
-/// alone do.
+/// edge beams it makes up the round triangle. Empty where no plane touches all three balls, or two that are
+/// one to a millionth of a radian: there the beams alone do.
 std::optional<Wedge> wedge(const RoundTriangle& triangle);
 
 /// The points of the round triangle whose nearest ball (weighted by radius) stands on the triangle's face and
 /// that lie behind it; the front is the side from which the corners run counter-clockwise. Its last three
-/// half-spaces belong to the edges and contain them. The first one, in front, lies `front` mm (>= 0) off the
-/// face; `corners` are those for front = 0.
+/// half-spaces belong to the edges and contain them. The first one lies `front` mm (>= 0) before the face.
 std::optional<Wedge> inner_wedge(const RoundTriangle& triangle, double front);
-
-/// Signed distance to the wedge's surface, mm, exact; gives up where it exceeds `limit`, and then returns any
-/// number that does.
-double signed_distance(const Wedge& wedge, dvec3 p, double limit = infinity);
 
 /// The interval in which a line lies inside a wedge.
 std::optional<Interval> cut(const Wedge& wedge, dvec3 p, dvec3 direction);

@@ -31,7 +31,9 @@ class WedgeRows {
     PlaneIndex sections_;
 };
 
-/// Adds the wedge's runs in the plane at height z, mm.
-void collect_wedge(const Wedge& wedge, double z, const RowBand& band, RunCollector& runs);
+/// Adds the wedge's runs in the plane at height z, mm, on the lines that `across` meets: it must enclose the
+/// wedge's extent across the lines there.
+void collect_wedge(const Wedge& wedge, double z, const Interval& across, const RowBand& band,
+                   RunCollector& runs);
 
 }  // namespace lamella
