@@ -13,7 +13,7 @@ constexpr double tolerance = 0.02;            // of the largest number on the tr
 constexpr double smallest_in_lengths = 0.25;  // edges this short need no division
 constexpr double halved_with_longest = 0.5;   // edges at least this share of the longest are halved with it
 constexpr int halvings = 10;
-constexpr int fewest_steps = 3, most_steps = 16;  // of the lattice along an edge
+constexpr int fewest_steps = 4, most_steps = 16;  // of the lattice along an edge
 constexpr std::size_t most_new_triangles = 8'000'000;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -63,7 +63,7 @@ class Refinement {
         for (const std::uint32_t v : t) box.include(place(v));
         const Interval enclosure = lengths_.range(box);
         if (enclosure.width() <= tolerance * enclosure.hi) return true;
-        const double spacing = std::max(enclosure.hi, longest / most_steps);
+        const double spacing = std::max(enclosure.hi / 2, longest / most_steps);
         const int steps = std::max(fewest_steps, static_cast<int>(std::ceil(longest / spacing)));
         double largest = 0, deviation = 0;
         for (int i = 0; i <= steps; ++i) {
@@ -96,9 +96,8 @@ class Refinement {
     /// Divides every triangle at its marked edges.
     void divide() {
         std::vector<Corners> old;
-        std::vector<bool> was_open;
         old.swap(triangles());
-        was_open.swap(open_);
+        open_.clear();
         constexpr std::uint32_t none = 0xffffffffU;
         for (std::size_t k = 0; k < old.size(); ++k) {
             Corners t = old[k], middle{};
@@ -118,7 +117,8 @@ class Refinement {
             }
             const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
                 triangles().push_back({a, b, c});
-                open_.push_back(was_open[k]);
+                // What a neighbour has divided may have been judged too coarsely.
+                open_.push_back(marked > 0);
             };
             if (marked == 0) {
                 add(t[0], t[1], t[2]);
