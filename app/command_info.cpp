@@ -41,7 +41,7 @@ Json foam_json(const FoamRecipe& recipe, const VoronoiFoam& foam, const Box& bou
             {"beam_mm", recipe.beam},
             {"seed", recipe.seed},
             {"expected_seeds_in_bounds", std::floor(seeds + 0.5)},
-            {"expected_volume_fraction", foam.expected_volume_fraction()}};
+            {"expected_volume_fraction", foam.expected_volume_fraction(bounds.center())}};
 }
 
 Json memory_json(const MemoryBound& bound) {

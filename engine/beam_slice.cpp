@@ -1,7 +1,6 @@
 // Prepares beams for the row kernel, and takes the exact path where single precision would not do.
 #include "engine/beam_slice.h"
 
-#include "engine/line_frame.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -60,7 +59,7 @@ BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
     sections_ = PlaneIndex(std::move(sections));
 }
 
-void BeamRows::collect(const RowBand& band, RunCollector& runs) const {
+void BeamRows::collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const {
     const Rect rect = band.rect();
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     std::vector<std::uint32_t> items;
@@ -68,15 +67,14 @@ void BeamRows::collect(const RowBand& band, RunCollector& runs) const {
     for (const std::uint32_t i : items) {
         const Rect& section = sections_.rect(i);
         if (section.hi[along] < rect.lo[along] || rect.hi[along] < section.lo[along]) continue;
-        collect_beam(beams_[i], {section.lo[across], section.hi[across]}, band, runs);
+        LineRange met = lines_across(band, {section.lo[across], section.hi[across]});
+        met = {std::max(met.first, lines.first), std::min(met.last, lines.last)};
+        if (met.first < met.last) collect_beam(beams_[i], band, met, runs);
     }
 }
 
-void BeamRows::collect_beam(const Beam& beam, const Interval& across, const RowBand& band,
+void BeamRows::collect_beam(const Beam& beam, const RowBand& band, const LineRange& lines,
                             RunCollector& runs) const {
-    const LineRange lines = lines_across(band, across);
-    if (lines.first >= lines.last) return;
-
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const dvec3 d = beam.b - beam.a;
     const double length = std::sqrt(glm::dot(d, d));

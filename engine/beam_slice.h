@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/beam.h"
+#include "engine/line_frame.h"
 #include "engine/plane_index.h"
 #include "engine/run_collector.h"
 #include "engine/tile_walk.h"
@@ -19,13 +20,15 @@ class BeamRows {
     BeamRows(const std::vector<Beam>& beams, double z);
 
     /// Adds the runs of all beams that meet the band.
-    void collect(const RowBand& band, RunCollector& runs) const;
+    void collect(const RowBand& band, RunCollector& runs) const { collect(band, {0, band.lines()}, runs); }
+    /// The same on some of its lines only.
+    void collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const;
     /// Encloses the beams' sections, mm.
     Rect bounds() const { return sections_.bounds(); }
     std::size_t size() const { return beams_.size(); }
 
   private:
-    void collect_beam(const Beam& beam, const Interval& across, const RowBand& band,
+    void collect_beam(const Beam& beam, const RowBand& band, const LineRange& lines,
                       RunCollector& runs) const;
 
     std::vector<Beam> beams_;

@@ -17,6 +17,7 @@ class ConstantGrading : public Grading {
     Interval range(const Box& /*box*/) const override {
         return std::isnan(number_) ? Interval{infinity, infinity} : Interval{number_, number_};
     }
+    std::optional<double> constant() const override { return number_; }
 
   private:
     double number_;
@@ -47,6 +48,10 @@ class ClampedGrading : public Grading {
         const Interval r = grading_->range(box);
         return {std::min(std::max(r.lo, limits_.lo), limits_.hi),
                 std::max(std::min(r.hi, limits_.hi), limits_.lo)};
+    }
+    std::optional<double> constant() const override {
+        if (limits_.lo == limits_.hi) return limits_.lo;
+        return grading_->constant() ? std::optional(at(dvec3(0))) : std::nullopt;
     }
 
   private:
@@ -103,7 +108,7 @@ double upper_bound(const Grading& grading, const Box& box, double sign) {
             most = std::max(most, number);
             least = std::min(least, number);
         }
-        if (worst.bound <= most + tight_enough * (most - least)) break;
+        if (worst.bound <= most + tight_enough * (most - least) + 1e-9 * std::abs(most)) break;
         open.pop();
         for (const Open& half : divide(worst, bound)) open.push(half);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/field.h"
 
@@ -17,11 +18,26 @@ class Grading {
     virtual double at(dvec3 p) const = 0;
     /// Encloses the numbers at all points of the closed box; a NaN counts as +infinity.
     virtual Interval range(const Box& box) const = 0;
+    /// The number when it is the same everywhere.
+    virtual std::optional<double> constant() const { return std::nullopt; }
 };
 using GradingPtr = std::shared_ptr<const Grading>;
 
 /// The same number everywhere.
 GradingPtr make_constant_grading(double number);
+
+/// What a setting that may be graded is given: a number or a grading.
+class Graded {
+  public:
+    Graded(double number) : grading_(make_constant_grading(number)) {}
+    Graded(GradingPtr grading) : grading_(std::move(grading)) {}
+    const Grading* operator->() const { return grading_.get(); }
+    const Grading& operator*() const { return *grading_; }
+    const GradingPtr& pointer() const { return grading_; }
+
+  private:
+    GradingPtr grading_;  ///< never null
+};
 
 /// How deep a point lies below the body's surface, mm: minus the body's value, so positive inside. A body
 /// whose metric is `bound` gives a lower bound of the depth.

@@ -11,7 +11,8 @@ class Density {
     virtual ~Density() = default;
     /// Encloses the density over the box, seeds per mm^3.
     virtual Interval range(const Box& box) const = 0;
-    /// The integral of the density over the box, seeds; positive.
+    /// The integral of the density over the box, seeds; positive. Asked for where range * volume is at most
+    /// 8.
     virtual double integral(const Box& box) const = 0;
 };
 

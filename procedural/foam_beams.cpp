@@ -44,6 +44,39 @@ std::optional<dvec3> precise_circumcenter(dvec3 origin, dvec3 u, dvec3 v, dvec3 
     return center;
 }
 
+/// A radius grown by a length.
+class GrownRadius : public Grading {
+  public:
+    GrownRadius(GradingPtr radius, double by) : radius_(std::move(radius)), by_(by) {}
+    double at(dvec3 p) const override { return radius_->at(p) + by_; }
+    Interval range(const Box& box) const override {
+        const Interval radius = radius_->range(box);
+        return {radius.lo + by_, radius.hi + by_};
+    }
+
+  private:
+    GradingPtr radius_;
+    double by_;
+};
+
+constexpr int most_splits = 4;
+constexpr double bend = 0.02;  // share of the radius
+
+void append_bent(const Beam& beam, const NodeRadius& radius, int splits, std::vector<Beam>& beams) {
+    const dvec3 middle = (beam.a + beam.b) * 0.5;
+    const double middle_radius = radius.at(middle);
+    const auto bends = [&](double t, double found) {
+        return std::abs(found - (beam.ra + (beam.rb - beam.ra) * t)) > bend * found;
+    };
+    const auto at = [&](double t) { return radius.at(beam.a + (beam.b - beam.a) * t); };
+    if (splits == 0 || !(bends(0.5, middle_radius) || bends(0.25, at(0.25)) || bends(0.75, at(0.75)))) {
+        beams.push_back(beam);
+        return;
+    }
+    append_bent({beam.a, beam.ra, middle, middle_radius}, radius, splits - 1, beams);
+    append_bent({middle, middle_radius, beam.b, beam.rb}, radius, splits - 1, beams);
+}
+
 }  // namespace
 
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
@@ -56,6 +89,20 @@ std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
         return seeds[0] + (uu * vw + vv * cross(w, u) + ww * cross(u, v)) / (2 * volume);
     }
     return precise_circumcenter(seeds[0], u, v, w);
+}
+
+NodeRadius NodeRadius::grown(double by) const {
+    if (const auto radius = radius_->constant()) return NodeRadius(*radius + by);
+    return {std::make_shared<GrownRadius>(radius_.pointer(), by), largest_ + by};
+}
+
+void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<Beam>& beams) {
+    const double from_radius = radius.at(from), to_radius = radius.at(to);
+    if (radius.constant()) {
+        beams.push_back({from, from_radius, to, to_radius});
+    } else {
+        append_bent({from, from_radius, to, to_radius}, radius, most_splits, beams);
+    }
 }
 
 dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& own,
@@ -78,7 +125,7 @@ dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& o
 }
 
 std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
-                              const NodeRadius& radius, std::vector<Beam>& beams) {
+                              std::vector<Beam>& beams) {
     edges_.clear();
     known_.assign(cell.vertex_count(), false);
     nodes_.resize(cell.vertex_count());
@@ -110,7 +157,7 @@ std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
     });
     for (const Edge& edge : edges_) {
         const dvec3 from = node(cell, edge.from, own, sites), to = node(cell, edge.to, own, sites);
-        beams.push_back({from, radius.at(from), to, radius.at(to)});
+        append_tapered(stretch_.to_part(from), stretch_.to_part(to), radius_, beams);
     }
     return left_out;
 }

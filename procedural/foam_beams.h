@@ -7,20 +7,31 @@
 #include <vector>
 
 #include "engine/beam.h"
+#include "engine/grading.h"
 #include "procedural/cell_search.h"
+#include "procedural/stretch.h"
 
 namespace lamella {
 
-/// The radius of the foam's beams at a node, mm: asked at nodes only, so all beams of a node agree.
+/// The radius of the foam's beams, mm: asked at nodes only, so all beams of a node agree, and between them
+/// where it bends.
 class NodeRadius {
   public:
-    explicit NodeRadius(double radius) : radius_(radius) {}
-    double at(dvec3) const { return radius_; }
+    explicit NodeRadius(double radius) : radius_(radius), largest_(radius) {}
+    /// A graded radius, nowhere above `largest`.
+    NodeRadius(GradingPtr radius, double largest) : radius_(std::move(radius)), largest_(largest) {}
+    double at(dvec3 p) const { return radius_->at(p); }
+    bool constant() const { return radius_->constant().has_value(); }
+    /// Every radius larger by a length, mm.
+    NodeRadius grown(double by) const;
     /// No node has a larger one.
-    double largest() const { return radius_; }
+    double largest() const { return largest_; }
+    /// No node in the box has a larger one.
+    double largest_in(const Box& box) const { return std::min(radius_->range(box).hi, largest_); }
 
   private:
-    double radius_;
+    Graded radius_;
+    double largest_;
 };
 
 /// The point at equal distance from four seeds, which come in the order of keys: one formula, relative to the
@@ -28,16 +39,29 @@ class NodeRadius {
 /// nearly lie in a plane. Empty when they do.
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
 
+/// Appends the beam between two nodes. Where the radius between them leaves the straight line by more than
+/// 2 %, the beam is split in the middle, and its halves likewise, down to a sixteenth.
+void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<Beam>& beams);
+
 /// Makes the beams that a cell owns: those of its edges whose two other seeds have higher keys than its own.
 /// Not thread-safe; keeps buffers for reuse.
 class BeamMaker {
   public:
+    using Piece = Beam;
+    /// Radii are asked for at the nodes as the stretch maps them.
+    explicit BeamMaker(NodeRadius radius, const Stretch& stretch = {})
+        : radius_(std::move(radius)), stretch_(stretch) {}
+
+    double largest_growth() const { return radius_.largest(); }
+    double growth(const Box& box) const { return radius_.largest_in(box); }
+    const Stretch& stretch() const { return stretch_; }
+
     /// Appends the beams that `own` owns, in the order of the other seeds' keys. The cell's identifiers index
     /// `sites`. Edges that reach the start box are left out. Only where the four seeds of a node tie with a
     /// fifth to within rounding, and lie in a plane, is the node taken from the cell. An edge that four or
     /// more cells share may then be made more than once, in one place. Returns the number of edges left out.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
-                       const NodeRadius& radius, std::vector<Beam>& beams);
+                       std::vector<Beam>& beams);
 
   private:
     struct Edge {
@@ -47,6 +71,8 @@ class BeamMaker {
     };
     dvec3 node(const VoronoiCell& cell, std::size_t vertex, const Seed& own, std::span<const Seed> sites);
 
+    NodeRadius radius_;
+    Stretch stretch_;
     std::vector<Edge> edges_;
     std::vector<dvec3> nodes_;
     std::vector<bool> known_;

@@ -10,11 +10,13 @@
 namespace lamella {
 namespace {
 
-constexpr int coarse_bits = 38;        // integer positions per coarse side, as a power of two
-constexpr int fraction_bits = 21;      // random bits per axis within an octant of a leaf
-constexpr int deepest_level = 15;      // leaf octants then have 22 bits: 21 random ones and the half step
-constexpr double leaf_seeds = 8;       // a leaf holds one seed per octant at most on average
+constexpr int coarse_bits = 38;    // integer positions per coarse side, as a power of two
+constexpr int fraction_bits = 21;  // random bits per axis within an octant of a leaf
+constexpr int deepest_level = 15;  // leaf octants then have 22 bits: 21 random ones and the half step
+constexpr double leaf_seeds = 8;   // a leaf holds one seed per octant at most on average
+constexpr double bcc_leaf_seeds = 5.656854249492381;  // between the 2 of a leaf and the 16 of its children
 constexpr double rounding = 1 + 1e-9;  // a share of exactly eight seeds must not split by a rounding error
+constexpr std::size_t most_nodes = std::size_t{1} << 22;
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
 constexpr std::size_t block_cache_bytes = std::size_t{64} << 20;
 
@@ -53,7 +55,8 @@ std::size_t SeedBlock::bytes() const {
 /// A block while it grows.
 struct SeedTree::Growth {
     SeedBlock block;
-    double step;  ///< mm per integer position
+    std::vector<double> integrals;  ///< of the density, by node
+    double step;                    ///< mm per integer position
     int lowest_leaf = deepest_level + 1;
     int highest_leaf = -1;
     bool crowded = false;  ///< an octant of a leaf holds two seeds
@@ -71,15 +74,21 @@ struct SeedTree::Growth {
     void cover(int level) { block.hole = std::max(block.hole, diagonal(level)); }
 };
 
-SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed)
+SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed,
+                   SeedPattern pattern, double jitter)
     : density_(std::move(density)),
       side_(coarse_side),
       recipe_seed_(recipe_seed),
+      pattern_(pattern),
       blocks_(block_cache_bytes) {
     if (!(coarse_side > 0) || !std::isfinite(coarse_side)) {
         throw InputError("the coarse cell's side is " + std::to_string(coarse_side) +
                          " mm; it must be positive and finite");
     }
+    if (!(jitter >= 0 && jitter <= 1)) {
+        throw InputError("the seeds' jitter is " + std::to_string(jitter) + "; it must be from 0 to 1");
+    }
+    jitter_ = static_cast<std::int64_t>(jitter * 0x1p20);
 }
 
 glm::i64vec3 SeedTree::block_index(dvec3 p) const {
@@ -131,65 +140,77 @@ SeedBlock SeedTree::make_block(glm::i64vec3 index) const {
     root.box = growth.box({0, 0, 0}, 0);
     growth.block.nodes.push_back(root);
 
-    const double expected = density_->integral(root.box);
-    if (!(expected > 0) || !(expected < 1e9)) {
+    growth.integrals.push_back(0);
+    const double expected = split(growth, 0, {0, 0, 0});
+    if (!(expected > 0)) {
         throw InputError("the density gives " + std::to_string(expected) + " seeds in a coarse cell of " +
-                         std::to_string(side_) + " mm; it must give more than 0 and fewer than 1e9");
+                         std::to_string(side_) + " mm; it must give more than 0");
     }
     const CounterHash hash(recipe_seed_, 0, index.x, index.y, index.z);
     const auto count = static_cast<std::uint32_t>(std::floor(expected + hash.uniform(draw_count)));
-    growth.block.positions.reserve(count);
-    grow(growth, 0, {0, 0, 0}, std::max(count, 1U));
+    growth.block.positions.reserve(std::max(count, 1U));
+    deal(growth, 0, {0, 0, 0}, std::max(count, 1U));
     if (growth.lowest_leaf == growth.highest_leaf && !growth.crowded) {
         growth.block.leaf_level = growth.lowest_leaf;
     }
     return std::move(growth.block);
 }
 
-void SeedTree::grow(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const {
+double SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) const {
     const Box box = growth.block.nodes[node].box;
     const int level = growth.block.nodes[node].level;
-    growth.block.nodes[node].first_seed = static_cast<std::uint32_t>(growth.block.positions.size());
-    growth.block.nodes[node].seed_count = count;
+    const dvec3 size = box.size();
+    const double densest = density_->range(box).hi;
+    const bool patterned = pattern_ != SeedPattern::jittered;
+    if (densest * (size.x * size.y * size.z) <= (patterned ? bcc_leaf_seeds : leaf_seeds) * rounding) {
+        return growth.integrals[node] = patterned ? 2 : density_->integral(box);
+    }
+    const auto first_child = growth.block.nodes.size();
+    if (level == deepest_level || first_child > most_nodes) {
+        throw InputError("the density reaches " + std::to_string(densest) +
+                         " seeds per mm^3, too dense for a coarse cell of " + std::to_string(side_) +
+                         " mm; choose a smaller coarse cell or a lower density");
+    }
+    growth.block.nodes[node].first_child = static_cast<std::int32_t>(first_child);
+    growth.block.nodes.resize(first_child + 8);
+    growth.integrals.resize(first_child + 8);
+    double sum = 0;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+        const glm::i64vec3 at = octant_corner(corner, level, octant);
+        SeedNode& child = growth.block.nodes[first_child + octant];
+        child.level = level + 1;
+        child.box = growth.box(at, level + 1);
+        sum += split(growth, first_child + octant, at);
+    }
+    return growth.integrals[node] = sum;
+}
+
+void SeedTree::deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const {
+    SeedNode& here = growth.block.nodes[node];
+    const int level = here.level;
+    here.first_seed = static_cast<std::uint32_t>(growth.block.positions.size());
+    here.seed_count = count;
     if (count == 0) return;
 
     const std::int64_t position_shift = coarse_bits - level;
     const glm::i64vec3 place_at_level =
         (growth.block.index << std::int64_t{level}) + (corner >> position_shift);
     const CounterHash hash(recipe_seed_, level, place_at_level.x, place_at_level.y, place_at_level.z);
-    const dvec3 size = box.size();
-    if (density_->range(box).hi * (size.x * size.y * size.z) <= leaf_seeds * rounding) {
+    if (here.first_child < 0) {
         place(growth, hash, level, corner, count);
         return;
-    }
-    if (level == deepest_level) {
-        throw InputError("the density reaches " + std::to_string(density_->range(box).hi) +
-                         " seeds per mm^3, too dense for a coarse cell of " + std::to_string(side_) +
-                         " mm; choose a smaller coarse cell or a lower density");
-    }
-
-    const auto first_child = growth.block.nodes.size();
-    growth.block.nodes[node].first_child = static_cast<std::int32_t>(first_child);
-    growth.block.nodes.resize(first_child + 8);
-    std::array<double, 8> share;
-    double total = 0;
-    for (unsigned octant = 0; octant < 8; ++octant) {
-        SeedNode& child = growth.block.nodes[first_child + octant];
-        child.level = level + 1;
-        child.box = growth.box(octant_corner(corner, level, octant), level + 1);
-        share[octant] = density_->integral(child.box);
-        total += share[octant];
     }
 
     // Systematic sampling: octants laid end to end in a random order, every whole number plus one offset is a
     // seed. The last end is `count` by definition, so the counts add up whatever the rounding.
+    const auto first_child = static_cast<std::size_t>(here.first_child);
     const Order order = random_order(hash.bits(draw_order));
-    const double offset = hash.uniform(draw_offset);
+    const double offset = hash.uniform(draw_offset), total = growth.integrals[node];
     std::array<std::uint32_t, 8> dealt;
     double end = 0;
     std::uint32_t before = 0;
     for (std::size_t i = 0; i < 8; ++i) {
-        end += share[order[i]];
+        end += growth.integrals[first_child + order[i]];
         const double reached = i == 7 ? count : std::floor(count * (end / total) + offset);
         const auto upto = std::min(static_cast<std::uint32_t>(std::max(reached, 0.0)), count);
         dealt[order[i]] = upto - before;
@@ -197,7 +218,7 @@ void SeedTree::grow(Growth& growth, std::size_t node, glm::i64vec3 corner, std::
     }
     for (unsigned octant = 0; octant < 8; ++octant) {
         if (dealt[octant] == 0) growth.cover(level);
-        grow(growth, first_child + octant, octant_corner(corner, level, octant), dealt[octant]);
+        deal(growth, first_child + octant, octant_corner(corner, level, octant), dealt[octant]);
     }
 }
 
@@ -210,6 +231,7 @@ void SeedTree::place(Growth& growth, const CounterHash& hash, int level, glm::i6
     growth.highest_leaf = std::max(growth.highest_leaf, level);
     growth.crowded = growth.crowded || count > 8;
     growth.cover(count >= 8 ? level + 1 : level);
+    if (pattern_ == SeedPattern::bcc) return place_bcc(growth, hash, level, corner);
 
     const Order order = random_order(hash.bits(draw_order));
     const int unit_shift = coarse_bits - (level + 1) - (fraction_bits + 1);
@@ -223,6 +245,23 @@ void SeedTree::place(Growth& growth, const CounterHash& hash, int level, glm::i6
                                     << std::int64_t{unit_shift};
         growth.block.positions.push_back(
             growth.position(octant_corner(corner, level, order[i % 8]) + within));
+    }
+}
+
+/// Seeds in the middles of two opposite octants, moved by less than half an octant.
+void SeedTree::place_bcc(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner) const {
+    constexpr std::int64_t fraction_half = std::int64_t{1} << (fraction_bits - 1);
+    constexpr std::int64_t fraction_mask = 2 * fraction_half - 1;
+    const int unit_shift = coarse_bits - (level + 1) - (fraction_bits + 1);
+    for (std::uint64_t i = 0; i < 2; ++i) {
+        const auto bits = static_cast<std::int64_t>(hash.bits(draw_first_seed + i) >> 1);
+        const auto moved = [&](int axis) {
+            const std::int64_t random = ((bits >> (axis * fraction_bits)) & fraction_mask) - fraction_half;
+            return (fraction_half * 2 + random * 2 * jitter_ / (std::int64_t{1} << 20)) << unit_shift;
+        };
+        const glm::i64vec3 within(moved(0), moved(1), moved(2));
+        growth.block.positions.push_back(
+            growth.position(octant_corner(corner, level, i == 0 ? 0 : 7) + within));
     }
 }
 

@@ -38,6 +38,12 @@ struct SeedNode {
     std::uint32_t seed_count = 0;
 };
 
+/// How a leaf places its seeds.
+enum class SeedPattern : unsigned char {
+    jittered,  ///< each uniform in an octant of its own: an irregular foam
+    bcc        ///< two a leaf, body-centred cubic: truncated octahedra (Kelvin's foam)
+};
+
 /// One coarse cell with its octree and seeds. Immutable once made.
 struct SeedBlock {
     glm::i64vec3 index{0};
@@ -57,16 +63,20 @@ struct SeedBlock {
 
 /// Seeds everywhere in space, as a pure function of (density, coarse side, recipe seed).
 ///
-/// A coarse cell's count is the floor or the ceiling of the density's integral (one hash decides), at least
-/// one. A node is split while the highest density in it times its volume exceeds eight; its count is dealt to
-/// its octants by systematic sampling (a random order of the octants, one uniform offset), so that counts add
-/// up and each differs from its share by less than one. A leaf puts its seeds into different octants, each
-/// uniform in its octant: stratified jitter (Martinez, Dumas, Lefebvre 2016, supplement; the dealing is
-/// ours). Positions are integers of 2^-38 of the coarse side, turned to double once. Thread-safe.
+/// A node is split while the highest density in it times its volume exceeds eight; integrals are taken at the
+/// leaves and summed upwards. A coarse cell's count is the floor or the ceiling of its integral (one hash
+/// decides), at least one. A node's count is dealt to its octants by systematic sampling (a random order of
+/// the octants, one uniform offset), so that counts add up and each differs from its share by less than one.
+/// A leaf puts its seeds into different octants, each uniform in its octant: stratified jitter (Martinez,
+/// Dumas, Lefebvre 2016, supplement; the dealing is ours). In the pattern bcc every leaf holds two seeds, and
+/// a node is split while sqrt(32) would be wanted: sizes go by factors of two. Positions are integers of
+/// 2^-38 of the coarse side, turned to double once. Thread-safe.
 class SeedTree {
   public:
-    /// Throws InputError unless the side is positive and finite.
-    SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed);
+    /// `jitter` in [0, 1] moves the seeds of a pattern at random, by up to that share of a quarter of the
+    /// leaf's side along each axis. Throws InputError unless the side is positive and finite.
+    SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed,
+             SeedPattern pattern = SeedPattern::jittered, double jitter = 0);
 
     double coarse_side() const { return side_; }
     /// The coarse cell that holds the point. Throws InputError beyond 2^24 coarse cells from the origin.
@@ -74,7 +84,7 @@ class SeedTree {
     /// The box of a coarse cell, mm.
     Box block_box(glm::i64vec3 index) const;
     /// A coarse cell, made on first use. Throws InputError where the density is not positive and finite, or
-    /// so high that more than 15 levels would be needed.
+    /// so high that more than 15 levels or 4 million nodes would be needed.
     std::shared_ptr<const SeedBlock> block(glm::i64vec3 index) const;
     /// All seeds in the closed box, by key.
     std::vector<Seed> seeds_in(const Box& box) const;
@@ -82,13 +92,17 @@ class SeedTree {
   private:
     struct Growth;
     SeedBlock make_block(glm::i64vec3 index) const;
-    void grow(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const;
+    double split(Growth& growth, std::size_t node, glm::i64vec3 corner) const;
+    void deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const;
     void place(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner,
                std::uint32_t count) const;
+    void place_bcc(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner) const;
 
     std::shared_ptr<const Density> density_;
     double side_;
     std::uint64_t recipe_seed_;
+    SeedPattern pattern_;
+    std::int64_t jitter_;  ///< in 2^-20
     mutable CellCache<SeedBlock> blocks_;
 };
 

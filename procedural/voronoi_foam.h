@@ -7,24 +7,15 @@
 
 #include "engine/beam.h"
 #include "engine/field.h"
+#include "procedural/cell_units.h"
 #include "procedural/distance_brick.h"
-#include "procedural/foam_units.h"
+#include "procedural/foam_settings.h"
 
 namespace lamella {
 
-/// What a foam is made of.
-struct FoamSettings {
-    double cell = 2;           ///< mean spacing of the seeds, mm: one seed per cell^3
-    double beam_radius = 0.2;  ///< mm, less than half of `cell`
-    std::uint64_t seed = 0;    ///< another number, another foam
-    Box region;                ///< where the foam is wanted, mm; finite
-    std::size_t cache_bytes = std::size_t{256}
-                              << 20;  ///< bound of the memory for cells, and again for distances
-};
-
 /// The Voronoi foam of Martinez, Dumas and Lefebvre (SIGGRAPH 2016), made exact: the union of round beams
-/// along all edges of the Voronoi diagram of jittered seeds. It fills space; the region only says where
-/// slices and bounds are wanted.
+/// along all edges of the Voronoi diagram of jittered seeds, its cell size and beam radius graded. It fills
+/// space; the region only says where slices and bounds are wanted.
 class VoronoiFoam : public Field {
   public:
     /// Throws InputError for settings out of range.
@@ -42,23 +33,30 @@ class VoronoiFoam : public Field {
     Box bounds() const override { return settings_.region; }
 
     const FoamSettings& settings() const { return settings_; }
+    /// The cell sizes of the region, mm.
+    Interval cells() const { return ground_.cells; }
     /// All seeds in the closed box, by key.
-    std::vector<Seed> seeds_in(const Box& box) const { return tree_->seeds_in(box); }
+    std::vector<Seed> seeds_in(const Box& box) const;
     /// Every beam whose solid touches the box, once, in canonical order.
-    std::vector<Beam> beams_touching(const Box& box) const { return units_->beams_touching(box); }
+    std::vector<Beam> beams_touching(const Box& box) const { return units_->touching(box); }
     /// The beams that meet the region's rectangle at height z, in canonical order.
     std::vector<Beam> beams_at(double z) const;
-    /// The share of space that is solid, by the measured law 18.0 t^2 - 38 t^3 with t = beam radius / cell
-    /// (within 3 % for t <= 0.15). Beyond, linear through the measured 0.428 at t = 0.20 and up to 1: a
-    /// guide.
-    double expected_volume_fraction() const;
+    /// The share of space that is solid about a point, by the measured law 18.0 t^2 - 38 t^3 with t = beam
+    /// radius / cell (within 3 % for t <= 0.15). Beyond, linear through the measured 0.428 at t = 0.20 and up
+    /// to 1: a guide.
+    double expected_volume_fraction(dvec3 p) const;
 
   private:
-    VoronoiFoam(const FoamSettings& settings, std::shared_ptr<const SeedTree> tree);
+    struct BrickSize {
+        int level;    ///< halvings of the largest cell
+        double side;  ///< mm
+    };
+    VoronoiFoam(const FoamSettings& settings, FoamGround ground);
+    BrickSize brick_size(dvec3 p) const;
 
     FoamSettings settings_;
-    std::shared_ptr<const SeedTree> tree_;
-    std::shared_ptr<const FoamUnits> units_;
+    FoamGround ground_;
+    std::shared_ptr<const CellUnits<BeamMaker>> units_;
     mutable CellCache<DistanceBrick> bricks_;
 };
 

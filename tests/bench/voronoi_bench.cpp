@@ -3,6 +3,7 @@
 
 #include "procedural/cell_search.h"
 #include "procedural/counter_hash.h"
+#include "procedural/graded_density.h"
 #include "procedural/voronoi_foam.h"
 
 namespace {
@@ -50,6 +51,36 @@ void voronoi_cells_by_tree(benchmark::State& state) {
     state.SetItemsProcessed(cells);
 }
 BENCHMARK(voronoi_cells_by_tree);
+
+/// Cells of 8 mm where x < 0.3 coarse cells, of 1 mm beyond: the density jumps by 512.
+class Jump : public Grading {
+  public:
+    double at(dvec3 p) const override { return p.x < plane ? 8 : 1; }
+    Interval range(const Box& box) const override {
+        return {box.hi.x >= plane ? 1.0 : 8.0, box.lo.x < plane ? 8.0 : 1.0};
+    }
+
+  private:
+    static constexpr double plane = 5;
+};
+
+/// Cells on both sides of a plane where the density jumps by 512, each exact, best first over the tree.
+void voronoi_cells_graded(benchmark::State& state) {
+    const SeedTree tree(std::make_shared<const GradedDensity>(std::make_shared<const Jump>()), 16.0, 1);
+    VoronoiCell cell;
+    TreeSearch search(tree);
+    const auto block = tree.block({0, 0, 0});
+    std::int64_t cells = 0;
+    for (auto _ : state) {
+        for (std::uint32_t i = 0; i < block->positions.size(); ++i) {
+            search.cell(block->seed(i), cell);
+            ++cells;
+            benchmark::DoNotOptimize(cell.vertex_count());
+        }
+    }
+    state.SetItemsProcessed(cells);
+}
+BENCHMARK(voronoi_cells_graded)->Unit(benchmark::kMillisecond);
 
 /// All beams that meet one plane of a 192 x 108 mm plate, nothing cached.
 void cold_plate(benchmark::State& state) {

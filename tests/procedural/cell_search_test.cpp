@@ -33,7 +33,7 @@ Nodes canonical(const VoronoiCell& cell, std::span<const Seed> sites) {
 
 std::vector<Beam> beams_of(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites) {
     std::vector<Beam> beams;
-    BeamMaker().append(cell, own, sites, NodeRadius(0.1), beams);
+    BeamMaker(NodeRadius(0.1)).append(cell, own, sites, beams);
     return beams;
 }
 

@@ -14,10 +14,9 @@ namespace {
 std::vector<Beam> beams_of_list(const std::vector<Seed>& seeds, double half_side) {
     std::vector<Beam> beams, lengthy;
     VoronoiCell cell;
-    BeamMaker maker;
+    BeamMaker maker(NodeRadius(0.1));
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-        if (cell_among(seeds, i, half_side, cell))
-            maker.append(cell, seeds[i], seeds, NodeRadius(0.1), beams);
+        if (cell_among(seeds, i, half_side, cell)) maker.append(cell, seeds[i], seeds, beams);
     }
     for (const Beam& beam : beams) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -133,10 +132,10 @@ TEST_CASE("cospherical seeds about one node meet in it", "[foam_beams]") {
     REQUIRE(seeds.size() == 24);
     std::vector<Beam> beams;
     VoronoiCell cell;
-    BeamMaker maker;
+    BeamMaker maker(NodeRadius(0.1));
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         REQUIRE(cell_among(seeds, i, 10, cell));
-        maker.append(cell, seeds[i], seeds, NodeRadius(0.1), beams);
+        maker.append(cell, seeds[i], seeds, beams);
     }
     for (const Beam& beam : beams) {
         CHECK(glm::distance(beam.a, dvec3(0)) < 1e-9);

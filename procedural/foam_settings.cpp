@@ -1,0 +1,122 @@
+// Checking a foam's settings, and the coarse cells that suit its sizes.
+#include "procedural/foam_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/error.h"
+#include "procedural/graded_density.h"
+
+namespace lamella {
+namespace {
+
+// With four cells along a coarse cell, the counts come out as 64 a coarse cell and 8 a leaf: one seed per
+// cell^3, each in its own cube of side `cell`. Where sizes vary, two of the largest leave less to compute
+// that lies far away, and every coarse cell still expects 8 seeds.
+constexpr double cells_per_coarse_side = 4, graded_cells_per_coarse_side = 2;
+constexpr double bcc_side = 1.2599210498948732;  // of a cube with two cells, in cells
+constexpr double most_cells_per_slice = 1e8;
+constexpr double most_variation = 40;
+constexpr double thickest = 0.45;  // share of the local cell
+
+bool finite(dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// A radius where cells are large enough for it, else the share of the cell that leaves an opening.
+class RadiusWithinCells : public Grading {
+  public:
+    RadiusWithinCells(GradingPtr radius, GradingPtr cell)
+        : radius_(std::move(radius)), cell_(std::move(cell)) {}
+    double at(dvec3 p) const override { return std::min(radius_->at(p), thickest * cell_->at(p)); }
+    Interval range(const Box& box) const override {
+        const Interval radius = radius_->range(box), cell = cell_->range(box);
+        return {std::min(radius.lo, thickest * cell.lo), std::min(radius.hi, thickest * cell.hi)};
+    }
+
+  private:
+    GradingPtr radius_, cell_;
+};
+
+/// A grading of the part's space, asked in the space of the seeds.
+class AmongSeeds : public Grading {
+  public:
+    AmongSeeds(GradingPtr grading, const Stretch& stretch)
+        : grading_(std::move(grading)), stretch_(stretch) {}
+    double at(dvec3 p) const override { return grading_->at(stretch_.to_part(p)); }
+    Interval range(const Box& box) const override { return grading_->range(stretch_.to_part(box)); }
+
+  private:
+    GradingPtr grading_;
+    Stretch stretch_;
+};
+
+/// The range of a graded setting over the region; every number must be positive and finite.
+Interval positive_range(const Grading& grading, const Box& region, const char* what) {
+    const Interval range = tight_range(grading, region);
+    if (range.lo > 0 && std::isfinite(range.hi)) return range;
+    const double wrong = range.lo > 0 ? range.hi : range.lo;
+    if (grading.constant()) throw InputError(fmt::format("{} is {} mm; it must be positive", what, wrong));
+    throw InputError(
+        fmt::format("{} reaches {} mm in the part; it must be positive and finite everywhere: "
+                    "give it limits",
+                    what, wrong));
+}
+
+void check_region(const Box& region, double smallest_cell) {
+    if (region.empty() || !finite(region.lo) || !finite(region.hi)) {
+        throw InputError("the foam's region is empty or not finite; give a box with finite corners");
+    }
+    const dvec3 size = region.size(), cells = size / smallest_cell;
+    if (!(cells.x * cells.y <= most_cells_per_slice)) {
+        throw InputError(
+            fmt::format("a layer of the foam would cut {:.0f} cells; with a region of {} x {} mm the "
+                        "cell size must be at least {:.4g} mm",
+                        cells.x * cells.y, size.x, size.y,
+                        smallest_cell * std::sqrt(cells.x * cells.y / most_cells_per_slice)));
+    }
+}
+
+NodeRadius node_radius(const FoamSettings& settings, const GradingPtr& cell, const Interval& cells) {
+    const Interval radii = positive_range(*settings.beam_radius, settings.region, "the foam's beam radius");
+    const bool constant = settings.beam_radius->constant().has_value();
+    if (constant && cells.lo == cells.hi && radii.lo >= cells.lo / 2) {
+        throw InputError(fmt::format(
+            "the foam's beam radius of {} mm fills its cells of {} mm; it must be less than {} mm", radii.lo,
+            cells.lo, cells.lo / 2));
+    }
+    if (constant && (cells.lo == cells.hi || radii.lo <= thickest * cells.lo)) return NodeRadius(radii.lo);
+    return {std::make_shared<RadiusWithinCells>(make_clamped_grading(settings.beam_radius.pointer(), radii),
+                                                cell),
+            std::min(radii.hi, thickest * cells.hi)};
+}
+
+}  // namespace
+
+FoamGround prepare_foam(const FoamSettings& settings) {
+    const auto constant_cell = settings.cell->constant();
+    if (constant_cell) positive_range(*settings.cell, {dvec3(0), dvec3(1)}, "the foam's cell size");
+    check_region(settings.region, constant_cell.value_or(infinity));
+    const Interval cells = positive_range(*settings.cell, settings.region, "the foam's cell size");
+    check_region(settings.region, cells.lo);
+    if (cells.hi > most_variation * cells.lo) {
+        throw InputError(
+            fmt::format("the foam's cell size varies from {:.4g} to {:.4g} mm; the largest may "
+                        "be {} times the smallest: give it limits",
+                        cells.lo, cells.hi, most_variation));
+    }
+    const GradingPtr cell = make_clamped_grading(settings.cell.pointer(), cells);
+    std::shared_ptr<const Density> density;
+    if (cells.lo == cells.hi) {
+        density = std::make_shared<const ConstantDensity>(1 / (cells.lo * cells.lo * cells.lo));
+    } else {
+        density = std::make_shared<const GradedDensity>(
+            settings.stretch.identity() ? cell : std::make_shared<AmongSeeds>(cell, settings.stretch));
+    }
+    const double coarse = (cells.lo == cells.hi ? cells_per_coarse_side : graded_cells_per_coarse_side) *
+                          (settings.pattern == SeedPattern::bcc ? bcc_side : 1);
+    return {std::make_shared<const SeedTree>(std::move(density), coarse * cells.hi, settings.seed,
+                                             settings.pattern, settings.jitter),
+            cell, cells, node_radius(settings, cell, cells)};
+}
+
+}  // namespace lamella

@@ -1,0 +1,42 @@
+// What a foam is made of, and the seeds, sizes and radii that follow from it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/grading.h"
+#include "procedural/foam_beams.h"
+#include "procedural/seed_tree.h"
+#include "procedural/stretch.h"
+
+namespace lamella {
+
+/// What a foam is made of.
+struct FoamSettings {
+    /// Mean spacing of the seeds, mm: one seed per cell^3, where the stretch is none. May vary by a factor of
+    /// 40 over the region. Numbers outside the range that it has in the region are clamped to that.
+    Graded cell = 2.0;
+    /// Radius of the beams, mm. A constant one must be less than half of a constant `cell`; otherwise it is
+    /// kept to at most 0.45 of the local cell, asked for at the beams' ends.
+    Graded beam_radius = 0.2;
+    std::uint64_t seed = 0;  ///< another number, another foam
+    SeedPattern pattern = SeedPattern::jittered;
+    double jitter = 0.05;  ///< of the patterns other than jittered: share of the spacing
+    Stretch stretch{};     ///< of the cells
+    Box region{};          ///< where the foam is wanted, mm; finite
+    std::size_t cache_bytes = std::size_t{256}
+                              << 20;  ///< bound of the memory for cells, and again for distances
+};
+
+/// Seeds, cell sizes and radii of checked settings: what all foams on seeds start from.
+struct FoamGround {
+    std::shared_ptr<const SeedTree> tree;
+    GradingPtr cell;  ///< mm, in the part's space, clamped to `cells`
+    Interval cells;   ///< the cell sizes of the region, mm
+    NodeRadius radius;
+};
+
+/// Throws InputError for settings out of range; `what` names the thing in messages ("the foam").
+FoamGround prepare_foam(const FoamSettings& settings);
+
+}  // namespace lamella
