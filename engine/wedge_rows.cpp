@@ -1,8 +1,6 @@
 // Prepares wedges for the row kernel.
 #include "engine/wedge_rows.h"
 
-#include "engine/line_frame.h"
-
 namespace lamella {
 namespace {
 
@@ -60,7 +58,7 @@ WedgeRows::WedgeRows(std::vector<Wedge> wedges, double z) : z_(z) {
 WedgeRows::WedgeRows(const std::vector<RoundTriangle>& triangles, double z)
     : WedgeRows(wedges_of(triangles), z) {}
 
-void WedgeRows::collect(const RowBand& band, RunCollector& runs) const {
+void WedgeRows::collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const {
     const Rect rect = band.rect();
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     std::vector<std::uint32_t> items;
@@ -68,16 +66,16 @@ void WedgeRows::collect(const RowBand& band, RunCollector& runs) const {
     for (const std::uint32_t i : items) {
         const Rect& section = sections_.rect(i);
         if (section.hi[along] < rect.lo[along] || rect.hi[along] < section.lo[along]) continue;
-        collect_wedge(wedges_[i], z_, {section.lo[across], section.hi[across]}, band, runs);
+        LineRange met = lines_across(band, {section.lo[across], section.hi[across]});
+        met = {std::max(met.first, lines.first), std::min(met.last, lines.last)};
+        if (met.first < met.last) collect_wedge(wedges_[i], band, met, runs);
     }
 }
 
-void collect_wedge(const Wedge& wedge, double z, const Interval& across, const RowBand& band,
-                   RunCollector& runs) {
-    const LineRange lines = lines_across(band, across);
-    if (lines.first >= lines.last) return;
+void WedgeRows::collect_wedge(const Wedge& wedge, const RowBand& band, const LineRange& lines,
+                              RunCollector& runs) const {
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
-    const double dz = z - wedge.origin.z;
+    const double dz = z_ - wedge.origin.z;
     PrismInPlane p;
     for (std::size_t k = 0; k < wedge.normals.size(); ++k) {
         const dvec3 normal = wedge.normals[k];

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/line_frame.h"
 #include "engine/plane_index.h"
 #include "engine/round_triangle.h"
 #include "engine/run_collector.h"
@@ -20,20 +21,20 @@ class WedgeRows {
     WedgeRows(const std::vector<RoundTriangle>& triangles, double z);
 
     /// Adds the runs of all wedges that meet the band.
-    void collect(const RowBand& band, RunCollector& runs) const;
+    void collect(const RowBand& band, RunCollector& runs) const { collect(band, {0, band.lines()}, runs); }
+    /// The same on some of its lines only.
+    void collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const;
     /// Encloses the wedges' sections, mm.
     const Rect& bounds() const { return sections_.bounds(); }
     std::size_t size() const { return wedges_.size(); }
 
   private:
+    void collect_wedge(const Wedge& wedge, const RowBand& band, const LineRange& lines,
+                       RunCollector& runs) const;
+
     std::vector<Wedge> wedges_;
     double z_ = 0;
     PlaneIndex sections_;
 };
-
-/// Adds the wedge's runs in the plane at height z, mm, on the lines that `across` meets: it must enclose the
-/// wedge's extent across the lines there.
-void collect_wedge(const Wedge& wedge, double z, const Interval& across, const RowBand& band,
-                   RunCollector& runs);
 
 }  // namespace lamella
