@@ -14,6 +14,8 @@ constexpr double least_gap = 1e-7;
 constexpr double overlap = 0.01;
 /// By how much a detour over another point has to be shorter to count, as a share of the radius.
 constexpr double clearly_shorter = 1e-6;
+/// Triangles smaller than this are judged by their corners alone.
+constexpr double large_in_radii = 0.25;
 
 struct HalfEdge {
     std::uint32_t low, high;  ///< corners, low < high
@@ -143,24 +145,27 @@ void GrownMesh::index_triangles() {
     triangles_by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
 }
 
-/// Marks the triangles at one of whose corners, or at whose centre, a way over another point of the surface
-/// undercuts the radius.
+/// Marks the triangles at one of whose corners, or when they are large at whose centre, a way over another
+/// point of the surface undercuts the radius.
 void GrownMesh::find_whole_triangles(const RoundTriangleTree& tree) {
     const auto undercut = [&](dvec3 p, double radius) {
         const double limit = radius * (1 - clearly_shorter);
         return radius > 0 && tree.least_detour(p, limit) < limit;
     };
+    const auto undercut_at_centre = [&](const RoundTriangle& t) {
+        const double mean = (t.radii[0] + t.radii[1] + t.radii[2]) / 3.0;
+        const dvec3 centre = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0, off = t.corners[0] - centre;
+        return glm::dot(off, off) > large_in_radii * large_in_radii * mean * mean && undercut(centre, mean);
+    };
     std::vector<bool> at_vertex(mesh().vertices.size());
-    for (std::uint32_t v = 0; v < at_vertex.size(); ++v)
+    for (std::uint32_t v = 0; v < at_vertex.size(); ++v) {
         at_vertex[v] = undercut(mesh().vertices[v], radius(v));
+    }
     whole_.assign(mesh().triangles.size(), false);
     whole_count_ = 0;
     for (std::uint32_t k = 0; k < whole_.size(); ++k) {
         const auto& t = mesh().triangles[k];
-        const RoundTriangle round = triangle(k);
-        whole_[k] = at_vertex[t[0]] || at_vertex[t[1]] || at_vertex[t[2]] ||
-                    undercut((round.corners[0] + round.corners[1] + round.corners[2]) / 3.0,
-                             (round.radii[0] + round.radii[1] + round.radii[2]) / 3.0);
+        whole_[k] = at_vertex[t[0]] || at_vertex[t[1]] || at_vertex[t[2]] || undercut_at_centre(triangle(k));
         whole_count_ += whole_[k];
     }
 }

@@ -31,13 +31,22 @@ class HalfWall : public Grading {
     GradingPtr wall_, cell_;
 };
 
-NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamGround& ground) {
-    const Interval walls = tight_range(*settings.wall, settings.foam.region);
-    if (!(walls.lo >= 0) || !std::isfinite(walls.hi)) {
-        throw InputError(fmt::format(
-            "the foam's wall thickness reaches {} mm; it must be at least 0 and finite everywhere",
-            walls.lo >= 0 ? walls.hi : walls.lo));
+/// The range of a graded setting over the region, cut to limits. A constant must keep to them.
+Interval range_within(const Graded& graded, const Box& region, Interval limits, const char* what,
+                      const char* limits_in_words) {
+    const Interval range = tight_range(*graded, region);
+    const bool refused = graded->constant() && !(limits.lo <= range.lo && range.hi <= limits.hi);
+    if (refused || !std::isfinite(range.lo) || !std::isfinite(range.hi)) {
+        throw InputError(fmt::format("{} is {}; it must be {}", what,
+                                     std::isfinite(range.lo) ? range.hi : range.lo, limits_in_words));
     }
+    return {std::min(std::max(range.lo, limits.lo), limits.hi),
+            std::min(std::max(range.hi, limits.lo), limits.hi)};
+}
+
+NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamGround& ground) {
+    const Interval walls = range_within(settings.wall, settings.foam.region, {0, infinity},
+                                        "the foam's wall thickness in mm", "finite and at least 0");
     const bool constant = settings.wall->constant().has_value();
     if (constant && walls.lo > thickest * ground.cells.hi) {
         throw InputError(fmt::format(
@@ -50,12 +59,10 @@ NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamGround& gro
 }
 
 Graded window_share(const ClosedFoamSettings& settings) {
-    const Interval shares = tight_range(*settings.window, settings.foam.region);
-    if (shares.lo >= 0 && shares.hi <= 1) return make_clamped_grading(settings.window.pointer(), shares);
-    throw InputError(fmt::format(
-        "the share of the foam's walls that is window reaches {}; it must lie between 0 (closed) and "
-        "1 (no wall)",
-        shares.lo >= 0 ? shares.hi : shares.lo));
+    const Interval shares =
+        range_within(settings.window, settings.foam.region, {0, 1},
+                     "the share of the foam's walls that is window", "from 0 (closed) to 1 (no wall)");
+    return make_clamped_grading(settings.window.pointer(), shares);
 }
 
 }  // namespace

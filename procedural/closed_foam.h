@@ -20,7 +20,7 @@ struct ClosedFoamSettings {
     /// of the local cell. Where it is 0 there is none.
     Graded wall = 0.2;
     /// Share of a wall's width that is a window, asked for in the middle of each face: 0 is closed, 1 has no
-    /// wall.
+    /// wall; graded numbers beyond count as these.
     Graded window = 0.0;
 };
 
