@@ -105,8 +105,13 @@ void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<
     }
 }
 
-dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& own,
-                      std::span<const Seed> sites) {
+void CellNodes::start(const VoronoiCell& cell) {
+    known_.assign(cell.vertex_count(), false);
+    nodes_.resize(cell.vertex_count());
+}
+
+dvec3 CellNodes::at(const VoronoiCell& cell, std::size_t vertex, const Seed& own,
+                    std::span<const Seed> sites) {
     if (known_[vertex]) return nodes_[vertex];
     std::array<const Seed*, 4> four = {&own, nullptr, nullptr, nullptr};
     const auto planes = cell.planes(vertex);
@@ -127,8 +132,7 @@ dvec3 BeamMaker::node(const VoronoiCell& cell, std::size_t vertex, const Seed& o
 std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                               std::vector<Beam>& beams) {
     edges_.clear();
-    known_.assign(cell.vertex_count(), false);
-    nodes_.resize(cell.vertex_count());
+    nodes_.start(cell);
     std::size_t left_out = 0;
     const auto bounded = [&](std::size_t v) {
         const auto planes = cell.planes(v);
@@ -156,7 +160,7 @@ std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
         return a.third->key < b.third->key;
     });
     for (const Edge& edge : edges_) {
-        const dvec3 from = node(cell, edge.from, own, sites), to = node(cell, edge.to, own, sites);
+        const dvec3 from = nodes_.at(cell, edge.from, own, sites), to = nodes_.at(cell, edge.to, own, sites);
         append_tapered(stretch_.to_part(from), stretch_.to_part(to), radius_, beams);
     }
     return left_out;

@@ -43,6 +43,19 @@ std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
 /// 2 %, the beam is split in the middle, and its halves likewise, down to a sixteenth.
 void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<Beam>& beams);
 
+/// The nodes of a cell where every cell that shares them has them. Keeps buffers for reuse.
+class CellNodes {
+  public:
+    /// Forgets the nodes of the last cell.
+    void start(const VoronoiCell& cell);
+    /// The node at a vertex whose three planes are those of seeds; `cell` is the one started with.
+    dvec3 at(const VoronoiCell& cell, std::size_t vertex, const Seed& own, std::span<const Seed> sites);
+
+  private:
+    std::vector<dvec3> nodes_;
+    std::vector<bool> known_;
+};
+
 /// Makes the beams that a cell owns: those of its edges whose two other seeds have higher keys than its own.
 /// Not thread-safe; keeps buffers for reuse.
 class BeamMaker {
@@ -62,6 +75,10 @@ class BeamMaker {
     /// more cells share may then be made more than once, in one place. Returns the number of edges left out.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        std::vector<Beam>& beams);
+    /// Appends the beam along an edge between two nodes in the part's space.
+    void append_edge(dvec3 from, dvec3 to, std::vector<Beam>& beams) const {
+        append_tapered(from, to, radius_, beams);
+    }
 
   private:
     struct Edge {
@@ -69,13 +86,10 @@ class BeamMaker {
         const Seed* third;
         std::size_t from, to;
     };
-    dvec3 node(const VoronoiCell& cell, std::size_t vertex, const Seed& own, std::span<const Seed> sites);
-
     NodeRadius radius_;
     Stretch stretch_;
     std::vector<Edge> edges_;
-    std::vector<dvec3> nodes_;
-    std::vector<bool> known_;
+    CellNodes nodes_;
 };
 
 }  // namespace lamella

@@ -77,6 +77,28 @@ void skin_layer(benchmark::State& state) {
 }
 BENCHMARK(skin_layer)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
+/// A number that changes along x: 1 mm in the middle, by a tenth more or less at the ends.
+class AlongX : public Grading {
+  public:
+    double at(dvec3 p) const override { return 1 + 0.002 * (p.x - 96); }
+    Interval range(const Box& box) const override { return {at(box.lo), at(box.hi)}; }
+};
+
+/// A skin of a thickness that varies.
+void graded_skin_layer(benchmark::State& state) {
+    const FieldPtr body = make_mesh_field(wavy_ball(static_cast<double>(state.range(0))));
+    slice_plate(state, *make_intersection({body, make_shell(body, std::make_shared<AlongX>(), {0.1, 3})}));
+}
+BENCHMARK(graded_skin_layer)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+/// From a mesh field to its graded skin: numbers at vertices, tree, edges that show.
+void graded_skin_setup(benchmark::State& state) {
+    const FieldPtr body = make_mesh_field(wavy_ball(static_cast<double>(state.range(0))));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(make_shell(body, std::make_shared<AlongX>(), {0.1, 3}).get());
+}
+BENCHMARK(graded_skin_setup)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
 /// From a mesh in memory to its first section: normals, tree, indices.
 void mesh_field_setup(benchmark::State& state) {
     const SolidMesh solid = wavy_ball(static_cast<double>(state.range(0)));

@@ -12,6 +12,7 @@
 #include "engine/tile_walk.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
+#include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
 #include "tests/procedural/graded_lengths.h"
 
@@ -44,6 +45,7 @@ std::vector<Named> all_fields() {
     const FieldPtr cone = make_round_cone({{-2, -1, -0.5}, 0.9, {1.7, 1.2, 0.8}, 0.4});
     const FieldPtr torus = make_torus({0, 0.1, 0}, 2, 0.7);
     const FieldPtr mesh = make_mesh_field(shapes::closed(shapes::icosphere(3, 2.4)));
+    const GradingPtr graded = gradings::function([](dvec3 p) { return 0.3 + 0.2 * p.x - 0.1 * p.y; }, 0.23);
     const glm::dmat3 turn(glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.6, 0.8, 0), glm::dvec3(0, 0, 1));
     const glm::dmat3 mirror(glm::dvec3(-1.1, 0, 0), glm::dvec3(0, 0.9, 0), glm::dvec3(0, 0, 1.2));
     const auto slope = std::make_shared<LinearGrading>(0.3, dvec3(0.02, 0.01, -0.01));
@@ -85,6 +87,12 @@ std::vector<Named> all_fields() {
         {"L-shaped mesh shell",
          make_intersection({make_mesh_field(shapes::closed(shapes::l_prism())),
                             make_shell(make_mesh_field(shapes::closed(shapes::l_prism())), 0.4)})},
+        {"mesh with a graded shell", make_intersection({mesh, make_shell(mesh, graded, {0, 1})})},
+        {"L-shaped mesh with a graded shell",
+         make_intersection({make_mesh_field(shapes::closed(shapes::l_prism())),
+                            make_shell(make_mesh_field(shapes::closed(shapes::l_prism())), graded, {0, 1})})},
+        {"ball with a graded shell", make_intersection({sphere, make_shell(sphere, graded, {0.1, 1})}), true},
+        {"filled mesh with a graded skin", make_filled_body(mesh, make_union({cone, torus}), graded, {0, 1})},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
         {"union", make_union({box, cone, torus})},

@@ -142,7 +142,7 @@ TEST_CASE("the range over everything is that of the samples") {
     CHECK(tight.hi == 9000);
 }
 
-TEST_CASE("the range of a large box exceeds that of its samples by no more than an eighth of its length") {
+TEST_CASE("the range of a large box exceeds that of its samples by no more than half its length") {
     // Along x the sample is its index, so an enclosure of numbers is one of places.
     const std::size_t n = 512;
     std::vector<std::uint16_t> ramp(n * 3 * 2);

@@ -1,0 +1,26 @@
+// A piece of a foam with walls: a beam or a round triangle.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "engine/round_triangle.h"
+
+namespace lamella {
+
+/// What the cells of a foam with walls are made of.
+using FoamPiece = std::variant<Beam, RoundTriangle>;
+
+inline double signed_distance(const FoamPiece& piece, dvec3 p) {
+    return std::visit([&](const auto& solid) { return signed_distance(solid, p); }, piece);
+}
+
+inline Box bounds(const FoamPiece& piece) {
+    return std::visit([](const auto& solid) { return bounds(solid); }, piece);
+}
+
+/// Whether the closed round triangle and the closed box have a point in common; exact up to rounding.
+bool touches(const RoundTriangle& triangle, const Box& box);
+bool touches(const FoamPiece& piece, const Box& box);
+
+}  // namespace lamella
