@@ -46,11 +46,13 @@ class DroppedIslands {
   private:
     std::span<const PlacedRun> layer(int index) const;
     std::span<const PlacedRun> row(int layer_index, int row) const;
+    double distance_in_layer(int index, dvec3 p, double limit) const;
 
     SurveyGrid grid_;
     std::vector<PlacedRun> runs_;
     int first_layer_ = 0;
     std::vector<std::size_t> starts_;  ///< of each layer from first_layer_ on, one more than there are
+    std::vector<Rect> rects_;          ///< encloses the runs of each layer
     Box bounds_;
 };
 

@@ -2,6 +2,7 @@
 // the last.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -43,6 +44,7 @@ struct LabelledLayer {
     std::vector<std::uint32_t> starts; ///< where each row's runs begin; one more than there are rows
     std::vector<LabelledRun> runs;     ///< by row, then begin; disjoint; components numbered by appearance
     std::vector<ComponentExtent> components;
+    std::vector<std::uint32_t> owners; ///< the component of each run that was given, in their order
 
     int rows() const { return static_cast<int>(starts.size()) - 1; }
     /// The runs of a row; empty where the layer has no such row.
