@@ -27,8 +27,9 @@ bool same_row(const PlacedRun& a, const PlacedRun& b) { return a.layer == b.laye
 
 Box SurveyGrid::box(const PlacedRun& run) const {
     const double unit = pitch / run_unit;
-    return {{origin.x + run.begin * unit, origin.y + run.row * pitch, z0 + run.layer * layer_height},
-            {origin.x + run.end * unit, origin.y + (run.row + 1) * pitch, z0 + (run.layer + 1) * layer_height}};
+    return {
+        {origin.x + run.begin * unit, origin.y + run.row * pitch, z0 + run.layer * layer_height},
+        {origin.x + run.end * unit, origin.y + (run.row + 1) * pitch, z0 + (run.layer + 1) * layer_height}};
 }
 
 DroppedIslands::DroppedIslands(const SurveyGrid& grid, std::vector<PlacedRun> runs) : grid_(grid) {
@@ -76,10 +77,11 @@ std::span<const PlacedRun> DroppedIslands::at(double z) const {
 
 const PlacedRun* DroppedIslands::find(dvec3 p) const {
     if (!bounds_.contains(p)) return nullptr;
-    const auto runs = row(cell_of(p.z, grid_.z0, grid_.layer_height), cell_of(p.y, grid_.origin.y, grid_.pitch));
+    const auto runs =
+        row(cell_of(p.z, grid_.z0, grid_.layer_height), cell_of(p.y, grid_.origin.y, grid_.pitch));
     const double u = (p.x - grid_.origin.x) * (run_unit / grid_.pitch);
-    const auto after =
-        std::upper_bound(runs.begin(), runs.end(), u, [](double v, const PlacedRun& run) { return v < run.end; });
+    const auto after = std::upper_bound(runs.begin(), runs.end(), u,
+                                        [](double v, const PlacedRun& run) { return v < run.end; });
     return after != runs.end() && after->begin <= u ? &*after : nullptr;
 }
 
@@ -131,7 +133,8 @@ bool DroppedIslands::meets(const Box& box) const {
         if (layer(l).empty()) continue;
         for (int r = cell_of(part.lo.y, grid_.origin.y, grid_.pitch); r <= high; ++r) {
             for (const PlacedRun& run : row(l, r)) {
-                if (grid_.origin.x + run.begin * unit <= part.hi.x && part.lo.x <= grid_.origin.x + run.end * unit)
+                if (grid_.origin.x + run.begin * unit <= part.hi.x &&
+                    part.lo.x <= grid_.origin.x + run.end * unit)
                     return true;
             }
         }
@@ -148,9 +151,7 @@ class WithoutIslands : public Field {
 
     double value(dvec3 p) const override { return adjusted(p, solid_->value(p)); }
     Interval range(const Box& box) const override;
-    Metric metric() const override {
-        return solid_->metric() == Metric::sign ? Metric::sign : Metric::bound;
-    }
+    Metric metric() const override { return solid_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override;
     Box bounds() const override { return solid_->bounds(); }
 

@@ -115,9 +115,10 @@ void Surveyor::write(const Layer& layer, LayerProduct& product) {
         part_components_.mark(parts[part], body_components_.find(bodies[body]));
     }
     if (part_components_.runs_kept() > options_.most_kept) {
-        throw InputError("the part falls into too many pieces to remember all that may float free; a survey "
-                         "with a coarser pitch than " +
-                         format_number(grid_.pitch, 6) + " mm needs less room");
+        throw InputError(
+            "the part falls into too many pieces to remember all that may float free; a survey "
+            "with a coarser pitch than " +
+            format_number(grid_.pitch, 6) + " mm needs less room");
     }
 }
 
@@ -145,9 +146,9 @@ Island Surveyor::describe(const RunComponents::Component& component) const {
     const ComponentExtent& extent = component.extent;
     Island island;
     island.volume = volume(extent.length);
-    island.box = unite(
-        grid_.box({extent.first_layer, extent.first_row, extent.along.begin, extent.along.end}),
-        grid_.box({extent.last_layer, extent.last_row, extent.along.begin, extent.along.end}));
+    island.box =
+        unite(grid_.box({extent.first_layer, extent.first_row, extent.along.begin, extent.along.end}),
+              grid_.box({extent.last_layer, extent.last_row, extent.along.begin, extent.along.end}));
     island.first_layer = extent.first_layer;
     island.end_layer = extent.last_layer + 1;
     island.dropped = component.run_count <= options_.most_runs;
@@ -200,8 +201,8 @@ void check(const Job& job, const IslandSurveyOptions& options) {
         refuse("is too fine for this part; accepted: at least " + std::to_string(least) + " mm");
     const double most = most_layers_in_a_pitch * job.layer_height;
     if (options.pitch > most)
-        refuse("is too coarse for layers of " + std::to_string(job.layer_height) +
-               " mm; accepted: at most " + std::to_string(most) + " mm");
+        refuse("is too coarse for layers of " + std::to_string(job.layer_height) + " mm; accepted: at most " +
+               std::to_string(most) + " mm");
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace lamella {
 
 /// A component of the part that is not the largest in its component of the body.
 struct Island {
-    double volume = 0;     ///< mm^3, as surveyed
-    Box box;               ///< mm, as surveyed
-    int first_layer = 0;   ///< [first_layer, end_layer)
+    double volume = 0;    ///< mm^3, as surveyed
+    Box box;              ///< mm, as surveyed
+    int first_layer = 0;  ///< [first_layer, end_layer)
     int end_layer = 0;
     bool dropped = false;  ///< false for one that is too large to be debris: it is reported, and left alone
 };
@@ -30,7 +30,7 @@ struct IslandReport {
 };
 
 struct IslandSurveyOptions {
-    double pitch = 0.1;                          ///< mm from one surveyed row to the next
+    double pitch = 0.1;                            ///< mm from one surveyed row to the next
     std::size_t most_runs = std::size_t{1} << 17;  ///< grown runs of an island that can still be dropped
     std::size_t most_kept = std::size_t{1} << 24;  ///< grown runs kept in all; 16 bytes each
     std::size_t report_largest = 10;
@@ -47,17 +47,17 @@ struct IslandSurvey {
 /// Surveys all layers of a job at their cutting planes: exact along x, a row each `pitch` across.
 ///
 /// The part's runs are grown by a pitch in x, by a row in y and by a pitch's worth of layers in z, and grown
-/// runs that touch are joined: what lies within two pitches counts as connected. The plan to drop an island is
-/// its grown runs, so it stays a pitch away from everything that is kept. What is thinner than a pitch between
-/// two rows is not seen. The body's runs are joined where they touch, without growing, so that bodies that
-/// stand close together each keep their part. A component within several components of the body is an island
-/// only when it is the largest in none; components outside the body are taken together as if in one of
+/// runs that touch are joined: what lies within two pitches counts as connected. The plan to drop an island
+/// is its grown runs, so it stays a pitch away from everything that is kept. What is thinner than a pitch
+/// between two rows is not seen. The body's runs are joined where they touch, without growing, so that bodies
+/// that stand close together each keep their part. A component within several components of the body is an
+/// island only when it is the largest in none; components outside the body are taken together as if in one of
 /// their own; without a body (null) so is everything. Of equals, the lowest is the largest.
 ///
-/// The result is a pure function of (part, body, layers, pitch, most_runs), the same by any number of threads.
-/// Memory depends on a few layers' runs and on the islands, not on the number of layers. Throws InputError
-/// when the pitch does not suit the job or when the part falls into more pieces than `most_kept` has room for,
-/// Interrupted when cancelled.
+/// The result is a pure function of (part, body, layers, pitch, most_runs), the same by any number of
+/// threads. Memory depends on a few layers' runs and on the islands, not on the number of layers. Throws
+/// InputError when the pitch does not suit the job or when the part falls into more pieces than `most_kept`
+/// has room for, Interrupted when cancelled.
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options);
 
 }  // namespace lamella

@@ -95,12 +95,12 @@ LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth)
     }
     out.components.resize(number_components(out));
     for (int r = 0; r < count; ++r) {
-        for_touching(rows.line(static_cast<std::size_t>(r)), out.row(r),
-                     [&](const Run& run, const LabelledRun& grown) {
-                         out.components[grown.component].include(
-                             {run.end - run.begin, run, r, r, layer, layer});
-                         out.owners.push_back(grown.component);
-                     });
+        for_touching(
+            rows.line(static_cast<std::size_t>(r)), out.row(r),
+            [&](const Run& run, const LabelledRun& grown) {
+                out.components[grown.component].include({run.end - run.begin, run, r, r, layer, layer});
+                out.owners.push_back(grown.component);
+            });
     }
     assert(out.owners.size() == rows.runs().size());
     return out;

@@ -40,11 +40,11 @@ struct ComponentExtent {
 
 /// The grown runs of one layer and how they hang together within it.
 struct LabelledLayer {
-    int first_row = 0;                 ///< may be negative: growing adds rows
-    std::vector<std::uint32_t> starts; ///< where each row's runs begin; one more than there are rows
-    std::vector<LabelledRun> runs;     ///< by row, then begin; disjoint; components numbered by appearance
+    int first_row = 0;                  ///< may be negative: growing adds rows
+    std::vector<std::uint32_t> starts;  ///< where each row's runs begin; one more than there are rows
+    std::vector<LabelledRun> runs;      ///< by row, then begin; disjoint; components numbered by appearance
     std::vector<ComponentExtent> components;
-    std::vector<std::uint32_t> owners; ///< the component of each run that was given, in their order
+    std::vector<std::uint32_t> owners;  ///< the component of each run that was given, in their order
 
     int rows() const { return static_cast<int>(starts.size()) - 1; }
     /// The runs of a row; empty where the layer has no such row.

@@ -60,9 +60,10 @@ void check(std::span<const Beam> beams) {
         for (int k = 0; k < 3; ++k)
             good = good && std::abs(beam.a[k]) <= farthest && std::abs(beam.b[k]) <= farthest;
         if (!good)
-            throw InputError("beam " + std::to_string(i) +
-                             " cannot be written: its ends must lie within 1e6 mm of the origin and its radii "
-                             "between 0 and 1e6 mm");
+            throw InputError(
+                "beam " + std::to_string(i) +
+                " cannot be written: its ends must lie within 1e6 mm of the origin and its radii "
+                "between 0 and 1e6 mm");
     }
 }
 
@@ -162,7 +163,8 @@ class LatticeWriter {
             write_node(b);
             ++report_.beams;
         }
-        if (report_.beams == 0) throw InputError("a beam lattice needs a beam of some length, and there is none");
+        if (report_.beams == 0)
+            throw InputError("a beam lattice needs a beam of some length, and there is none");
         report_.vertices = numbers_.size();
     }
 

@@ -26,8 +26,9 @@ struct BeamLatticeReport {
 ///
 /// `name` is the object's name, UTF-8; characters that XML cannot hold are left out. A file of that path is
 /// replaced, once the new one is complete. Equal beams give equal bytes. Memory: 40 bytes or so a node, in
-/// addition to the beams. Throws InputError when there are no beams, or one that is not finite, lies more than
-/// 1e6 mm from the origin or has a radius that is not positive; FaultError when the file cannot be written.
+/// addition to the beams. Throws InputError when there are no beams, or one that is not finite, lies more
+/// than 1e6 mm from the origin or has a radius that is not positive; FaultError when the file cannot be
+/// written.
 BeamLatticeReport write_beam_lattice(const std::filesystem::path& path, std::span<const Beam> beams,
                                      const std::string& name);
 

@@ -13,9 +13,9 @@ namespace lamella {
 namespace {
 
 constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
-constexpr std::uint32_t version = 20;       // deflate and folders
-constexpr std::uint32_t flags = 0x0808;     // sizes follow the data; names are UTF-8
-constexpr std::uint32_t deflated = 8;       // the method
+constexpr std::uint32_t version = 20;        // deflate and folders
+constexpr std::uint32_t flags = 0x0808;      // sizes follow the data; names are UTF-8
+constexpr std::uint32_t deflated = 8;        // the method
 constexpr std::uint32_t first_day = 0x0021;  // 1980-01-01
 
 void put_u16(std::string& out, std::uint64_t value) {
@@ -84,7 +84,8 @@ void ZipWriter::begin_entry(std::string name) {
     end_entry();
     constexpr std::size_t longest_name = 1024, most_entries = 65535;
     if (name.empty() || name.size() > longest_name || entries_.size() == most_entries)
-        throw FaultError(path_.string() + ": an archive holds up to 65535 entries with names of 1 to 1024 bytes");
+        throw FaultError(path_.string() +
+                         ": an archive holds up to 65535 entries with names of 1 to 1024 bytes");
     entries_.push_back({std::move(name), file_.size()});
     std::string header;
     put_u32(header, 0x04034b50);
@@ -104,7 +105,8 @@ void ZipWriter::write(std::string_view text) {
         Entry& entry = entries_.back();
         entry.size += part.size();
         if (entry.size > most_bytes)
-            throw FaultError(path_.string() + ": " + entry.name + " would exceed 4 GiB, the most a ZIP entry holds");
+            throw FaultError(path_.string() + ": " + entry.name +
+                             " would exceed 4 GiB, the most a ZIP entry holds");
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib speaks of unsigned char
         const auto* bytes = reinterpret_cast<const Bytef*>(part.data());
         entry.crc = static_cast<std::uint32_t>(crc32(entry.crc, bytes, static_cast<uInt>(part.size())));

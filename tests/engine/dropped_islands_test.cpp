@@ -39,7 +39,8 @@ TEST_CASE("a box is as long as its run, as wide as its row and as high as its la
 }
 
 TEST_CASE("runs that overlap or touch in a row become one") {
-    const DroppedIslands plan(grid, {{0, 0, 10, 20}, {0, 1, 0, 5}, {0, 0, 0, 10}, {0, 0, 15, 18}, {1, 0, 0, 5}});
+    const DroppedIslands plan(grid,
+                              {{0, 0, 10, 20}, {0, 1, 0, 5}, {0, 0, 0, 10}, {0, 0, 15, 18}, {1, 0, 0, 5}});
     const std::vector<PlacedRun> expected{{0, 0, 0, 20}, {0, 1, 0, 5}, {1, 0, 0, 5}};
     REQUIRE(std::vector<PlacedRun>(plan.runs().begin(), plan.runs().end()) == expected);
     REQUIRE(plan.at(0.51).size() == 2);
@@ -54,7 +55,8 @@ TEST_CASE("look-ups agree with a search of all boxes") {
     const unsigned seed = 6;
     INFO("seed " << seed);
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> x(-1.3, 3.2), y(-2.2, 2), z(0.2, 3.2), reach(0.01, 2), size(0.001, 0.8);
+    std::uniform_real_distribution<double> x(-1.3, 3.2), y(-2.2, 2), z(0.2, 3.2), reach(0.01, 2),
+        size(0.001, 0.8);
     int inside = 0, met = 0;
     for (const int count : {0, 1, 40, 600}) {
         const auto runs = random_runs(random, count);
@@ -99,8 +101,11 @@ TEST_CASE("rows and columns lose exactly the boxes, in either direction") {
     for (const double z : {0.53, 1.2, 2.41, 3.05}) {
         for (const Axis axis : {Axis::x, Axis::y}) {
             for (const double sign : {1.0, -1.0}) {
-                const RowBand band{axis, sign > 0 ? -2.0 : 4.0, sign * 0.05, sign > 0 ? -3.0 : 4.0, sign * 0.03, 5,
-                                   200,  3,                    0,           120};
+                const RowBand band{axis,        sign > 0 ? -2.0 : 4.0,
+                                   sign * 0.05, sign > 0 ? -3.0 : 4.0,
+                                   sign * 0.03, 5,
+                                   200,         3,
+                                   0,           120};
                 SliceContext context;
                 Scratch scratch;
                 SpanRows rows;

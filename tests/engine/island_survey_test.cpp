@@ -146,8 +146,8 @@ std::vector<std::size_t> joined_pair_by_pair(const std::vector<PlacedRun>& runs)
 
 TEST_CASE("balls beside a block are islands, with their volumes and boxes") {
     const FieldPtr block = make_box({{0, 0, 0}, {6, 6, 6}});
-    const FieldPtr scene =
-        make_union({block, make_sphere({8, 3, 3}, 1), make_sphere({3, 3, 8}, 0.7), make_sphere({-3, 2, 1}, 0.5)});
+    const FieldPtr scene = make_union(
+        {block, make_sphere({8, 3, 3}, 1), make_sphere({3, 3, 8}, 0.7), make_sphere({-3, 2, 1}, 0.5)});
     const Job job = scenes::job_of(scene, {{-4, -1, 0}, {10, 7, 9}}, 0.05);
     const IslandSurvey survey = surveyed(job);
     const IslandReport& report = survey.report;
@@ -184,12 +184,12 @@ TEST_CASE("balls beside a block are islands, with their volumes and boxes") {
 TEST_CASE("a bar through the hole of a ring that it does not touch is an island; touching, it is none") {
     const FieldPtr ring = make_torus({0, 0, 3}, 2, 0.5);
     const Box bounds{{-3, -3, 0}, {3, 3, 6}};
-    const IslandSurvey free = surveyed(
-        scenes::job_of(make_union({ring, beam({0, 0, 1}, {0, 0, 5}, 0.4)}), bounds, 0.05));
+    const IslandSurvey free =
+        surveyed(scenes::job_of(make_union({ring, beam({0, 0, 1}, {0, 0, 5}, 0.4)}), bounds, 0.05));
     REQUIRE(free.report.count == 1);
     REQUIRE(free.report.largest[0].volume < 4);
-    const IslandSurvey held = surveyed(
-        scenes::job_of(make_union({ring, beam({0, 0, 3}, {1.4, 0, 3}, 0.4)}), bounds, 0.05));
+    const IslandSurvey held =
+        surveyed(scenes::job_of(make_union({ring, beam({0, 0, 3}, {1.4, 0, 3}, 0.4)}), bounds, 0.05));
     REQUIRE(held.report.count == 0);
     REQUIRE(held.report.components == 1);
     REQUIRE(held.dropped->empty());
@@ -218,9 +218,9 @@ TEST_CASE("each component of the body keeps its largest piece, however close bod
     const FieldPtr left = make_box({{0, 0, 0}, {4, 4, 4}}), right = make_box({{4.1, 0, 0}, {8, 4, 4}});
     const FieldPtr far = make_box({{12, 0, 0}, {15, 4, 4}});
     const FieldPtr body = make_union({left, right, far});
-    const FieldPtr part =
-        make_union({make_sphere({1.5, 1.5, 1.5}, 1.2), make_sphere({3.3, 3.3, 3.3}, 0.4),
-                    make_sphere({6.5, 2, 2}, 0.9), make_sphere({13, 1, 1}, 0.3), make_sphere({14, 3, 3}, 0.5)});
+    const FieldPtr part = make_union({make_sphere({1.5, 1.5, 1.5}, 1.2), make_sphere({3.3, 3.3, 3.3}, 0.4),
+                                      make_sphere({6.5, 2, 2}, 0.9), make_sphere({13, 1, 1}, 0.3),
+                                      make_sphere({14, 3, 3}, 0.5)});
     const Job job = scenes::job_of(part, {{-1, -1, 0}, {16, 5, 5}}, 0.05);
     const IslandSurvey survey = surveyed(job, body);
     REQUIRE(survey.report.bodies == 3);

@@ -43,7 +43,8 @@ std::map<std::vector<int>, int> flooded(const Grid& grid, const Growth& g) {
               columns = static_cast<int>(grid[0][0].size());
     const auto solid = [&](int l, int r, int c) {
         return l >= 0 && l < layers && r >= 0 && r < rows && c >= 0 && c < columns &&
-               grid[static_cast<std::size_t>(l)][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] == '#';
+               grid[static_cast<std::size_t>(l)][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] ==
+                   '#';
     };
     std::map<std::vector<int>, int> label;
     int count = 0;

@@ -47,12 +47,14 @@ Lattice read_lattice(const fs::path& path) {
     const std::map<std::string, std::string> parts(entries.begin(), entries.end());
     pugi::xml_document types, relations, model;
     REQUIRE(types.load_string(parts.at("[Content_Types].xml").c_str()));
-    REQUIRE(types.select_node("/Types/Default[@Extension='model' and "
-                              "@ContentType='application/vnd.ms-package.3dmanufacturing-3dmodel+xml']"));
+    REQUIRE(
+        types.select_node("/Types/Default[@Extension='model' and "
+                          "@ContentType='application/vnd.ms-package.3dmanufacturing-3dmodel+xml']"));
     REQUIRE(types.select_node("/Types/Default[@Extension='rels']"));
     REQUIRE(relations.load_string(parts.at("_rels/.rels").c_str()));
-    REQUIRE(relations.select_node("/Relationships/Relationship[@Target='/3D/3dmodel.model' and "
-                                  "@Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel']"));
+    REQUIRE(
+        relations.select_node("/Relationships/Relationship[@Target='/3D/3dmodel.model' and "
+                              "@Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel']"));
     const std::string& text = parts.at("3D/3dmodel.model");
     REQUIRE(model.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8));
     const pugi::xml_node root = model.child("model");
@@ -72,7 +74,8 @@ Lattice read_lattice(const fs::path& path) {
     const pugi::xml_node mesh = object.child("mesh");
     std::set<std::array<double, 3>> places;
     for (const auto& vertex : mesh.child("vertices").children("vertex")) {
-        lattice.vertices.emplace_back(vertex.attribute("x").as_double(NAN), vertex.attribute("y").as_double(NAN),
+        lattice.vertices.emplace_back(vertex.attribute("x").as_double(NAN),
+                                      vertex.attribute("y").as_double(NAN),
                                       vertex.attribute("z").as_double(NAN));
         const dvec3 p = lattice.vertices.back();
         REQUIRE(places.insert({p.x, p.y, p.z}).second);
@@ -139,14 +142,17 @@ TEST_CASE("a lattice holds every beam of a foam, with shared nodes", "[beam_latt
     }
     for (std::size_t v = 0; v < degree.size(); ++v) {
         const dvec3 p = lattice.vertices[v];
-        if (glm::all(glm::greaterThan(p, dvec3(1))) && glm::all(glm::lessThan(p, dvec3(19)))) REQUIRE(degree[v] >= 4);
+        if (glm::all(glm::greaterThan(p, dvec3(1))) && glm::all(glm::lessThan(p, dvec3(19))))
+            REQUIRE(degree[v] >= 4);
     }
 }
 
 TEST_CASE("radii of all kinds come back", "[beam_lattice]") {
     const TemporaryFolder folder;
-    const std::vector<Beam> beams = {{{0, 0, 0}, 0.5, {1, 0, 0}, 0.5},   {{1, 0, 0}, 0.5, {1, 2, 0}, 0.25},
-                                     {{1, 2, 0}, 0.25, {1, 2, 3}, 0.25}, {{0, 0, 0}, 0.25, {1, 2, 3}, 0.5},
+    const std::vector<Beam> beams = {{{0, 0, 0}, 0.5, {1, 0, 0}, 0.5},
+                                     {{1, 0, 0}, 0.5, {1, 2, 0}, 0.25},
+                                     {{1, 2, 0}, 0.25, {1, 2, 3}, 0.25},
+                                     {{0, 0, 0}, 0.25, {1, 2, 3}, 0.5},
                                      {{-7.25, 1e-5, 123456.78901}, 1e-9, {0, 0, 0}, 1234.5}};
     const BeamLatticeReport report = write_beam_lattice(folder / "a.3mf", beams, "");
     REQUIRE(report.vertices == 5);
@@ -194,7 +200,8 @@ TEST_CASE("equal beams give equal bytes", "[beam_lattice]") {
     std::uniform_real_distribution<double> at(-50, 50);
     std::vector<Beam> beams;
     for (int i = 0; i < 5000; ++i) {
-        beams.push_back({{at(random), at(random), at(random)}, 0.3, {at(random), at(random), at(random)}, 0.2});
+        beams.push_back(
+            {{at(random), at(random), at(random)}, 0.3, {at(random), at(random), at(random)}, 0.2});
     }
     write_beam_lattice(folder / "a.3mf", beams, "a");
     write_beam_lattice(folder / "b.3mf", beams, "a");
