@@ -189,20 +189,18 @@ IslandSurvey Surveyor::result() {
 }
 
 void check(const Job& job, const IslandSurveyOptions& options) {
-    const auto refuse = [&](const std::string& wrong) {
-        throw InputError("island survey: a pitch of " + std::to_string(options.pitch) + " mm " + wrong);
-    };
-    if (!(options.pitch > 0) || !std::isfinite(options.pitch)) refuse("is no positive, finite length");
     const dvec3 size = job.bounds.size();
     if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
         throw InputError("island survey: the part's bounds are empty or infinite");
     const double least = std::max(size.x, size.y) / most_pitches;
-    if (options.pitch < least)
-        refuse("is too fine for this part; accepted: at least " + std::to_string(least) + " mm");
     const double most = most_layers_in_a_pitch * job.layer_height;
-    if (options.pitch > most)
-        refuse("is too coarse for layers of " + std::to_string(job.layer_height) + " mm; accepted: at most " +
-               std::to_string(most) + " mm");
+    if (options.pitch > 0 && options.pitch >= least && options.pitch <= most) return;
+    const bool printable = std::abs(options.pitch) < 1e9;
+    throw InputError("island survey: the pitch" +
+                     (printable ? " of " + format_number(options.pitch, 9) + " mm" : std::string()) +
+                     " does not suit the part; accepted: " + format_number(least, 9) + " to " +
+                     format_number(most, 9) +
+                     " mm, that is at most 2^20 rows and columns, and 16 layers in a pitch");
 }
 
 }  // namespace

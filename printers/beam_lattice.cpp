@@ -143,7 +143,7 @@ class LatticeWriter {
                 "<resources>\n<object id=\"1\" type=\"model\" name=\""
              << attribute_text(name) << "\">\n<mesh>\n<vertices>\n";
         write_nodes();
-        out_ << "</vertices>\n<triangles/>\n";
+        out_ << "</vertices>\n";
         write_beams();
         out_ << "</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n";
         out_.flush();

@@ -18,8 +18,8 @@ struct BeamLatticeReport {
 };
 
 /// Writes beams (mm) as a 3MF model: one object of nodes and beams with sphere caps, no triangles (3MF core
-/// specification 1.x; beam lattice extension 1.2, section 2). Lengths are rounded to 1e-5 mm, a tenth of a
-/// wavelength's tenth; ends that are then equal are one node. Radii below 1e-5 mm are written as that.
+/// specification 1.x; beam lattice extension 1.2, section 2). Lengths are rounded to 1e-5 mm; ends that are
+/// then equal are one node. Radii below 1e-5 mm are written as that.
 ///
 /// The format's beam is a frustum between two balls, ours their convex hull: where the radii of a beam of
 /// length L differ, its flank is thinner than ours by up to r (1 / cos a - 1), sin a = (ra - rb) / L.

@@ -80,7 +80,7 @@ Lattice read_lattice(const fs::path& path) {
         const dvec3 p = lattice.vertices.back();
         REQUIRE(places.insert({p.x, p.y, p.z}).second);
     }
-    REQUIRE(mesh.child("triangles").first_child().empty());
+    REQUIRE_FALSE(mesh.child("triangles"));
     const pugi::xml_node node = mesh.child("b:beamlattice");
     REQUIRE(node == mesh.last_child());
     REQUIRE(node.attribute("cap").value() == std::string("sphere"));
