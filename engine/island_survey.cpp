@@ -127,6 +127,7 @@ std::vector<std::uint32_t> Surveyor::largest_of_groups() {
     for (const std::uint32_t number : part_components_.numbers()) {
         const auto& component = part_components_.component(number);
         std::vector<std::uint32_t> groups;
+        groups.reserve(component.groups.size() + 1);
         for (const std::uint32_t group : component.groups) groups.push_back(body_components_.find(group));
         if (groups.empty()) groups.push_back(outside);
         for (const std::uint32_t group : groups) {
@@ -137,6 +138,7 @@ std::vector<std::uint32_t> Surveyor::largest_of_groups() {
     }
     groups_ = largest.size();
     std::vector<std::uint32_t> kept;
+    kept.reserve(largest.size());
     for (const auto& [group, number] : largest) kept.push_back(number);
     std::sort(kept.begin(), kept.end());
     return kept;

@@ -73,7 +73,9 @@ struct PlacedRun {
     std::int32_t row;
     std::int32_t begin;
     std::int32_t end;
-    friend auto operator<=>(const PlacedRun&, const PlacedRun&) = default;
+    friend auto operator<=>(const PlacedRun&,
+                            const PlacedRun&) =
+        default;  // NOLINT(modernize-use-nullptr): misread by the tool
 };
 
 /// Joins labelled layers to components of the whole solid (union-find; a component's number is that of its

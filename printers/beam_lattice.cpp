@@ -1,9 +1,11 @@
 // Nodes by rounding, XML in pieces, the package's three parts.
 #include "printers/beam_lattice.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
