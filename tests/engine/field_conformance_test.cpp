@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/csg.h"
+#include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/mesh_field.h"
 #include "engine/primitives.h"
@@ -19,6 +20,18 @@
 using namespace lamella;
 
 namespace {
+
+/// A box less some boxes of a plan: one inside, one across its border, one beside it.
+FieldPtr with_islands_dropped(FieldPtr box) {
+    const SurveyGrid grid{{-2.5, -2.5}, 0.3, -2.0, 0.4};
+    std::vector<PlacedRun> runs;
+    for (int layer = 1; layer < 8; ++layer) {
+        for (int row = 4; row < 9; ++row) runs.push_back({layer, row, 300 + 40 * row, 900 + 40 * row});
+        runs.push_back({layer, 2, -200, 700});
+        runs.push_back({layer, 18, 100, 1200});
+    }
+    return make_without_islands(std::move(box), std::make_shared<DroppedIslands>(grid, std::move(runs)));
+}
 
 struct Named {
     std::string name;
@@ -95,6 +108,7 @@ std::vector<Named> all_fields() {
         {"filled mesh with a graded skin", make_filled_body(mesh, make_union({cone, torus}), graded, {0, 1})},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
+        {"box without islands", with_islands_dropped(box)},
         {"union", make_union({box, cone, torus})},
         {"intersection", make_intersection({sphere, box, cone})},
         {"difference", make_difference(box, torus)},

@@ -22,6 +22,25 @@ class JumpDensity : public Density {
     double plane_;
 };
 
+/// base + slope x seeds per mm^3, positive slope; wanted where that is positive.
+class RampDensity : public Density {
+  public:
+    RampDensity(double base, double slope) : base_(base), slope_(slope) {}
+    double at(double x) const { return std::max(base_ + slope_ * x, least); }
+    Interval range(const Box& box) const override { return {at(box.lo.x), at(box.hi.x)}; }
+    double integral(const Box& box) const override {
+        // Below the foot the density is the least one; beyond it, the area under a straight line.
+        const double foot = (least - base_) / slope_;
+        const double low = std::min(std::max(foot, box.lo.x), box.hi.x);
+        const double under = least * (low - box.lo.x) + (at(low) + at(box.hi.x)) / 2 * (box.hi.x - low);
+        return under * (box.hi.y - box.lo.y) * (box.hi.z - box.lo.z);
+    }
+
+  private:
+    static constexpr double least = 0.01;
+    double base_, slope_;
+};
+
 /// 1 + 3 (x^2 + y^2) seeds per mm^3.
 class BowlDensity : public Density {
   public:
