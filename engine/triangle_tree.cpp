@@ -15,8 +15,6 @@ double squared_distance(const Box& box, dvec3 p) {
     return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-double squared(dvec3 v) { return glm::dot(v, v); }
-
 /// How far along the edge from a to b the point closest to p lies, 0 to 1.
 double along_edge(dvec3 p, dvec3 a, dvec3 b) {
     const dvec3 e = b - a;

@@ -43,7 +43,7 @@ class PieceBrick {
 
     struct Entry {
         double center_distance;  ///< from the voxel's centre, mm
-        std::uint16_t piece;
+        std::uint32_t piece;
     };
 
     static Box octant_of(const Box& box, int octant) {
@@ -51,7 +51,7 @@ class PieceBrick {
         const dvec3 lo = box.lo + half * dvec3(octant & 1, (octant >> 1) & 1, octant >> 2);
         return {lo, lo + half};
     }
-    bool divide(const Box& box, std::span<const std::uint16_t> candidates, const std::vector<Piece>& near,
+    bool divide(const Box& box, std::span<const std::uint32_t> candidates, const std::vector<Piece>& near,
                 double growth, int depth);
     void keep_used(const std::vector<Piece>& near);
 
@@ -71,9 +71,8 @@ PieceBrick<Piece>::PieceBrick(const Box& box, const Query& touching) : box_(box)
     const double first_growth = 0.75 * (box.hi.x - box.lo.x);
     for (double growth = first_growth;; growth *= 1.5) {
         const std::vector<Piece> near = touching(grown(box, growth));
-        if (near.size() > 65535) throw FaultError("more than 65535 pieces are near one brick of the foam");
-        std::vector<std::uint16_t> candidates(near.size());
-        std::iota(candidates.begin(), candidates.end(), std::uint16_t{0});
+        std::vector<std::uint32_t> candidates(near.size());
+        std::iota(candidates.begin(), candidates.end(), std::uint32_t{0});
         lists_.clear();
         begins_.assign(1, 0);
         if (!divide(box, candidates, near, growth, 0)) continue;
@@ -84,7 +83,7 @@ PieceBrick<Piece>::PieceBrick(const Box& box, const Query& touching) : box_(box)
 
 /// Narrows the candidates down from cube to octant. False when a piece beyond the growth might be nearest.
 template <typename Piece>
-bool PieceBrick<Piece>::divide(const Box& box, std::span<const std::uint16_t> candidates,
+bool PieceBrick<Piece>::divide(const Box& box, std::span<const std::uint32_t> candidates,
                                const std::vector<Piece>& near, double growth, int depth) {
     const dvec3 center = box.center(), size = box.size();
     const double diagonal = std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z) * (1 + rounding);
@@ -95,7 +94,7 @@ bool PieceBrick<Piece>::divide(const Box& box, std::span<const std::uint16_t> ca
         nearest = std::min(nearest, distances[i]);
     }
     if (depth < halvings) {
-        std::vector<std::uint16_t> kept;
+        std::vector<std::uint32_t> kept;
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             if (distances[i] <= nearest + diagonal) kept.push_back(candidates[i]);
         }
@@ -127,7 +126,7 @@ void PieceBrick<Piece>::keep_used(const std::vector<Piece>& near) {
             number = static_cast<std::int32_t>(pieces_.size());
             pieces_.push_back(near[entry.piece]);
         }
-        entry.piece = static_cast<std::uint16_t>(number);
+        entry.piece = static_cast<std::uint32_t>(number);
     }
     pieces_.shrink_to_fit();
     lists_.shrink_to_fit();

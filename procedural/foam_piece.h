@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/round_triangle.h"
+#include "procedural/plane_strips.h"
 
 namespace lamella {
 
@@ -17,6 +18,11 @@ inline double signed_distance(const FoamPiece& piece, dvec3 p) {
 
 inline Box bounds(const FoamPiece& piece) {
     return std::visit([](const auto& solid) { return bounds(solid); }, piece);
+}
+
+inline void put_into(PlanePieces& pieces, const FoamPiece& piece) {
+    if (const auto* beam = std::get_if<Beam>(&piece)) pieces.beams.push_back(*beam);
+    if (const auto* wall = std::get_if<RoundTriangle>(&piece)) pieces.walls.push_back(*wall);
 }
 
 /// Whether the closed round triangle and the closed box have a point in common; exact up to rounding.

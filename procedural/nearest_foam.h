@@ -74,7 +74,7 @@ class NearestFoam : public BeamFoam {
     /// Throws InputError for settings out of range.
     explicit NearestFoam(const NearestFoamSettings& settings);
 
-    std::vector<Beam> beams_touching(const Box& box) const override { return units_.touching(box); }
+    std::vector<Beam> pieces_touching(const Box& box) const override { return units_.touching(box); }
     /// All seeds in the closed box, by key.
     std::vector<Seed> seeds_in(const Box& box) const { return ground_.seeds_in(box); }
 

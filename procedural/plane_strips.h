@@ -17,6 +17,8 @@ struct PlanePieces {
     std::vector<RoundTriangle> walls;  ///< drawn without their edges' beams
 };
 
+inline void put_into(PlanePieces& pieces, const Beam& beam) { pieces.beams.push_back(beam); }
+
 /// Runs of infinitely many pieces in one plane. A small plane is one strip; a large one is cut across y into
 /// strips of equal height, so that its first band waits for its own pieces only. Thread-safe.
 class PlaneStrips : public SampledSlice {

@@ -5,10 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/beam.h"
-#include "engine/field.h"
-#include "engine/grading.h"
-#include "procedural/distance_brick.h"
+#include "procedural/beam_foam.h"
+#include "procedural/foam_beams.h"
 #include "procedural/lattice_struts.h"
 #include "procedural/unit_cells.h"
 
@@ -29,40 +27,32 @@ struct LatticeSettings {
 /// the corners hang together across sizes. A cell's corner lies at the region's lower corner. The lattice
 /// fills space (beyond the region the gradings count at the nearest point of it); the region says where
 /// slices and bounds are wanted.
-class StrutLattice : public Field {
+class StrutLattice : public BeamFoam {
   public:
     /// Throws InputError for settings out of range.
     explicit StrutLattice(const LatticeSettings& settings);
 
-    /// The minimum of the signed distances to all beams, mm: the exact distance outside; inside, its
-    /// magnitude never exceeds the distance to the surface. NaN at points that are not finite or
-    /// 1e9 cells away.
+    /// A strut along which the radius bends by more than 2 % is several beams end to end. The order does not
+    /// depend on the box.
+    std::vector<Beam> pieces_touching(const Box& box) const override;
+    /// NaN also where it lies 1e9 cells away.
     double value(dvec3 p) const override;
-    Interval range(const Box& box) const override;
-    Metric metric() const override { return Metric::bound; }
     /// The lattice with beams of radius + d, d >= 0; null for d < 0, where the joints have no closed form.
     FieldPtr offset(double d) const override;
-    const SliceField& slice(SliceContext& context, double z) const override;
-    /// The region.
-    Box bounds() const override { return settings_.region; }
-
     const LatticeSettings& settings() const { return settings_; }
     const CellOctree& cells() const { return struts_->cells(); }
-    /// Every beam whose solid touches the box, once, in an order that does not depend on the box. A strut
-    /// along which the radius bends by more than 2 % is several beams end to end.
-    std::vector<Beam> beams_touching(const Box& box) const;
 
   private:
-    StrutLattice(const StrutLattice& thinner, double growth);
-    double radius_at(dvec3 p) const;
-    void append(const Beam& beam, int splits, const Box& box, std::vector<Beam>& beams) const;
+    struct Checked {
+        LatticeSettings settings;
+    };
+    explicit StrutLattice(const Checked& checked);
+    StrutLattice(const LatticeSettings& settings, std::shared_ptr<const LatticeStruts> struts,
+                 NodeRadius radius);
 
     LatticeSettings settings_;
     std::shared_ptr<const LatticeStruts> struts_;
-    bool constant_radius_;
-    double growth_ = 0;       ///< added to every radius, mm
-    double greatest_radius_;  ///< of all beams, mm
-    mutable CellCache<DistanceBrick> bricks_;
+    NodeRadius radius_;
 };
 
 /// Throws InputError for settings out of range.

@@ -18,7 +18,7 @@ class VoronoiFoam : public BeamFoam {
     /// Throws InputError for settings out of range.
     explicit VoronoiFoam(const FoamSettings& settings);
 
-    std::vector<Beam> beams_touching(const Box& box) const override { return units_->touching(box); }
+    std::vector<Beam> pieces_touching(const Box& box) const override { return units_->touching(box); }
     /// The foam with beams of radius + d, d >= 0; null for d < 0, where the joints have no closed form.
     FieldPtr offset(double d) const override;
 

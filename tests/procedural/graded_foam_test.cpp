@@ -5,7 +5,6 @@
 #include "engine/error.h"
 #include "engine/slice_context.h"
 #include "procedural/beam_box.h"
-#include "procedural/beam_strips.h"
 #include "procedural/counter_hash.h"
 #include "procedural/graded_density.h"
 #include "procedural/voronoi_foam.h"
@@ -247,8 +246,8 @@ TEST_CASE("beams leave an opening in cells too small for them", "[graded_foam]")
 TEST_CASE("strips give the runs of the undivided plane", "[graded_foam]") {
     const auto cell = std::make_shared<const Ramp>(0, 0.8, 12, 2.5);
     const VoronoiFoam foam(settings(cell, 0.15, {dvec3(0), dvec3(12)}));
-    const auto query = [&](const Box& box) { return foam.beams_touching(box); };
-    const BeamStrips whole(foam, query, foam.bounds().rect(), 1, 4.3),
+    const auto query = [&](const Box& box) { return PlanePieces{foam.beams_touching(box), {}}; };
+    const PlaneStrips whole(foam, query, foam.bounds().rect(), 1, 4.3),
         cut(foam, query, foam.bounds().rect(), 7, 4.3);
     Scratch scratch;
     SpanRows expected, found;
