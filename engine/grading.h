@@ -30,7 +30,8 @@ GradingPtr make_constant_grading(double number);
 class Graded {
   public:
     Graded(double number) : grading_(make_constant_grading(number)) {}
-    Graded(GradingPtr grading) : grading_(std::move(grading)) {}
+    template <typename Kind>
+    Graded(std::shared_ptr<Kind> grading) : grading_(std::move(grading)) {}
     const Grading* operator->() const { return grading_.get(); }
     const Grading& operator*() const { return *grading_; }
     const GradingPtr& pointer() const { return grading_; }

@@ -1,238 +1,80 @@
-// The pieces of a foam by place: units of cells computed once, shared by all layers in flight.
+// Units of Voronoi cells: pieces that are made from the cell of the seed that owns them.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "engine/error.h"
 #include "procedural/beam_box.h"
 #include "procedural/cell_search.h"
 #include "procedural/foam_beams.h"
+#include "procedural/piece_units.h"
 #include "procedural/seed_reach.h"
-#include "procedural/stretch.h"
 
 namespace lamella {
 
-/// Answers which pieces (beams, walls) of a foam touch a box. Thread-safe; the answers are pure functions of
-/// the tree and the maker.
-///
-/// Maker makes the pieces that a cell owns, and is copied for each thread that makes some:
-///   using Piece                 with bounds(piece) and touches(piece, box) found by argument
+/// Finds the cell of each seed, in rings where the seeds allow it, and has a maker make its pieces:
+///   using Piece
 ///   std::size_t append(const VoronoiCell&, const Seed& own, std::span<const Seed> sites,
 ///                      std::vector<Piece>&)   returns the number of edges left out for want of an end
-///   double largest_growth() const             how far a piece's solid can leave its cell, anywhere, mm
-///   double growth(const Box&) const           ... the same for cells that lie in the box
-///   const Stretch& stretch() const            from the seeds' space to that of pieces and boxes asked about
-///
-/// A unit is a tree node of at most 64 seeds, or one of its eight slabs in z when it has more than 16. It
-/// matters to a query only within the reach of its seeds' cells (seed_reach) plus their growth.
+///   double growth(const Box&) const, double largest_growth() const, const Stretch& stretch() const
+/// with the meanings of PieceUnits.
 template <typename Maker>
-class CellUnits {
+class CellSource {
   public:
     using Piece = typename Maker::Piece;
 
-    /// `cache_bytes` bounds the memory of the cached units (CellCache says how).
-    CellUnits(std::shared_ptr<const SeedTree> tree, Maker maker, std::size_t cache_bytes)
-        : tree_(std::move(tree)), maker_(std::move(maker)), units_(cache_bytes), reaches_(reach_bytes) {}
+    CellSource(std::shared_ptr<const SeedTree> tree, Maker maker)
+        : tree_(std::move(tree)), rings_(*tree_), search_(*tree_), maker_(std::move(maker)) {}
 
-    const Maker& maker() const { return maker_; }
+    void gather(const Box& box) {
+        gathered_ = rings_.gather(box);
+        site_ = 0;
+    }
 
-    /// Every piece whose solid touches the box, once, in the order of units (coarse cells by z, y, x; nodes
-    /// depth first; slabs upwards) and within a unit in the order of keys.
-    std::vector<Piece> touching(const Box& box) const;
+    void append(const Seed& own, std::vector<Piece>& pieces) {
+        std::span<const Seed> sites = rings_.sites();
+        if (!gathered_ || !cell_in_rings(own)) {
+            search_.cell(own, cell_);
+            sites = search_.sites();
+        }
+        if (maker_.append(cell_, own, sites, pieces) > 0) {
+            throw FaultError("a Voronoi cell of the foam reached beyond its proven bound");
+        }
+    }
+
+    double reach(const SeedBlock& block, std::size_t node) const {
+        return seed_reach(*tree_, block.nodes[node].box, block.leaf_level >= 0 ? block.hole : 0);
+    }
+    double farthest() const { return std::sqrt(3.0) * tree_->coarse_side(); }
+    double growth(const Box& box) const { return maker_.growth(box); }
+    double largest_growth() const { return maker_.largest_growth(); }
+    const Stretch& stretch() const { return maker_.stretch(); }
 
   private:
-    static constexpr std::uint32_t unit_seeds = 64;      // a node with more is no unit but its children
-    static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
-    static constexpr int slabs = 8;
-    static constexpr std::size_t reach_bytes = std::size_t{8} << 20;
-    static constexpr double safe_side = 1 + 1e-9;
-
-    struct Unit {
-        std::vector<Piece> pieces;
-        Box extent;  ///< of the pieces' solids, mm
-        std::size_t bytes() const { return sizeof(Unit) + pieces.capacity() * sizeof(Piece); }
-        Interval z_extent() const { return {extent.lo.z, extent.hi.z}; }
-    };
-    /// How far the pieces of a node's seeds can be from it, in the seeds' space.
-    struct Reach {
-        double distance;
-        Interval z;
-        std::size_t bytes() const { return sizeof(Reach); }
-        Interval z_extent() const { return z; }
-    };
-    /// What one query passes on: what is asked, what was found, and the buffers for making units.
-    struct Request {
-        const Box& box;  ///< in the part's space
-        Box seed_box;    ///< about the same in the seeds' space
-        double z;        ///< of the layer, for the caches; in the seeds' space
-        RingSearch rings;
-        TreeSearch search;
-        VoronoiCell cell;
-        Maker maker;
-        std::vector<Piece> pieces;
-    };
-
-    static double gap(const Box& a, const Box& b) {
-        const dvec3 d = glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), dvec3(0.0));
-        return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    /// Seeds come in the order of keys, as the gathered sites stand.
+    bool cell_in_rings(const Seed& own) {
+        const auto sites = rings_.sites();
+        if (site_ < sites.size() && own.key < sites[site_].key) site_ = 0;
+        while (site_ < sites.size() && sites[site_].key < own.key) ++site_;
+        return site_ < sites.size() && sites[site_].key == own.key && rings_.cell(site_, cell_);
     }
-    static int parts_of(const SeedNode& node) { return node.seed_count > slabless_seeds ? slabs : 1; }
-    static Box part_box(const SeedNode& node, int part);
-
-    double reach(const SeedBlock& block, std::size_t node, double z) const;
-    void visit(const SeedBlock& block, std::size_t node, double within, Request& request) const;
-    void collect(const SeedBlock& block, std::size_t node, double within, Request& request) const;
-    Unit make(const SeedBlock& block, const SeedNode& node, const Box& part, bool gathered,
-              Request& request) const;
 
     std::shared_ptr<const SeedTree> tree_;
+    RingSearch rings_;
+    TreeSearch search_;
+    VoronoiCell cell_;
     Maker maker_;
-    mutable CellCache<Unit> units_;
-    mutable CellCache<Reach> reaches_;
+    bool gathered_ = false;
+    std::size_t site_ = 0;
 };
 
+/// The pieces of a Voronoi foam by place.
 template <typename Maker>
-Box CellUnits<Maker>::part_box(const SeedNode& node, int part) {
-    const int parts = parts_of(node);
-    const double height = (node.box.hi.z - node.box.lo.z) / parts;
-    Box box = node.box;
-    box.lo.z = node.box.lo.z + height * part;
-    if (part + 1 < parts) box.hi.z = node.box.lo.z + height * (part + 1);
-    return box;
-}
-
-template <typename Maker>
-double CellUnits<Maker>::reach(const SeedBlock& block, std::size_t node, double z) const {
-    const Box box = block.nodes[node].box;
-    const PlaceKey key{block.index.x, block.index.y, block.index.z, static_cast<int>(node), 0};
-    return reaches_
-        .find_or_make(
-            key, z,
-            [&] {
-                const double cells = seed_reach(*tree_, box, block.leaf_level >= 0 ? block.hole : 0);
-                const Stretch& stretch = maker_.stretch();
-                const double growth = maker_.growth(stretch.to_part(grown(box, cells)));
-                return Reach{(cells + growth * stretch.seeds_per_part()) * safe_side, {box.lo.z, box.hi.z}};
-            })
-        ->distance;
-}
-
-template <typename Maker>
-std::vector<typename Maker::Piece> CellUnits<Maker>::touching(const Box& box) const {
-    if (box.empty()) return {};
-    const Stretch& stretch = maker_.stretch();
-    const Box seed_box = stretch.to_seeds(box);
-    Request request{box,    seed_box, seed_box.center().z, RingSearch(*tree_), TreeSearch(*tree_), {},
-                    maker_, {}};
-    const double farthest =
-        (std::sqrt(3.0) * tree_->coarse_side() + maker_.largest_growth() * stretch.seeds_per_part()) *
-        safe_side;
-    const Box about = grown(seed_box, farthest);
-    const glm::i64vec3 lo = tree_->block_index(about.lo), hi = tree_->block_index(about.hi);
-    for (std::int64_t z = lo.z; z <= hi.z; ++z) {
-        for (std::int64_t y = lo.y; y <= hi.y; ++y) {
-            for (std::int64_t x = lo.x; x <= hi.x; ++x) {
-                if (gap(tree_->block_box({x, y, z}), seed_box) > farthest) continue;
-                const auto block = tree_->block({x, y, z});
-                visit(*block, 0, farthest, request);
-            }
-        }
-    }
-    return std::move(request.pieces);
-}
-
-/// Goes down to the units within reach of the box. `within` bounds the reach of everything in the node.
-template <typename Maker>
-void CellUnits<Maker>::visit(const SeedBlock& block, std::size_t node, double within,
-                             Request& request) const {
-    const SeedNode& here = block.nodes[node];
-    if (here.seed_count == 0) return;
-    const double away = gap(here.box, request.seed_box);
-    if (away > within) return;
-    // Where all leaves have one level, so has the reach; elsewhere it is worth knowing at every node.
-    if (node == 0 || block.leaf_level < 0) {
-        within = std::min(within, reach(block, node, request.z));
-        if (away > within) return;
-    }
-    if (here.seed_count <= unit_seeds || here.first_child < 0) {
-        collect(block, node, within, request);
-        return;
-    }
-    for (std::size_t octant = 0; octant < 8; ++octant) {
-        visit(block, static_cast<std::size_t>(here.first_child) + octant, within, request);
-    }
-}
-
-/// Appends the pieces of one node's units that touch the box; missing units are made from one gathering.
-template <typename Maker>
-void CellUnits<Maker>::collect(const SeedBlock& block, std::size_t node, double within,
-                               Request& request) const {
-    const SeedNode& here = block.nodes[node];
-    std::array<typename CellCache<Unit>::Pointer, slabs> units;
-    std::array<bool, slabs> missing{};
-    Box gathering;
-    const auto key = [&](int part) {
-        return PlaceKey{block.index.x, block.index.y, block.index.z, static_cast<int>(node), part};
-    };
-    for (int part = 0; part < parts_of(here); ++part) {
-        const Box box = part_box(here, part);
-        if (gap(box, request.seed_box) > within) continue;
-        const auto at = static_cast<std::size_t>(part);
-        units[at] = units_.find(key(part), request.z);
-        missing[at] = !units[at];
-        if (missing[at]) gathering = unite(gathering, box);
-    }
-    if (!gathering.empty()) {
-        const bool gathered = request.rings.gather(gathering);
-        for (int part = 0; part < parts_of(here); ++part) {
-            const auto at = static_cast<std::size_t>(part);
-            if (!missing[at]) continue;
-            auto unit =
-                std::make_shared<const Unit>(make(block, here, part_box(here, part), gathered, request));
-            units[at] = units_.insert(key(part), request.z, std::move(unit));
-        }
-    }
-    for (const auto& unit : units) {
-        if (!unit || intersect(unit->extent, request.box).empty()) continue;
-        for (const Piece& piece : unit->pieces) {
-            if (touches(piece, request.box)) request.pieces.push_back(piece);
-        }
-    }
-}
-
-template <typename Maker>
-typename CellUnits<Maker>::Unit CellUnits<Maker>::make(const SeedBlock& block, const SeedNode& node,
-                                                       const Box& part, bool gathered,
-                                                       Request& request) const {
-    Unit unit;
-    VoronoiCell& cell = request.cell;
-    const auto sites = request.rings.sites();
-    const bool last = part.hi.z == node.box.hi.z, first = part.lo.z == node.box.lo.z;
-    std::size_t site = 0;
-    for (std::uint32_t i = node.first_seed; i < node.first_seed + node.seed_count; ++i) {
-        const Seed own = block.seed(i);
-        if (own.position.z < part.lo.z && !first) continue;
-        if (own.position.z >= part.hi.z && !last) continue;
-        std::size_t left_out = 0;
-        bool done = false;
-        if (gathered) {
-            while (site < sites.size() && sites[site].key < own.key) ++site;
-            done = site < sites.size() && sites[site].key == own.key && request.rings.cell(site, cell);
-            if (done) left_out = request.maker.append(cell, own, sites, unit.pieces);
-        }
-        if (!done) {
-            request.search.cell(own, cell);
-            left_out = request.maker.append(cell, own, request.search.sites(), unit.pieces);
-        }
-        if (left_out > 0) throw FaultError("a Voronoi cell of the foam reached beyond its proven bound");
-    }
-    unit.pieces.shrink_to_fit();
-    for (const Piece& piece : unit.pieces) unit.extent = unite(unit.extent, bounds(piece));
-    if (unit.pieces.empty()) unit.extent = {dvec3(infinity), dvec3(infinity)};
-    return unit;
-}
+class CellUnits : public PieceUnits<CellSource<Maker>> {
+  public:
+    /// `cache_bytes` bounds the memory of the cached units (CellCache says how).
+    CellUnits(const std::shared_ptr<const SeedTree>& tree, Maker maker, std::size_t cache_bytes)
+        : PieceUnits<CellSource<Maker>>(tree, CellSource<Maker>(tree, std::move(maker)), cache_bytes) {}
+};
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Checking walls and windows; distances through bricks, slices through strips.
+// Checking walls and windows, and putting cells, beams and walls together.
 #include "procedural/closed_foam.h"
 
 #include <fmt/format.h>
@@ -6,16 +6,11 @@
 #include <cmath>
 
 #include "engine/error.h"
-#include "engine/slice_context.h"
 
 namespace lamella {
 namespace {
 
 constexpr double thickest = 0.9;  // share of the local cell
-constexpr double cells_per_strip = 8192;
-constexpr double most_strips = 256;
-
-bool finite(dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Half a wall's thickness, where cells are large enough for it.
 class HalfWall : public Grading {
@@ -71,86 +66,28 @@ ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings)
     : ClosedFoam(settings, prepare_foam(settings.foam)) {}
 
 ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings, const FoamGround& ground)
-    : region_(settings.foam.region),
-      ground_(ground),
-      walls_{wall_radius(settings, ground), window_share(settings), 0},
-      stretch_(settings.foam.stretch),
-      cache_bytes_(settings.foam.cache_bytes),
+    : ClosedFoam(settings.foam, ground, {wall_radius(settings, ground), window_share(settings), 0}) {}
+
+ClosedFoam::ClosedFoam(const FoamSettings& settings, FoamGround ground, WallSettings walls)
+    : PieceFoam(settings.region, ground.cell, ground.cells,
+                std::max(ground.radius.largest(), walls.radius.largest() + walls.growth),
+                settings.cache_bytes),
+      settings_(settings),
+      ground_(std::move(ground)),
+      walls_(std::move(walls)),
       units_(std::make_shared<const CellUnits<WallMaker>>(
-          ground_.tree, WallMaker(BeamMaker(ground_.radius, stretch_), walls_), cache_bytes_)),
-      bricks_(cache_bytes_) {}
-
-ClosedFoam::ClosedFoam(const ClosedFoam& foam, double growth)
-    : region_(grown(foam.region_, growth)),
-      ground_(foam.ground_),
-      walls_(foam.walls_),
-      stretch_(foam.stretch_),
-      cache_bytes_(foam.cache_bytes_),
-      bricks_(cache_bytes_) {
-    ground_.radius = foam.ground_.radius.grown(growth);
-    walls_.growth += growth;
-    units_ = std::make_shared<const CellUnits<WallMaker>>(
-        ground_.tree, WallMaker(BeamMaker(ground_.radius, stretch_), walls_), cache_bytes_);
-}
-
-double ClosedFoam::value(dvec3 p) const {
-    if (!finite(p)) return std::numeric_limits<double>::quiet_NaN();
-    ground_.tree->block_index(stretch_.to_seeds(p));
-    const auto [level, side] = brick_size(p);
-    const dvec3 index = glm::floor(p / side);
-    const PlaceKey key{static_cast<std::int64_t>(index.x), static_cast<std::int64_t>(index.y),
-                       static_cast<std::int64_t>(index.z), level, 0};
-    const auto brick = bricks_.find_or_make(key, p.z, [&] {
-        return PieceBrick<FoamPiece>({index * side, (index + 1.0) * side},
-                                     [this](const Box& box) { return pieces_touching(box); });
-    });
-    return brick->distance(p);
-}
-
-/// Any brick about the point is exact; one no larger than twice the smallest cell about it is quick to make
-/// and to ask.
-ClosedFoam::BrickSize ClosedFoam::brick_size(dvec3 p) const {
-    const Interval& cells = ground_.cells;
-    BrickSize size{0, cells.hi};
-    while (size.side > cells.lo) {
-        const dvec3 lo = glm::floor(p / size.side) * size.side;
-        if (size.side <= 2 * ground_.cell->range(lamella::grown(Box{lo, lo + size.side}, size.side)).lo)
-            break;
-        size = {size.level + 1, size.side / 2};
-    }
-    return size;
-}
-
-Interval ClosedFoam::range(const Box& box) const {
-    const dvec3 center = box.center();
-    const double center_value = value(center);
-    if (!std::isfinite(center_value)) return {-infinity, infinity};
-    // The value is 1-Lipschitz. Inside, the axis of the thickest beam or wall is the deepest place.
-    const double radius = glm::length(box.hi - center), deepest = units_->maker().largest_growth();
-    return {std::max(center_value - radius, -deepest), center_value + radius};
-}
+          ground_.tree, WallMaker(BeamMaker(ground_.radius, settings.stretch), walls_),
+          settings.cache_bytes)) {}
 
 FieldPtr ClosedFoam::offset(double d) const {
     if (!(d >= 0) || !std::isfinite(d)) return nullptr;
-    return FieldPtr(new ClosedFoam(*this, d));
-}
-
-PlanePieces ClosedFoam::plane_pieces(const Box& box) const {
-    PlanePieces pieces;
-    for (const FoamPiece& piece : pieces_touching(box)) {
-        if (const auto* beam = std::get_if<Beam>(&piece)) pieces.beams.push_back(*beam);
-        if (const auto* wall = std::get_if<RoundTriangle>(&piece)) pieces.walls.push_back(*wall);
-    }
-    return pieces;
-}
-
-const SliceField& ClosedFoam::slice(SliceContext& context, double z) const {
-    const Rect region = region_.rect();
-    const dvec2 cells = region.size() / ground_.cells.lo;
-    const double strips = std::floor(std::min(cells.x * cells.y / cells_per_strip, most_strips));
-    return context.make<PlaneStrips>(
-        *this, [this](const Box& box) { return plane_pieces(box); }, region,
-        std::max(static_cast<int>(strips), 1), z);
+    FoamSettings thicker = settings_;
+    thicker.region = grown(settings_.region, d);
+    FoamGround ground = ground_;
+    ground.radius = ground_.radius.grown(d);
+    WallSettings walls = walls_;
+    walls.growth += d;
+    return FieldPtr(new ClosedFoam(thicker, std::move(ground), std::move(walls)));
 }
 
 std::shared_ptr<const ClosedFoam> make_closed_foam(const ClosedFoamSettings& settings) {

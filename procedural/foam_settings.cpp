@@ -116,7 +116,15 @@ FoamGround prepare_foam(const FoamSettings& settings) {
                           (settings.pattern == SeedPattern::bcc ? bcc_side : 1);
     return {std::make_shared<const SeedTree>(std::move(density), coarse * cells.hi, settings.seed,
                                              settings.pattern, settings.jitter),
-            cell, cells, node_radius(settings, cell, cells)};
+            cell, cells, node_radius(settings, cell, cells), settings.stretch};
+}
+
+std::vector<Seed> FoamGround::seeds_in(const Box& box) const {
+    std::vector<Seed> seeds = tree->seeds_in(stretch.to_seeds(box));
+    if (stretch.identity()) return seeds;
+    for (Seed& seed : seeds) seed.position = stretch.to_part(seed.position);
+    std::erase_if(seeds, [&](const Seed& seed) { return !box.contains(seed.position); });
+    return seeds;
 }
 
 }  // namespace lamella

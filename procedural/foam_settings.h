@@ -34,6 +34,10 @@ struct FoamGround {
     GradingPtr cell;  ///< mm, in the part's space, clamped to `cells`
     Interval cells;   ///< the cell sizes of the region, mm
     NodeRadius radius;
+    Stretch stretch;
+
+    /// All seeds in the closed box of the part's space, by key.
+    std::vector<Seed> seeds_in(const Box& box) const;
 };
 
 /// Throws InputError for settings out of range; `what` names the thing in messages ("the foam").

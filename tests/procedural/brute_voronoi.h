@@ -12,18 +12,15 @@ namespace lamella {
 
 using Segment = std::pair<dvec3, dvec3>;
 
-/// Edges of positive length whose three seeds lie in `core`, clipped by all of `seeds`. Unbounded ones are
-/// left out.
-inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds, const Box& core) {
-    std::vector<dvec3> inner, all;
-    for (const Seed& seed : seeds) {
-        all.push_back(seed.position);
-        if (core.contains(seed.position)) inner.push_back(seed.position);
-    }
+/// Edges of positive length whose three seeds are `inner`, clipped by all of `seeds`. Unbounded ones are left
+/// out.
+inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds,
+                                                const std::vector<dvec3>& inner, dvec3 middle) {
+    std::vector<dvec3> all;
+    for (const Seed& seed : seeds) all.push_back(seed.position);
     // The order does not change the result; seeds near the middle end most intervals soonest.
-    std::sort(all.begin(), all.end(), [&](dvec3 a, dvec3 b) {
-        return glm::distance(a, core.center()) < glm::distance(b, core.center());
-    });
+    std::sort(all.begin(), all.end(),
+              [&](dvec3 a, dvec3 b) { return glm::distance(a, middle) < glm::distance(b, middle); });
     std::vector<Segment> edges;
     for (std::size_t i = 0; i < inner.size(); ++i) {
         for (std::size_t j = i + 1; j < inner.size(); ++j) {
@@ -55,6 +52,15 @@ inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds, 
         }
     }
     return edges;
+}
+
+/// The same for the seeds in a box.
+inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds, const Box& core) {
+    std::vector<dvec3> inner;
+    for (const Seed& seed : seeds) {
+        if (core.contains(seed.position)) inner.push_back(seed.position);
+    }
+    return brute_voronoi_edges(seeds, inner, core.center());
 }
 
 }  // namespace lamella

@@ -1,0 +1,73 @@
+// Graded foam at 8K: cells from 2 to 8 mm over the plate, runs warm, and cells amortised over layers.
+#include <benchmark/benchmark.h>
+
+#include "engine/slice_context.h"
+#include "tests/bench/plate.h"
+#include "tests/procedural/graded_sizes.h"
+
+namespace {
+
+using namespace lamella;
+
+FoamSettings graded_plate() {
+    FoamSettings settings = bench::plate_foam();
+    settings.cell = std::make_shared<const Ramp>(0, 2, 192, 8);
+    settings.beam_radius = std::make_shared<const Ramp>(0, 0.2, 192, 0.5);
+    return settings;
+}
+
+std::size_t all_bands(const SliceField& slice, Scratch& scratch, int sub) {
+    SpanRows rows;
+    std::size_t runs = 0;
+    for (int first = 0; first < bench::plate_height; first += 64) {
+        slice.spans(bench::plate_band(first, sub), scratch, rows);
+        runs += rows.runs().size();
+    }
+    return runs;
+}
+
+/// Runs of the whole plate, its cells warm; the argument is the number of sub-rows.
+void foam_graded_spans_8k(benchmark::State& state) {
+    const auto foam = make_voronoi_foam(graded_plate());
+    SliceContext context;
+    const SliceField& slice = context.slice(*foam, bench::plate_z);
+    Scratch scratch;
+    std::size_t runs = 0;
+    for (auto _ : state) runs = all_bands(slice, scratch, static_cast<int>(state.range(0)));
+    state.counters["runs"] = static_cast<double>(runs);
+    state.counters["beams"] = static_cast<double>(foam->beams_at(bench::plate_z).size());
+}
+BENCHMARK(foam_graded_spans_8k)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+/// Everything but the runs of layer after layer, 50 micrometres apart: new cells, and the index of each
+/// plane.
+void foam_cells_per_layer_50um(benchmark::State& state) {
+    const auto foam = make_voronoi_foam(graded_plate());
+    double z = 10;
+    benchmark::DoNotOptimize(foam->beams_at(z).size());
+    for (auto _ : state) {
+        SliceContext context;
+        Scratch scratch;
+        SpanRows rows;
+        RowBand nothing = bench::plate_band(0, 1);
+        nothing.count = 1;
+        context.slice(*foam, z += 0.05).spans(nothing, scratch, rows);
+        benchmark::DoNotOptimize(rows.runs().data());
+    }
+}
+BENCHMARK(foam_cells_per_layer_50um)->Unit(benchmark::kMillisecond)->Iterations(400);
+
+/// From nothing to the runs of one layer, in parts that are 100 and 10,000 mm high.
+void foam_height(benchmark::State& state) {
+    FoamSettings settings = graded_plate();
+    settings.region.hi.z = static_cast<double>(state.range(0));
+    for (auto _ : state) {
+        const auto foam = make_voronoi_foam(settings);
+        SliceContext context;
+        Scratch scratch;
+        benchmark::DoNotOptimize(all_bands(context.slice(*foam, 50), scratch, 1));
+    }
+}
+BENCHMARK(foam_height)->Arg(100)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
