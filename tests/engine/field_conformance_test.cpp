@@ -11,6 +11,7 @@
 #include "engine/shell.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
+#include "procedural/closed_foam.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
 #include "tests/engine/gradings.h"
@@ -52,6 +53,16 @@ FieldPtr lattice(const char* cell_name, GradingPtr cell, GradingPtr beam) {
         {unit_cell(cell_name), std::move(cell), std::move(beam), {dvec3(-4.5), dvec3(4.5)}});
 }
 
+FieldPtr walled_foam(Graded wall, Graded window) {
+    ClosedFoamSettings settings;
+    settings.foam.cell = 1.6;
+    settings.foam.beam_radius = 0.1;
+    settings.foam.region = {dvec3(-4.5), dvec3(4.5)};
+    settings.wall = std::move(wall);
+    settings.window = std::move(window);
+    return make_closed_foam(settings);
+}
+
 std::vector<Named> all_fields() {
     const FieldPtr sphere = make_sphere({0.3, -0.2, 0.1}, 2.5);
     const FieldPtr box = make_box({{-2, -1.5, -1}, {1.5, 2.25, 1.75}});
@@ -75,6 +86,10 @@ std::vector<Named> all_fields() {
         {"steep cone", make_round_cone({{-1, 0, 0}, 1.8, {1.5, 0.1, 0.1}, 0.2})},
         {"torus", torus},
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
+        {"foam with walls", walled_foam(0.15, 0.0)},
+        {"foam with graded walls and windows",
+         walled_foam(GradingPtr(std::make_shared<LinearGrading>(0.2, dvec3(0.03, 0, 0.01))),
+                     GradingPtr(std::make_shared<LinearGrading>(0.4, dvec3(0, 0.1, 0))))},
         {"octet lattice", lattice("octet", make_constant_grading(1.9), make_constant_grading(0.12))},
         {"bcc lattice in cells of several sizes",
          lattice("bcc", std::make_shared<LinearGrading>(2, dvec3(0.25, 0, 0.05)),

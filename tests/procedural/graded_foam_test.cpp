@@ -7,6 +7,7 @@
 #include "procedural/beam_box.h"
 #include "procedural/counter_hash.h"
 #include "procedural/graded_density.h"
+#include "procedural/plane_strips.h"
 #include "procedural/voronoi_foam.h"
 #include "tests/procedural/brute_voronoi.h"
 #include "tests/procedural/graded_sizes.h"
