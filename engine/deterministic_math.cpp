@@ -62,7 +62,7 @@ double exponential(double x) { return Exponential(x); }
 double logarithm(double x) { return Logarithm(x); }
 
 double power(double base, double exponent) {
-    if (exponent == 0) return 1;
+    if (exponent == 0) return std::isnan(base) ? base : 1;
     const bool whole = std::floor(exponent) == exponent;
     if (whole && std::fabs(exponent) <= most_multiplied) {
         const double product = multiply_out(base, static_cast<int>(std::fabs(exponent)),
