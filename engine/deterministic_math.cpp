@@ -23,7 +23,7 @@ double Div(double a, double b) { return a / b; }
 double Neg(double a) { return -a; }
 double Abs(double a) { return std::fabs(a); }
 double Sqrt(double a) { return std::sqrt(a); }
-double Floor(double a) { return std::floor(a); }
+double RoundDown(double a) { return std::floor(a); }
 bool Lt(double a, double b) { return a < b; }
 bool Eq(double a, double b) { return a == b; }
 bool Or(bool a, bool b) { return a || b; }

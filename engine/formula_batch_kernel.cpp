@@ -26,7 +26,6 @@ using hn::Abs;
 using hn::Add;
 using hn::Div;
 using hn::Eq;
-using hn::Floor;
 using hn::IfThenElse;
 using hn::Lt;
 using hn::Mul;
@@ -39,6 +38,10 @@ template <class V>
 HWY_INLINE V Constant(double c) {
     return hn::Set(hn::DFromV<V>(), c);
 }
+
+/// Targets without an instruction for it lose the sign of zero.
+HWY_INLINE Lanes RoundDown(Lanes a) { return hn::CopySign(hn::Floor(a), a); }
+HWY_INLINE Lanes RoundUp(Lanes a) { return hn::CopySign(hn::Ceil(a), a); }
 
 /// 2^k for a whole k from -1022 to 1023: adding 1.5 * 2^52 brings k + 1023 to the low bits.
 HWY_INLINE Lanes PowerOfTwo(Lanes k) {
@@ -84,14 +87,14 @@ HWY_INLINE void Binary(const BatchStep& step, const F& f) {
 }
 
 HWY_INLINE Lanes RoundAway(Lanes a) {
-    const Lanes magnitude = Abs(a), whole = Floor(magnitude);
+    const Lanes magnitude = Abs(a), whole = RoundDown(magnitude);
     const auto up = hn::Ge(Sub(magnitude, whole), Constant<Lanes>(0.5));
     const Lanes rounded = Add(whole, IfThenElse(up, Constant<Lanes>(1.0), Constant<Lanes>(0.0)));
     return hn::CopySign(rounded, a);
 }
 
 HWY_INLINE Lanes Modulo(Lanes a, Lanes b) {
-    const Lanes size = Abs(b), rest = Sub(a, Mul(size, Floor(Div(a, size))));
+    const Lanes size = Abs(b), rest = Sub(a, Mul(size, RoundDown(Div(a, size))));
     const Lanes zero = Constant<Lanes>(0.0);
     return IfThenElse(Lt(rest, zero), zero, IfThenElse(Lt(size, rest), size, rest));
 }
@@ -144,9 +147,9 @@ void RunStep(const BatchStep& step) {
         case FormulaOp::recip:
             return Unary(step, [=](Lanes a) HWY_ATTR { return Div(one, a); });
         case FormulaOp::floor:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Floor(a); });
+            return Unary(step, [](Lanes a) HWY_ATTR { return RoundDown(a); });
         case FormulaOp::ceil:
-            return Unary(step, [](Lanes a) HWY_ATTR { return hn::Ceil(a); });
+            return Unary(step, [](Lanes a) HWY_ATTR { return RoundUp(a); });
         case FormulaOp::round:
             return Unary(step, [](Lanes a) HWY_ATTR { return RoundAway(a); });
         case FormulaOp::logic_not:

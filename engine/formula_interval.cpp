@@ -94,8 +94,10 @@ Range raise(const Range& a, const Range& b, bool nan) {
     const Interval& y = b.values;
     if (!(x.lo > 0) || !finite(x) || !finite(y)) return anything;
     const Interval ends = corners(x, y, [](double base, double exponent) { return power(base, exponent); });
-    const double steepest = std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
-                            std::max(std::fabs(y.lo), std::fabs(y.hi));
+    // Finite results have an exponent ln base of at most this magnitude.
+    constexpr double overflow = 800;
+    const double steepest = std::min(overflow, std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
+                                                   std::max(std::fabs(y.lo), std::fabs(y.hi)));
     // Twice the stated error of power; multiplied-out powers err by less than most_multiplied roundings.
     const Range wide = widened_by_share(ends.lo, ends.hi, 1e-15 * (20 + steepest), nan);
     // A reciprocal of a product that overflowed is 0 where the exponential is a tiny number.
