@@ -22,10 +22,12 @@ void FormulaBatch::prepare(const FormulaTape& tape) {
         const auto used = operands(i);
         const auto arguments = static_cast<std::size_t>(arity(tape.instructions[i].op));
         for (std::size_t k = 0; k < arguments; ++k) last_use_[used[k]] = static_cast<std::uint32_t>(i);
+        // Inputs are loaded before the first step runs, so they share their registers with nothing.
+        if (tape.instructions[i].op == FormulaOp::input) slot_[i] = static_cast<std::uint32_t>(slots_++);
     }
     for (std::size_t i = 0; i < count; ++i) {
         const FormulaOp op = tape.instructions[i].op;
-        if (op == FormulaOp::constant) continue;
+        if (arity(op) == 0) continue;
         const auto used = operands(i);
         const auto arguments = static_cast<std::size_t>(arity(op));
         // A result may not overwrite its operand: they may be laid out differently.
@@ -33,7 +35,7 @@ void FormulaBatch::prepare(const FormulaTape& tape) {
         slot_[i] = free_.back();
         free_.pop_back();
         for (std::size_t k = 0; k < arguments; ++k) {
-            if (last_use_[used[k]] != i || slot_[used[k]] == never) continue;
+            if (last_use_[used[k]] != i || arity(tape.instructions[used[k]].op) == 0) continue;
             free_.push_back(slot_[used[k]]);
             last_use_[used[k]] = never;
         }

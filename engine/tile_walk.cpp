@@ -70,8 +70,10 @@ class TileWalk {
     }
 
     void descend(const Place& p) {
-        const bool wide = p.width > leaf_pixels, high = p.height > leaf_lines;
-        if (!wide && !high) return sample(p);
+        const int across = p.width / leaf_pixels, down = p.height / leaf_lines;
+        if (across == 1 && down == 1) return sample(p);
+        // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
+        const bool wide = across >= down, high = down >= across;
         const int width = wide ? p.width / 2 : p.width, height = high ? p.height / 2 : p.height;
         for (int first = p.first; first < p.first + p.height; first += height) {
             for (int lo = p.lo; lo < p.lo + p.width; lo += width) visit({lo, width, first, height});

@@ -32,7 +32,7 @@ inline double awkward_number(std::mt19937& random) {
 inline Formula random_formula(std::mt19937& random, int inputs, int size) {
     FormulaBuilder f;
     std::vector<FormulaBuilder::Node> nodes;
-    for (int i = 0; i < inputs; ++i) nodes.push_back(f.input(i));
+    for (int i = 0; i + 1 < inputs; ++i) nodes.push_back(f.input(i));
     for (int i = 0; i < 4; ++i) nodes.push_back(f.constant(awkward_number(random)));
     for (int i = 0; i < 3; ++i)
         nodes.push_back(f.constant(std::uniform_real_distribution<double>(-3, 3)(random)));
@@ -41,6 +41,7 @@ inline Formula random_formula(std::mt19937& random, int inputs, int size) {
         return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
     };
     for (int i = 0; i < size; ++i) {
+        if (i == size / 2) nodes.push_back(f.input(inputs - 1));
         // Recent nodes are likelier, so that programs get deep.
         const auto node = [&] {
             const std::size_t back = std::min(pick(nodes.size()), pick(nodes.size()));

@@ -205,7 +205,7 @@ TEST_CASE("a shortened program gives the bits of the whole one") {
         for (int depth = 0; depth < 6; ++depth) stack.leave();
         REQUIRE(stack.tape().instructions.size() == formula.instructions().size());
     }
-    REQUIRE(shorter > 1000);
+    REQUIRE(shorter > 500);
 }
 
 TEST_CASE("a program of choices shrinks to the one that is near") {
