@@ -11,7 +11,9 @@ namespace {
 constexpr int leaf_lines = 8;
 constexpr int leaf_pixels = 16;
 constexpr int quarter = run_unit / 4;
-constexpr int bisections = 10;  // 1/4 pitch (64 units) -> 1/16 unit
+constexpr int cells_per_unit = 16;                    // a crossing is found to 1/16 of a run unit
+constexpr int pair_cells = quarter * cells_per_unit;  // of a pair a quarter pitch apart
+constexpr int guesses = 3;                            // rounds of interpolation before plain halving
 
 /// Two neighbouring samples of a line, at run coordinates u0 < u1.
 struct Pair {
@@ -20,6 +22,30 @@ struct Pair {
     int line;
 
     bool crosses() const { return (v0 < 0) != (v1 < 0); }
+};
+
+/// Cells lo to hi of a pair, between which the surface passes, and the values there.
+struct Bracket {
+    int lo, hi;
+    double v_lo, v_hi;
+
+    /// The border to try next.
+    int next(bool interpolate) const {
+        const double share = v_lo / (v_lo - v_hi);
+        if (!interpolate || !(0 <= share && share <= 1)) return lo + (hi - lo) / 2;
+        return std::min(std::max(lo + static_cast<int>((hi - lo) * share), lo + 1), hi - 1);
+    }
+
+    void take(int border, double value, bool begins_inside) {
+        if (border <= lo || hi <= border) return;
+        if ((value < 0) == begins_inside) {
+            lo = border;
+            v_lo = value;
+        } else {
+            hi = border;
+            v_hi = value;
+        }
+    }
 };
 
 /// Walks the tiles of a band and collects the runs of each line from left to right.
@@ -107,13 +133,17 @@ class TileWalk {
         pairs_.clear();
         for (std::size_t l = 0; l < across_.size(); ++l) {
             const double* const v = samples_.data() + l * along_.size();
+            bool inside = v[0] < 0;
             for (std::size_t i = 0; i + 1 < along_.size(); ++i) {
+                const bool was_inside = inside;
+                inside = v[i + 1] < 0;
+                if (step == quarter && inside == was_inside) continue;
                 const double u = begin + static_cast<int>(i) * step;
                 consider({u, u + step, v[i], v[i + 1], p.first + static_cast<int>(l)}, pairs_);
             }
         }
         for (int gap = step; gap > quarter; gap /= 2) split();
-        bisect();
+        find_crossings();
         turn(p, begin, end);
     }
 
@@ -153,20 +183,44 @@ class TileWalk {
         pairs_.swap(halves_);
     }
 
-    /// Narrows all pairs, each of which has a crossing, to where it lies.
-    void bisect() {
-        for (int i = 0; i < bisections; ++i) {
-            sample_middles();
-            for (std::size_t k = 0; k < pairs_.size(); ++k) {
-                Pair& pair = pairs_[k];
-                const double middle = (pair.u0 + pair.u1) * 0.5;
-                if ((middles_[k] < 0) == (pair.v0 < 0)) {
-                    pair.u0 = middle;
-                } else {
-                    pair.u1 = middle;
-                }
+    /// Narrows all pairs, each of which has a crossing, to the cell where it lies: the two borders of the
+    /// cell where a straight line through the ends crosses are tried first, then borders halfway.
+    void find_crossings() {
+        brackets_.clear();
+        for (const Pair& pair : pairs_) brackets_.push_back({0, pair_cells, pair.v0, pair.v1});
+        for (int round = 0; ask_borders(round < guesses); ++round) {
+            solid_.values({band_.axis, along_, across_, false}, middles_);
+            std::size_t k = 0;
+            for (std::size_t i = 0; i < pairs_.size(); ++i) {
+                if (brackets_[i].hi - brackets_[i].lo == 1) continue;
+                for (const int border : {borders_[k], borders_[k + 1]})
+                    brackets_[i].take(border, middles_[k++], pairs_[i].v0 < 0);
             }
         }
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            Pair& pair = pairs_[i];
+            pair.u1 = pair.u0 + static_cast<double>(brackets_[i].hi) / cells_per_unit;
+            pair.u0 = pair.u0 + static_cast<double>(brackets_[i].lo) / cells_per_unit;
+        }
+    }
+
+    /// Lists two cell borders of every pair whose cell is not found yet; tells whether there are any.
+    bool ask_borders(bool interpolate) {
+        along_.clear();
+        across_.clear();
+        borders_.clear();
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const Bracket& bracket = brackets_[i];
+            if (bracket.hi - bracket.lo == 1) continue;
+            const int first = bracket.next(interpolate), second = std::min(first + 1, bracket.hi - 1);
+            for (const int border : {first, second}) {
+                borders_.push_back(border);
+                along_.push_back(band_.along(pairs_[i].u0 + static_cast<double>(border) / cells_per_unit));
+                across_.push_back(band_.line(pairs_[i].line));
+            }
+        }
+        middles_.resize(borders_.size());
+        return !borders_.empty();
     }
 
     /// Turns the crossings of a tile into runs.
@@ -192,6 +246,8 @@ class TileWalk {
     std::vector<std::vector<Run>> lines_;
     std::vector<double> along_, across_, samples_, middles_;
     std::vector<Pair> pairs_, halves_;
+    std::vector<Bracket> brackets_;
+    std::vector<int> borders_;
 };
 
 /// A slice asked point by point.

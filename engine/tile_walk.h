@@ -34,7 +34,7 @@ class WalkedSolid {
 
 /// Solid runs of a band from ranges and values alone. Tiles whose range proves them empty or full are not
 /// sampled; elsewhere neighbouring samples are compared, split down to a quarter pitch unless their values
-/// prove that no surface passes between them (metric exact or bound), and crossings are bisected to 1/4 of a
+/// prove that no surface passes between them (metric exact or bound), and crossings are narrowed to 1/16 of a
 /// run unit. A value that is NaN counts as outside. Samples lie at quarter pitches counted from the band's
 /// origin, so a line's runs do not depend on how it is cut into tiles and bands.
 void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
