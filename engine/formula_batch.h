@@ -24,8 +24,9 @@ struct BatchStep {
         std::size_t point_mask;   ///< 0 where all points of a line are alike, else all ones
     };
     FormulaOp op;
+    bool by_line, by_point;
     double* out;
-    std::size_t out_stride, lines, points;
+    std::size_t out_stride;
     Operand a, b, c;
 };
 
@@ -52,23 +53,33 @@ class FormulaBatch {
         BatchStep::Operand operand;
         std::uint8_t varies;
     };
-    void load_input(const BatchInput& input, Place& place);
-    void load_constants();
-    double* buffer(std::size_t number) { return registers_.data() + number * capacity_; }
+    /// An input that the program reads.
+    struct Load {
+        std::uint32_t input;
+        double* to;
+    };
+    bool laid_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded) const;
+    void lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded);
+    void load(const BatchInput& input, double* to, std::size_t lines, std::size_t points,
+              std::size_t padded) const;
+    Place place_of(std::size_t instruction, int varies);
 
     FormulaTape tape_;
     std::vector<std::uint32_t> slot_;      ///< register of each instruction
     std::vector<std::uint32_t> last_use_;  ///< scratch of `prepare`
     std::vector<std::uint32_t> free_;
     std::size_t slots_ = 0;
-    std::vector<double> registers_;  ///< of `capacity_` numbers each
-    std::vector<double> leaves_;     ///< constants, each repeated over a group
+    std::vector<double> registers_;
+    std::vector<double> leaves_;  ///< constants, each repeated over a group
+    // The steps stay as they are for grids of the same layout: of one line, whatever its length.
+    std::size_t lines_ = 0, padded_ = 0;  ///< that there is room for; none before the first run
+    std::vector<std::uint8_t> varies_;    ///< of each input, as laid out
     std::vector<Place> places_;
+    std::vector<Load> loads_;
     std::vector<BatchStep> steps_;
-    std::size_t capacity_ = 0, lines_ = 0, padded_ = 0, points_ = 0;
 };
 
-/// Runs the steps in order (formula_batch_kernel.cpp).
-void run_batch_steps(std::span<const BatchStep> steps);
+/// Runs the steps in order over lines x points, points a multiple of batch_group (formula_batch_kernel.cpp).
+void run_batch_steps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points);
 
 }  // namespace lamella

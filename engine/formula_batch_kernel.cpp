@@ -61,27 +61,32 @@ HWY_INLINE Lanes Significand(Lanes x) {
 
 #include "engine/transcendental-inl.h"
 
+/// The lines and points that a step covers.
+struct Grid {
+    std::size_t lines, points;
+};
+
 /// Loads of an operand along a line.
 HWY_INLINE Lanes At(const BatchStep::Operand& operand, std::size_t line, std::size_t point) {
     return hn::LoadU(Doubles(), operand.at + line * operand.line_stride + (point & operand.point_mask));
 }
 
 template <class F>
-HWY_INLINE void Unary(const BatchStep& step, const F& f) {
+HWY_INLINE void Unary(const BatchStep& step, const Grid& grid, const F& f) {
     const std::size_t lanes = hn::Lanes(Doubles());
-    for (std::size_t l = 0; l < step.lines; ++l) {
+    for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
-        for (std::size_t p = 0; p < step.points; p += lanes)
+        for (std::size_t p = 0; p < grid.points; p += lanes)
             hn::StoreU(f(At(step.a, l, p)), Doubles(), out + p);
     }
 }
 
 template <class F>
-HWY_INLINE void Binary(const BatchStep& step, const F& f) {
+HWY_INLINE void Binary(const BatchStep& step, const Grid& grid, const F& f) {
     const std::size_t lanes = hn::Lanes(Doubles());
-    for (std::size_t l = 0; l < step.lines; ++l) {
+    for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
-        for (std::size_t p = 0; p < step.points; p += lanes)
+        for (std::size_t p = 0; p < grid.points; p += lanes)
             hn::StoreU(f(At(step.a, l, p), At(step.b, l, p)), Doubles(), out + p);
     }
 }
@@ -109,9 +114,9 @@ HWY_INLINE Lanes Compare(Lanes a, Lanes b) {
 }
 
 /// Whole exponents go lane by lane: their products depend on the exponent.
-void PowerLines(const BatchStep& step) {
-    for (std::size_t l = 0; l < step.lines; ++l) {
-        for (std::size_t p = 0; p < step.points; ++p) {
+void PowerLines(const BatchStep& step, const Grid& grid) {
+    for (std::size_t l = 0; l < grid.lines; ++l) {
+        for (std::size_t p = 0; p < grid.points; ++p) {
             const auto number = [&](const BatchStep::Operand& o) {
                 const std::size_t in_group = o.point_mask == 0 ? 0 : p;
                 return o.at[l * o.line_stride + in_group];
@@ -121,93 +126,98 @@ void PowerLines(const BatchStep& step) {
     }
 }
 
-void Select(const BatchStep& step) {
+void Select(const BatchStep& step, const Grid& grid) {
     const std::size_t lanes = hn::Lanes(Doubles());
     const Lanes zero = Constant<Lanes>(0.0);
-    for (std::size_t l = 0; l < step.lines; ++l) {
+    for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
-        for (std::size_t p = 0; p < step.points; p += lanes) {
+        for (std::size_t p = 0; p < grid.points; p += lanes) {
             const Lanes chosen = IfThenElse(Eq(At(step.a, l, p), zero), At(step.c, l, p), At(step.b, l, p));
             hn::StoreU(chosen, Doubles(), out + p);
         }
     }
 }
 
-void RunStep(const BatchStep& step) {
+void RunStep(const BatchStep& step, const Grid& grid) {
     const Lanes zero = Constant<Lanes>(0.0), one = Constant<Lanes>(1.0);
     switch (step.op) {
         case FormulaOp::neg:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Neg(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Neg(a); });
         case FormulaOp::abs:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Abs(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Abs(a); });
         case FormulaOp::square:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Mul(a, a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Mul(a, a); });
         case FormulaOp::sqrt:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Sqrt(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Sqrt(a); });
         case FormulaOp::recip:
-            return Unary(step, [=](Lanes a) HWY_ATTR { return Div(one, a); });
+            return Unary(step, grid, [=](Lanes a) HWY_ATTR { return Div(one, a); });
         case FormulaOp::floor:
-            return Unary(step, [](Lanes a) HWY_ATTR { return RoundDown(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return RoundDown(a); });
         case FormulaOp::ceil:
-            return Unary(step, [](Lanes a) HWY_ATTR { return RoundUp(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return RoundUp(a); });
         case FormulaOp::round:
-            return Unary(step, [](Lanes a) HWY_ATTR { return RoundAway(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return RoundAway(a); });
         case FormulaOp::logic_not:
-            return Unary(step, [=](Lanes a) HWY_ATTR { return IfThenElse(Eq(a, zero), one, zero); });
+            return Unary(step, grid, [=](Lanes a) HWY_ATTR { return IfThenElse(Eq(a, zero), one, zero); });
         case FormulaOp::sin:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Sine(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Sine(a); });
         case FormulaOp::cos:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Cosine(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Cosine(a); });
         case FormulaOp::tan:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Tangent(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Tangent(a); });
         case FormulaOp::asin:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Arcsine(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Arcsine(a); });
         case FormulaOp::acos:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Arccosine(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Arccosine(a); });
         case FormulaOp::atan:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Arctangent(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Arctangent(a); });
         case FormulaOp::exp:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Exponential(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Exponential(a); });
         case FormulaOp::ln:
-            return Unary(step, [](Lanes a) HWY_ATTR { return Logarithm(a); });
+            return Unary(step, grid, [](Lanes a) HWY_ATTR { return Logarithm(a); });
         case FormulaOp::add:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Add(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Add(a, b); });
         case FormulaOp::sub:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Sub(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Sub(a, b); });
         case FormulaOp::mul:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Mul(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Mul(a, b); });
         case FormulaOp::div:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Div(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Div(a, b); });
         case FormulaOp::mod:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Modulo(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Modulo(a, b); });
         case FormulaOp::pow:
-            return PowerLines(step);
+            return PowerLines(step, grid);
         case FormulaOp::atan2:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Arctangent2(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Arctangent2(a, b); });
         case FormulaOp::min:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Least(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Least(a, b); });
         case FormulaOp::max:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Most(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Most(a, b); });
         case FormulaOp::compare:
-            return Binary(step, [](Lanes a, Lanes b) HWY_ATTR { return Compare(a, b); });
+            return Binary(step, grid, [](Lanes a, Lanes b) HWY_ATTR { return Compare(a, b); });
         case FormulaOp::less:
-            return Binary(step, [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Lt(a, b), one, zero); });
+            return Binary(step, grid,
+                          [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Lt(a, b), one, zero); });
         case FormulaOp::less_equal:
-            return Binary(step,
+            return Binary(step, grid,
                           [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(hn::Le(a, b), one, zero); });
         case FormulaOp::equal:
-            return Binary(step, [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, b), one, zero); });
+            return Binary(step, grid,
+                          [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, b), one, zero); });
         case FormulaOp::logic_and:
-            return Binary(step, [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, zero), a, b); });
+            return Binary(step, grid,
+                          [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, zero), a, b); });
         case FormulaOp::logic_or:
-            return Binary(step, [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, zero), b, a); });
+            return Binary(step, grid,
+                          [=](Lanes a, Lanes b) HWY_ATTR { return IfThenElse(Eq(a, zero), b, a); });
         default:
-            return Select(step);
+            return Select(step, grid);
     }
 }
 
-void RunSteps(std::span<const BatchStep> steps) {
-    for (const BatchStep& step : steps) RunStep(step);
+void RunSteps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points) {
+    for (const BatchStep& step : steps)
+        RunStep(step, {step.by_line ? lines : 1, step.by_point ? points : batch_group});
 }
 
 }  // namespace HWY_NAMESPACE
@@ -219,7 +229,9 @@ namespace lamella {
 
 HWY_EXPORT(RunSteps);
 
-void run_batch_steps(std::span<const BatchStep> steps) { HWY_DYNAMIC_DISPATCH(RunSteps)(steps); }
+void run_batch_steps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points) {
+    HWY_DYNAMIC_DISPATCH(RunSteps)(steps, lines, points);
+}
 
 }  // namespace lamella
 #endif
