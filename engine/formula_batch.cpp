@@ -97,9 +97,14 @@ void FormulaBatch::lay_out(std::span<const BatchInput> inputs, std::size_t lines
         const Place& c = arguments > 2 ? places_[step.c] : a;
         places_[i] = place_of(i, a.varies | b.varies | c.varies);
         const Place& own = places_[i];
+        const auto alike = [&](const Place& place) {
+            return place.varies == own.varies || place.varies == 0;
+        };
+        const bool contiguous =
+            own.varies == (varies_by_line | varies_by_point) && alike(a) && alike(b) && alike(c);
         steps_.push_back({step.op, (own.varies & varies_by_line) != 0, (own.varies & varies_by_point) != 0,
-                          const_cast<double*>(own.operand.at), own.operand.line_stride, a.operand, b.operand,
-                          c.operand});
+                          contiguous, const_cast<double*>(own.operand.at), own.operand.line_stride, a.operand,
+                          b.operand, c.operand});
     }
 }
 

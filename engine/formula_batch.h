@@ -25,6 +25,7 @@ struct BatchStep {
     };
     FormulaOp op;
     bool by_line, by_point;
+    bool contiguous;  ///< the operands are laid out as the result is, or are single numbers
     double* out;
     std::size_t out_stride;
     Operand a, b, c;

@@ -66,28 +66,45 @@ struct Grid {
     std::size_t lines, points;
 };
 
-/// Loads of an operand along a line.
-HWY_INLINE Lanes At(const BatchStep::Operand& operand, std::size_t line, std::size_t point) {
-    return hn::LoadU(Doubles(), operand.at + line * operand.line_stride + (point & operand.point_mask));
-}
+/// Goes along the lines of an operand, vector by vector.
+class Walker {
+  public:
+    Walker(const BatchStep::Operand& operand, std::size_t lanes)
+        : line_(operand.at), stride_(operand.line_stride), lanes_(lanes & operand.point_mask) {}
+    void begin_line() { at_ = line_, line_ += stride_; }
+    HWY_INLINE Lanes next() {
+        const Lanes v = hn::LoadU(Doubles(), at_);
+        at_ += lanes_;
+        return v;
+    }
+
+  private:
+    const double *line_, *at_ = nullptr;
+    std::size_t stride_, lanes_;
+};
 
 template <class F>
 HWY_INLINE void Unary(const BatchStep& step, const Grid& grid, const F& f) {
     const std::size_t lanes = hn::Lanes(Doubles());
+    Walker a(step.a, lanes);
     for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
-        for (std::size_t p = 0; p < grid.points; p += lanes)
-            hn::StoreU(f(At(step.a, l, p)), Doubles(), out + p);
+        a.begin_line();
+        for (std::size_t p = 0; p < grid.points; p += lanes) hn::StoreU(f(a.next()), Doubles(), out + p);
     }
 }
 
 template <class F>
 HWY_INLINE void Binary(const BatchStep& step, const Grid& grid, const F& f) {
     const std::size_t lanes = hn::Lanes(Doubles());
+    Walker a(step.a, lanes), b(step.b, lanes);
     for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
-        for (std::size_t p = 0; p < grid.points; p += lanes)
-            hn::StoreU(f(At(step.a, l, p), At(step.b, l, p)), Doubles(), out + p);
+        a.begin_line(), b.begin_line();
+        for (std::size_t p = 0; p < grid.points; p += lanes) {
+            const Lanes v = a.next(), w = b.next();
+            hn::StoreU(f(v, w), Doubles(), out + p);
+        }
     }
 }
 
@@ -129,11 +146,13 @@ void PowerLines(const BatchStep& step, const Grid& grid) {
 void Select(const BatchStep& step, const Grid& grid) {
     const std::size_t lanes = hn::Lanes(Doubles());
     const Lanes zero = Constant<Lanes>(0.0);
+    Walker a(step.a, lanes), b(step.b, lanes), c(step.c, lanes);
     for (std::size_t l = 0; l < grid.lines; ++l) {
         double* const out = step.out + l * step.out_stride;
+        a.begin_line(), b.begin_line(), c.begin_line();
         for (std::size_t p = 0; p < grid.points; p += lanes) {
-            const Lanes chosen = IfThenElse(Eq(At(step.a, l, p), zero), At(step.c, l, p), At(step.b, l, p));
-            hn::StoreU(chosen, Doubles(), out + p);
+            const Lanes yes = b.next(), no = c.next();
+            hn::StoreU(IfThenElse(Eq(a.next(), zero), no, yes), Doubles(), out + p);
         }
     }
 }
@@ -216,8 +235,15 @@ void RunStep(const BatchStep& step, const Grid& grid) {
 }
 
 void RunSteps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points) {
-    for (const BatchStep& step : steps)
-        RunStep(step, {step.by_line ? lines : 1, step.by_point ? points : batch_group});
+    for (const BatchStep& step : steps) {
+        const Grid grid{step.by_line ? lines : 1, step.by_point ? points : batch_group};
+        // Where no line is shared or has gaps, all of them are one.
+        if (step.contiguous && step.out_stride == grid.points) {
+            RunStep(step, {1, grid.lines * grid.points});
+        } else {
+            RunStep(step, grid);
+        }
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -96,8 +96,9 @@ Range raise(const Range& a, const Range& b, bool nan) {
     const Interval ends = corners(x, y, [](double base, double exponent) { return power(base, exponent); });
     // Finite results have an exponent ln base of at most this magnitude.
     constexpr double overflow = 800;
-    const double steepest = std::min(overflow, std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
-                                                   std::max(std::fabs(y.lo), std::fabs(y.hi)));
+    const double steepest =
+        std::min(overflow, std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
+                               std::max(std::fabs(y.lo), std::fabs(y.hi)));
     // Twice the stated error of power; multiplied-out powers err by less than most_multiplied roundings.
     const Range wide = widened_by_share(ends.lo, ends.hi, 1e-15 * (20 + steepest), nan);
     // A reciprocal of a product that overflowed is 0 where the exponential is a tiny number.
@@ -309,6 +310,42 @@ FormulaRange interval_select(const FormulaRange& a, const FormulaRange& b, const
     return choice == FormulaChoice::right ? c : unite(b, c);
 }
 
+namespace {
+
+/// The commonest operations on finite intervals; false where it takes the careful way.
+inline bool plain_apply(FormulaOp op, const Range& a, const Range& b, Range& out, FormulaChoice& choice) {
+    const Interval& x = a.values;
+    const Interval& y = b.values;
+    if (!(-infinity < x.lo && x.hi < infinity && -infinity < y.lo && y.hi < infinity)) return false;
+    // An empty interval is not finite, so both have numbers in them.
+    out.maybe_nan = a.maybe_nan || b.maybe_nan;
+    switch (op) {
+        case FormulaOp::add:
+            out.values = {x.lo + y.lo, x.hi + y.hi};
+            return true;
+        case FormulaOp::sub:
+            out.values = {x.lo - y.hi, x.hi - y.lo};
+            return true;
+        case FormulaOp::mul:
+            out.values = corners(x, y, [](double v, double w) { return v * w; });
+            return true;
+        case FormulaOp::min:
+        case FormulaOp::max: {
+            if (out.maybe_nan) return false;
+            const bool least = op == FormulaOp::min;
+            out.values = least ? Interval{std::min(x.lo, y.lo), std::min(x.hi, y.hi)}
+                               : Interval{std::max(x.lo, y.lo), std::max(x.hi, y.hi)};
+            if (least ? x.hi < y.lo : y.hi < x.lo) choice = FormulaChoice::left;
+            if (least ? y.hi <= x.lo : x.hi <= y.lo) choice = FormulaChoice::right;
+            return true;
+        }
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
 bool interval_run(std::span<const FormulaInstruction> instructions, std::span<const double> constants,
                   std::span<const FormulaRange> inputs, std::span<FormulaRange> ranges,
                   std::span<FormulaChoice> choices) {
@@ -325,7 +362,8 @@ bool interval_run(std::span<const FormulaInstruction> instructions, std::span<co
         } else if (arity(step.op) == 1) {
             ranges[i] = interval_apply(step.op, ranges[step.a]);
         } else if (arity(step.op) == 2) {
-            ranges[i] = interval_apply(step.op, ranges[step.a], ranges[step.b], choice);
+            if (!plain_apply(step.op, ranges[step.a], ranges[step.b], ranges[i], choice))
+                ranges[i] = interval_apply(step.op, ranges[step.a], ranges[step.b], choice);
         } else {
             ranges[i] = interval_select(ranges[step.a], ranges[step.b], ranges[step.c], choice);
         }

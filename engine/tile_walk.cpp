@@ -1,6 +1,7 @@
 // The tile walk: tiles of a band halved until the range decides or they are small, then samples.
 #include "engine/tile_walk.h"
 
+#include <cstring>
 #include <vector>
 
 #include "engine/slice_context.h"
@@ -133,18 +134,37 @@ class TileWalk {
         pairs_.clear();
         for (std::size_t l = 0; l < across_.size(); ++l) {
             const double* const v = samples_.data() + l * along_.size();
-            bool inside = v[0] < 0;
-            for (std::size_t i = 0; i + 1 < along_.size(); ++i) {
-                const bool was_inside = inside;
-                inside = v[i + 1] < 0;
-                if (step == quarter && inside == was_inside) continue;
+            const int line = p.first + static_cast<int>(l);
+            const auto pair = [&](std::size_t i) {
                 const double u = begin + static_cast<int>(i) * step;
-                consider({u, u + step, v[i], v[i + 1], p.first + static_cast<int>(l)}, pairs_);
+                return Pair{u, u + step, v[i], v[i + 1], line};
+            };
+            if (step == quarter) {
+                turns_of({v, along_.size()}, [&](std::size_t i) { pairs_.push_back(pair(i)); });
+            } else {
+                for (std::size_t i = 0; i + 1 < along_.size(); ++i) consider(pair(i), pairs_);
             }
         }
         for (int gap = step; gap > quarter; gap /= 2) split();
         find_crossings();
         turn(p, begin, end);
+    }
+
+    /// Calls `turn(i)` for every i whose value lies on another side than the next one.
+    template <class Turn>
+    void turns_of(std::span<const double> values, const Turn& turn) {
+        constexpr std::size_t word = sizeof(std::uint64_t);
+        inside_.assign(values.size() + word, 0);
+        for (std::size_t i = 0; i < values.size(); ++i) inside_[i] = values[i] < 0 ? 1 : 0;
+        for (std::size_t i = 0; i + 1 < values.size(); i += word) {
+            std::uint64_t here = 0, next = 0;
+            std::memcpy(&here, inside_.data() + i, word);
+            std::memcpy(&next, inside_.data() + i + 1, word);
+            if (here == next) continue;
+            for (std::size_t k = i; k < std::min(i + word, values.size() - 1); ++k) {
+                if (inside_[k] != inside_[k + 1]) turn(k);
+            }
+        }
     }
 
     /// Keeps a pair that may have a surface between its samples.
@@ -248,6 +268,7 @@ class TileWalk {
     std::vector<Pair> pairs_, halves_;
     std::vector<Bracket> brackets_;
     std::vector<int> borders_;
+    std::vector<std::uint8_t> inside_;
 };
 
 /// A slice asked point by point.
