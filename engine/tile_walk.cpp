@@ -10,7 +10,7 @@ namespace lamella {
 namespace {
 
 constexpr int leaf_lines = 8;
-constexpr int leaf_pixels = 16;
+constexpr int leaf_pixels = 8;
 constexpr int quarter = run_unit / 4;
 constexpr int cells_per_unit = 16;                    // a crossing is found to 1/16 of a run unit
 constexpr int pair_cells = quarter * cells_per_unit;  // of a pair a quarter pitch apart
