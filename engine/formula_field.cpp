@@ -200,7 +200,7 @@ Formula cut_to_box(const Formula& formula, const Box& box) {
 
 }  // namespace
 
-FieldPtr make_formula_field(Formula formula, std::vector<GradingPtr> others, const Box& bounds,
+FieldPtr make_formula_field(const Formula& formula, std::vector<GradingPtr> others, const Box& bounds,
                             Metric metric) {
     require_inputs(formula, others);
     const dvec3 size = bounds.size();

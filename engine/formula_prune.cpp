@@ -39,11 +39,12 @@ FormulaRange FormulaStack::enter(std::span<const FormulaRange> inputs) {
     const bool decided = interval_run(tape.instructions, tape.constants, inputs, ranges_, choices_);
     const FormulaRange result = ranges_[count - 1];
     const bool settled = result.values.lo > 0 || (result.values.hi < 0 && !result.maybe_nan);
-    if (!decided || settled) {
-        levels_.push_back({parent.begin, parent.end, parent.constants, false});
-    } else {
-        mark_live(tape.instructions);
+    // A copy that is hardly shorter is not worth making.
+    const bool shorter = decided && !settled && mark_live(tape.instructions) < count - count / 8;
+    if (shorter) {
         shorten(parent);
+    } else {
+        levels_.push_back({parent.begin, parent.end, parent.constants, false});
     }
     return result;
 }
@@ -56,9 +57,10 @@ void FormulaStack::leave() {
     constants_.resize(levels_.back().constants);
 }
 
-void FormulaStack::mark_live(std::span<const FormulaInstruction> parent) {
+std::size_t FormulaStack::mark_live(std::span<const FormulaInstruction> parent) {
     std::fill_n(live_.begin(), parent.size(), static_cast<char>(0));
     live_[parent.size() - 1] = 1;
+    std::size_t kept = 0;
     for (std::size_t i = parent.size(); i-- > 0;) {
         if (live_[i] == 0) continue;
         const FormulaInstruction& step = parent[i];
@@ -66,11 +68,13 @@ void FormulaStack::mark_live(std::span<const FormulaInstruction> parent) {
             live_[chosen(step, choices_[i])] = 1;
             continue;
         }
+        ++kept;
         const int arguments = arity(step.op);
         if (arguments > 0) live_[step.a] = 1;
         if (arguments > 1) live_[step.b] = 1;
         if (arguments > 2) live_[step.c] = 1;
     }
+    return kept;
 }
 
 /// Appends an instruction of the new program, or the constant that it comes to.

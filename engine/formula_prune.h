@@ -21,7 +21,8 @@ class FormulaStack {
     explicit FormulaStack(const Formula& formula);
 
     /// The range of the current program over the inputs' ranges; pushes the program shortened by what those
-    /// ranges decide. It gives the same numbers, bit for bit, for all inputs within them.
+    /// ranges decide, if it gets shorter by an eighth. It gives the same numbers, bit for bit, for all inputs
+    /// within them.
     FormulaRange enter(std::span<const FormulaRange> inputs);
     /// Goes back to the program before the last `enter`.
     void leave();
@@ -34,7 +35,8 @@ class FormulaStack {
         std::size_t constants;   ///< number of constants that it may use
         bool own;                ///< not shared with the level below
     };
-    void mark_live(std::span<const FormulaInstruction> parent);
+    /// Marks what the result needs, and counts it.
+    std::size_t mark_live(std::span<const FormulaInstruction> parent);
     void shorten(const Level& parent);
     std::uint32_t emit(FormulaInstruction step, std::size_t begin);
 

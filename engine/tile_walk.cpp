@@ -53,7 +53,9 @@ struct Bracket {
 class TileWalk {
   public:
     TileWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
-        : solid_(solid), metric_(metric), band_(band), lines_(static_cast<std::size_t>(band.lines())) {}
+        : solid_(solid), metric_(metric), band_(band), lines_(static_cast<std::size_t>(band.lines())) {
+        for (int l = 0; l < band.lines(); ++l) positions_.push_back(band.line(l));
+    }
 
     void walk(SpanRows& out) {
         if (band_.lo < band_.hi && band_.lines() > 0) {
@@ -71,13 +73,14 @@ class TileWalk {
         int lo, width, first, height;
     };
 
+    double position(int line) const { return positions_[static_cast<std::size_t>(line)]; }
     int end_pixel(const Place& p) const { return std::min(p.lo + p.width, band_.hi); }
     int end_line(const Place& p) const { return std::min(p.first + p.height, band_.lines()); }
 
     Rect rect(const Place& p) const {
         const auto point = [&](int pixel, int line) {
             const double along = band_.along(static_cast<double>(pixel) * run_unit);
-            const double across = band_.line(line);
+            const double across = position(line);
             return band_.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
         };
         const dvec2 a = point(p.lo, p.first), b = point(end_pixel(p), end_line(p) - 1);
@@ -128,7 +131,7 @@ class TileWalk {
         along_.clear();
         across_.clear();
         for (int u = begin; u <= end; u += step) along_.push_back(band_.along(u));
-        for (int l = p.first; l < end_line(p); ++l) across_.push_back(band_.line(l));
+        for (int l = p.first; l < end_line(p); ++l) across_.push_back(position(l));
         samples_.resize(along_.size() * across_.size());
         solid_.values({band_.axis, along_, across_, true}, samples_);
         pairs_.clear();
@@ -184,7 +187,7 @@ class TileWalk {
         across_.clear();
         for (const Pair& pair : pairs_) {
             along_.push_back(band_.along((pair.u0 + pair.u1) * 0.5));
-            across_.push_back(band_.line(pair.line));
+            across_.push_back(position(pair.line));
         }
         middles_.resize(pairs_.size());
         if (!pairs_.empty()) solid_.values({band_.axis, along_, across_, false}, middles_);
@@ -236,7 +239,7 @@ class TileWalk {
             for (const int border : {first, second}) {
                 borders_.push_back(border);
                 along_.push_back(band_.along(pairs_[i].u0 + static_cast<double>(border) / cells_per_unit));
-                across_.push_back(band_.line(pairs_[i].line));
+                across_.push_back(position(pairs_[i].line));
             }
         }
         middles_.resize(borders_.size());
@@ -264,6 +267,7 @@ class TileWalk {
     Metric metric_;
     const RowBand& band_;
     std::vector<std::vector<Run>> lines_;
+    std::vector<double> positions_;  ///< of the lines, mm across
     std::vector<double> along_, across_, samples_, middles_;
     std::vector<Pair> pairs_, halves_;
     std::vector<Bracket> brackets_;
