@@ -158,7 +158,10 @@ class TileWalk {
     void turns_of(std::span<const double> values, const Turn& turn) {
         constexpr std::size_t word = sizeof(std::uint64_t);
         inside_.assign(values.size() + word, 0);
-        for (std::size_t i = 0; i < values.size(); ++i) inside_[i] = values[i] < 0 ? 1 : 0;
+        std::uint8_t* const flags = inside_.data();
+        const double* const v = values.data();
+        const std::size_t count = values.size();
+        for (std::size_t i = 0; i < count; ++i) flags[i] = v[i] < 0 ? 1 : 0;
         for (std::size_t i = 0; i + 1 < values.size(); i += word) {
             std::uint64_t here = 0, next = 0;
             std::memcpy(&here, inside_.data() + i, word);
