@@ -40,9 +40,9 @@ FormulaRange FormulaStack::enter(std::span<const FormulaRange> inputs) {
     const FormulaRange result = ranges_[count - 1];
     const bool settled = result.values.lo > 0 || (result.values.hi < 0 && !result.maybe_nan);
     // A copy that is hardly shorter is not worth making.
-    const bool shorter = decided && !settled && mark_live(tape.instructions) < count - count / 8;
-    if (shorter) {
-        shorten(parent);
+    const std::size_t kept = decided && !settled ? mark_live(tape.instructions) : count;
+    if (kept < count - count / 8) {
+        shorten(parent, kept);
     } else {
         levels_.push_back({parent.begin, parent.end, parent.constants, false});
     }
@@ -77,39 +77,40 @@ std::size_t FormulaStack::mark_live(std::span<const FormulaInstruction> parent) 
     return kept;
 }
 
-/// Appends an instruction of the new program, or the constant that it comes to.
-std::uint32_t FormulaStack::emit(FormulaInstruction step, std::size_t begin) {
-    const int arguments = arity(step.op);
-    const auto constant_at = [&](std::uint32_t i) -> const double* {
-        const FormulaInstruction& operand = instructions_[begin + i];
-        return operand.op == FormulaOp::constant ? &constants_[operand.a] : nullptr;
-    };
-    const double* const a = arguments > 0 ? constant_at(step.a) : nullptr;
-    const double* const b = arguments > 1 ? constant_at(step.b) : nullptr;
-    if (a != nullptr && (arguments == 1 || (arguments == 2 && b != nullptr))) {
-        const double value = arguments == 1 ? apply(step.op, *a) : apply(step.op, *a, *b);
-        step = {FormulaOp::constant, static_cast<std::uint32_t>(constants_.size()), 0, 0};
-        constants_.push_back(value);
-    }
-    instructions_.push_back(step);
-    return static_cast<std::uint32_t>(instructions_.size() - 1 - begin);
+/// The number that an operation of constants comes to, as a constant of the program.
+FormulaInstruction FormulaStack::fold(const FormulaInstruction& step,
+                                      std::span<const FormulaInstruction> made) {
+    const double a = constants_[made[step.a].a];
+    constants_.push_back(arity(step.op) == 1 ? apply(step.op, a)
+                                             : apply(step.op, a, constants_[made[step.b].a]));
+    return {FormulaOp::constant, static_cast<std::uint32_t>(constants_.size() - 1), 0, 0};
 }
 
-void FormulaStack::shorten(const Level& parent) {
+void FormulaStack::shorten(const Level& parent, std::size_t kept) {
     const std::size_t begin = instructions_.size();
-    std::uint32_t result = 0;
-    for (std::size_t i = 0; i < parent.end - parent.begin; ++i) {
+    instructions_.resize(begin + kept);
+    const std::span<const FormulaInstruction> old{instructions_.data() + parent.begin,
+                                                  parent.end - parent.begin};
+    const std::span<FormulaInstruction> made{instructions_.data() + begin, kept};
+    std::uint32_t result = 0, count = 0;
+    for (std::size_t i = 0; i < old.size(); ++i) {
         if (live_[i] == 0) continue;
-        FormulaInstruction step = instructions_[parent.begin + i];
+        FormulaInstruction step = old[i];
         if (choices_[i] != FormulaChoice::both) {
             result = place_[i] = place_[chosen(step, choices_[i])];
             continue;
         }
         const int arguments = arity(step.op);
-        if (arguments > 0) step.a = place_[step.a];
-        if (arguments > 1) step.b = place_[step.b];
-        if (arguments > 2) step.c = place_[step.c];
-        result = place_[i] = emit(step, begin);
+        if (arguments > 0) {
+            step.a = place_[step.a];
+            if (arguments > 1) step.b = place_[step.b];
+            if (arguments > 2) step.c = place_[step.c];
+            const bool constant = made[step.a].op == FormulaOp::constant && arguments < 3 &&
+                                  (arguments == 1 || made[step.b].op == FormulaOp::constant);
+            if (constant) step = fold(step, made);
+        }
+        made[count] = step;
+        result = place_[i] = count++;
     }
     // The result stands last; what follows it was made for choices that fell away.
     instructions_.resize(begin + result + 1);

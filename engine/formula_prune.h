@@ -37,8 +37,8 @@ class FormulaStack {
     };
     /// Marks what the result needs, and counts it.
     std::size_t mark_live(std::span<const FormulaInstruction> parent);
-    void shorten(const Level& parent);
-    std::uint32_t emit(FormulaInstruction step, std::size_t begin);
+    void shorten(const Level& parent, std::size_t kept);
+    FormulaInstruction fold(const FormulaInstruction& step, std::span<const FormulaInstruction> made);
 
     std::vector<FormulaInstruction> instructions_;
     std::vector<double> constants_;
