@@ -41,7 +41,7 @@ FormulaRange FormulaStack::enter(std::span<const FormulaRange> inputs) {
     const bool settled = result.values.lo > 0 || (result.values.hi < 0 && !result.maybe_nan);
     // A copy that is hardly shorter is not worth making.
     const std::size_t kept = decided && !settled ? mark_live(tape.instructions) : count;
-    if (kept < count - count / 8) {
+    if (kept < count - count / 4) {
         shorten(parent, kept);
     } else {
         levels_.push_back({parent.begin, parent.end, parent.constants, false});

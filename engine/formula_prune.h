@@ -21,7 +21,7 @@ class FormulaStack {
     explicit FormulaStack(const Formula& formula);
 
     /// The range of the current program over the inputs' ranges; pushes the program shortened by what those
-    /// ranges decide, if it gets shorter by an eighth. It gives the same numbers, bit for bit, for all inputs
+    /// ranges decide, if it gets shorter by a quarter. It gives the same numbers, bit for bit, for all inputs
     /// within them.
     FormulaRange enter(std::span<const FormulaRange> inputs);
     /// Goes back to the program before the last `enter`.
