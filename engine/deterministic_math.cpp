@@ -23,7 +23,7 @@ double Div(double a, double b) { return a / b; }
 double Neg(double a) { return -a; }
 double Abs(double a) { return std::fabs(a); }
 double Sqrt(double a) { return std::sqrt(a); }
-double Floor(double a) { return std::floor(a); }
+double RoundDown(double a) { return std::floor(a); }
 bool Lt(double a, double b) { return a < b; }
 bool Eq(double a, double b) { return a == b; }
 bool Or(bool a, bool b) { return a || b; }
@@ -62,7 +62,7 @@ double exponential(double x) { return Exponential(x); }
 double logarithm(double x) { return Logarithm(x); }
 
 double power(double base, double exponent) {
-    if (exponent == 0) return 1;
+    if (exponent == 0) return std::isnan(base) ? base : 1;
     const bool whole = std::floor(exponent) == exponent;
     if (whole && std::fabs(exponent) <= most_multiplied) {
         const double product = multiply_out(base, static_cast<int>(std::fabs(exponent)),

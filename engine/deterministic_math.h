@@ -29,7 +29,7 @@ double exponential(double x);
 double logarithm(double x);
 /// base^exponent. Whole exponents up to 64 in magnitude are multiplied out (exact where the products are);
 /// others are exp(exponent ln base), with a relative error below 4e-16 (2 + |exponent ln base|); NaN for a
-/// negative base and an exponent that is not whole, and 1 for exponent 0 whatever the base.
+/// negative base and an exponent that is not whole, and 1 for exponent 0 and any base but NaN.
 double power(double base, double exponent);
 
 /// The largest whole exponent that `power` multiplies out.

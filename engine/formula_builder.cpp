@@ -43,6 +43,7 @@ const double* FormulaBuilder::value_of(Node node) const {
 FormulaBuilder::Node FormulaBuilder::input(int number) {
     if (number < 0 || number >= most_inputs)
         throw InputError("a formula has at most " + std::to_string(most_inputs) + " inputs");
+    if (const auto fixed = fixed_.find(number); fixed != fixed_.end()) return constant(fixed->second);
     return add(FormulaOp::input, static_cast<std::uint64_t>(number), 0, 0);
 }
 
@@ -73,8 +74,8 @@ FormulaBuilder::Node FormulaBuilder::binary(FormulaOp op, Node a, Node b) {
     if (op == FormulaOp::mul && a == b) return unary(FormulaOp::square, a);
     if (op == FormulaOp::div && one_by) return unary(FormulaOp::recip, b);
     if ((op == FormulaOp::min || op == FormulaOp::max) && a == b) return a;
-    if (op == FormulaOp::pow && w != nullptr && *w == std::floor(*w) && std::fabs(*w) <= most_multiplied)
-        return *w == 0 ? constant(1) : whole_power(a, static_cast<int>(*w));
+    const bool whole = w != nullptr && *w == std::floor(*w) && *w != 0 && std::fabs(*w) <= most_multiplied;
+    if (op == FormulaOp::pow && whole) return whole_power(a, static_cast<int>(*w));
     if (commutes(op) && b < a) std::swap(a, b);
     return add(op, static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b), 0);
 }
@@ -84,6 +85,25 @@ FormulaBuilder::Node FormulaBuilder::select(Node condition, Node yes, Node no) {
     if (yes == no) return yes;
     return add(FormulaOp::select, static_cast<std::uint64_t>(condition), static_cast<std::uint64_t>(yes),
                static_cast<std::uint64_t>(no));
+}
+
+FormulaBuilder::Node FormulaBuilder::include(const Formula& formula) {
+    std::vector<Node> nodes;
+    nodes.reserve(formula.instructions().size());
+    for (const FormulaInstruction& step : formula.instructions()) {
+        if (step.op == FormulaOp::input) {
+            nodes.push_back(input(static_cast<int>(step.a)));
+        } else if (step.op == FormulaOp::constant) {
+            nodes.push_back(constant(formula.constants()[step.a]));
+        } else if (arity(step.op) == 1) {
+            nodes.push_back(unary(step.op, nodes[step.a]));
+        } else if (arity(step.op) == 2) {
+            nodes.push_back(binary(step.op, nodes[step.a], nodes[step.b]));
+        } else {
+            nodes.push_back(select(nodes[step.a], nodes[step.b], nodes[step.c]));
+        }
+    }
+    return nodes.back();
 }
 
 Formula FormulaBuilder::finish(Node result) const {

@@ -17,12 +17,16 @@ class FormulaBuilder {
     static constexpr int most_inputs = 1000;
 
     Node input(int number);
+    /// From now on the input is that number.
+    void fix_input(int number, double value) { fixed_[number] = value; }
     Node constant(double value);
     Node unary(FormulaOp op, Node a);
     /// A `pow` with a small whole constant exponent becomes multiplications.
     Node binary(FormulaOp op, Node a, Node b);
     /// `yes` where the condition is not zero, else `no`.
     Node select(Node condition, Node yes, Node no);
+    /// The result of a formula that is part of this one; its inputs keep their numbers.
+    Node include(const Formula& formula);
     /// The formula whose number is `result`, less what it does not use. The builder may go on.
     Formula finish(Node result) const;
 
@@ -42,6 +46,7 @@ class FormulaBuilder {
     std::vector<FormulaInstruction> nodes_;
     std::vector<double> constants_;
     std::unordered_map<Key, Node, KeyHash> known_;
+    std::unordered_map<int, double> fixed_;
 };
 
 }  // namespace lamella

@@ -29,7 +29,7 @@ ReducedAngle<V> ReduceAngle(V x) {
     constexpr double part_b = 0x1.0b4611a600000p-34;
     constexpr double part_c = 0x1.3198a2e037073p-69;
     constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
-    const V n = Floor(Add(Mul(x, Constant<V>(two_over_pi)), Constant<V>(0.5)));
+    const V n = RoundDown(Add(Mul(x, Constant<V>(two_over_pi)), Constant<V>(0.5)));
     const V r = Sub(Sub(Sub(x, Mul(n, Constant<V>(part_a))), Mul(n, Constant<V>(part_b))),
                     Mul(n, Constant<V>(part_c)));
     const V s = Mul(r, r);
@@ -39,7 +39,7 @@ ReducedAngle<V> ReduceAngle(V x) {
                            -1.0 / 87178291200.0, 1.0 / 20922789888000.0);
     const V sine = Add(r, Mul(r, Mul(s, p)));
     const V cosine = Add(Sub(Constant<V>(1.0), Mul(Constant<V>(0.5), s)), Mul(Mul(s, s), q));
-    const V quarter = Sub(n, Mul(Constant<V>(4.0), Floor(Mul(n, Constant<V>(0.25)))));
+    const V quarter = Sub(n, Mul(Constant<V>(4.0), RoundDown(Mul(n, Constant<V>(0.25)))));
     return {quarter, sine, cosine};
 }
 
@@ -89,13 +89,13 @@ V Exponential(V x) {
     constexpr double log2_e = 0x1.71547652b82fep+0;
     const auto above = Lt(Constant<V>(709.8), x), below = Lt(x, Constant<V>(-745.2));
     const V bounded = IfThenElse(Or(above, below), Constant<V>(0.0), x);
-    const V k = Floor(Add(Mul(bounded, Constant<V>(log2_e)), Constant<V>(0.5)));
+    const V k = RoundDown(Add(Mul(bounded, Constant<V>(log2_e)), Constant<V>(0.5)));
     const V r = Sub(Sub(bounded, Mul(k, Constant<V>(ln2_high))), Mul(k, Constant<V>(ln2_low)));
     const V p =
         Polynomial(r, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40320.0,
                    1.0 / 362880.0, 1.0 / 3628800.0, 1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0);
     const V power = Add(Constant<V>(1.0), Add(r, Mul(Mul(r, r), p)));
-    const V half = Floor(Mul(k, Constant<V>(0.5)));
+    const V half = RoundDown(Mul(k, Constant<V>(0.5)));
     const V scaled = Mul(Mul(power, PowerOfTwo(half)), PowerOfTwo(Sub(k, half)));
     const V capped = IfThenElse(above, Constant<V>(infinite), IfThenElse(below, Constant<V>(0.0), scaled));
     return IfThenElse(Eq(x, x), capped, x);
