@@ -1,6 +1,7 @@
-// Argument reduction by pi / 2 in three parts (Cody and Waite), then Taylor polynomials on [-pi / 4, pi / 4].
+// The transcendental functions for one number: the shared text of transcendental-inl.h over plain doubles.
 #include "engine/deterministic_math.h"
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,57 +9,71 @@
 namespace lamella {
 namespace {
 
-// pi / 2 = part_a + part_b + part_c; part_a and part_b have trailing zero bits, so that n * part is exact for
-// |n| < 2^20.
-constexpr double part_a = 0x1.921fb54400000p+0;
-constexpr double part_b = 0x1.0b4611a600000p-34;
-constexpr double part_c = 0x1.3198a2e037073p-69;
-constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
-double sine_polynomial(double x) {
-    const double s = x * x;
-    double p = -1.0 / 1307674368000.0;
-    p = p * s + 1.0 / 6227020800.0;
-    p = p * s - 1.0 / 39916800.0;
-    p = p * s + 1.0 / 362880.0;
-    p = p * s - 1.0 / 5040.0;
-    p = p * s + 1.0 / 120.0;
-    p = p * s - 1.0 / 6.0;
-    return x + x * (s * p);
+template <class V>
+V Constant(double c) {
+    return c;
+}
+double Add(double a, double b) { return a + b; }
+double Sub(double a, double b) { return a - b; }
+double Mul(double a, double b) { return a * b; }
+double Div(double a, double b) { return a / b; }
+double Neg(double a) { return -a; }
+double Abs(double a) { return std::fabs(a); }
+double Sqrt(double a) { return std::sqrt(a); }
+double RoundDown(double a) { return std::floor(a); }
+bool Lt(double a, double b) { return a < b; }
+bool Eq(double a, double b) { return a == b; }
+bool Or(bool a, bool b) { return a || b; }
+double IfThenElse(bool c, double a, double b) { return c ? a : b; }
+
+/// 2^k for a whole k from -1022 to 1023: adding 1.5 * 2^52 brings k + 1023 to the low bits.
+double PowerOfTwo(double k) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + (0x1.8p52 + 1023.0)) << 52);
+}
+/// x = significand * 2^exponent, 1 <= significand < 2, for a normal positive x.
+double Exponent(double x) {
+    const std::uint64_t e = std::bit_cast<std::uint64_t>(x) >> 52;
+    return std::bit_cast<double>(e | 0x4330000000000000ULL) - (0x1p52 + 1023.0);
+}
+double Significand(double x) {
+    return std::bit_cast<double>((std::bit_cast<std::uint64_t>(x) & 0x000FFFFFFFFFFFFFULL) |
+                                 0x3FF0000000000000ULL);
 }
 
-double cosine_polynomial(double x) {
-    const double s = x * x;
-    double p = 1.0 / 20922789888000.0;
-    p = p * s - 1.0 / 87178291200.0;
-    p = p * s + 1.0 / 479001600.0;
-    p = p * s - 1.0 / 3628800.0;
-    p = p * s + 1.0 / 40320.0;
-    p = p * s - 1.0 / 720.0;
-    p = p * s + 1.0 / 24.0;
-    return 1.0 - 0.5 * s + s * s * p;
-}
+#include "engine/transcendental-inl.h"
 
 }  // namespace
 
 SineCosine sine_cosine(double x) {
-    if (!(std::abs(x) < 1e15)) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        return {nan, nan};
+    const ReducedAngle<double> a = ReduceAngle(x);
+    return {WithinReduction(x, SineOf(a)), WithinReduction(x, CosineOf(a))};
+}
+double sine(double x) { return Sine(x); }
+double cosine(double x) { return Cosine(x); }
+double tangent(double x) { return Tangent(x); }
+double arcsine(double x) { return Arcsine(x); }
+double arccosine(double x) { return Arccosine(x); }
+double arctangent(double x) { return Arctangent(x); }
+double arctangent2(double y, double x) { return Arctangent2(y, x); }
+double exponential(double x) { return Exponential(x); }
+double logarithm(double x) { return Logarithm(x); }
+
+double power(double base, double exponent) {
+    if (exponent == 0) return std::isnan(base) ? base : 1;
+    const bool whole = std::floor(exponent) == exponent;
+    if (whole && std::fabs(exponent) <= most_multiplied) {
+        const double product = multiply_out(base, static_cast<int>(std::fabs(exponent)),
+                                            [](double a, double b) { return a * b; });
+        return exponent < 0 ? 1 / product : product;
     }
-    const double n = std::floor(x * two_over_pi + 0.5);
-    const double r = ((x - n * part_a) - n * part_b) - n * part_c;
-    const double s = sine_polynomial(r), c = cosine_polynomial(r);
-    switch (static_cast<std::int64_t>(n) & 3) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
+    const double magnitude = Exponential(exponent * Logarithm(std::fabs(base)));
+    if (!(base < 0)) return magnitude;
+    if (!whole) return quiet_nan;
+    const bool odd = std::fmod(std::fabs(exponent), 2.0) == 1;
+    return odd ? -magnitude : magnitude;
 }
 
 }  // namespace lamella

@@ -1,5 +1,5 @@
-// Transcendental functions that give the same bits on every machine and compiler: polynomials in + - * /
-// only.
+// Transcendental functions that give the same bits on every machine and compiler: polynomials in + - * / and
+// square roots only. Angles in radians. A NaN argument gives NaN.
 #pragma once
 
 namespace lamella {
@@ -11,5 +11,41 @@ struct SineCosine {
 
 /// Sine and cosine of an angle in radians; absolute error below 2e-15 for |x| < 1e5, NaN beyond 1e15.
 SineCosine sine_cosine(double x);
+double sine(double x);
+double cosine(double x);
+/// Relative error below 1e-14 where |x| < 1e5 and |tan x| lies in [1e-4, 1e4]; NaN beyond 1e15.
+double tangent(double x);
+/// Absolute error below 1e-15; NaN outside [-1, 1].
+double arcsine(double x);
+double arccosine(double x);
+/// Relative error below 4e-16.
+double arctangent(double x);
+/// The angle of the point (x, y) in (-pi, pi]; 0 at the origin, and a negative zero counts as zero. Absolute
+/// error below 1e-15.
+double arctangent2(double y, double x);
+/// Relative error below 4e-16 (below 1e-323 absolute where the result is subnormal).
+double exponential(double x);
+/// Relative error below 4e-16; -infinity at 0, NaN below.
+double logarithm(double x);
+/// base^exponent. Whole exponents up to 64 in magnitude are multiplied out (exact where the products are);
+/// others are exp(exponent ln base), with a relative error below 4e-16 (2 + |exponent ln base|); NaN for a
+/// negative base and an exponent that is not whole, and 1 for exponent 0 and any base but NaN.
+double power(double base, double exponent);
+
+/// The largest whole exponent that `power` multiplies out.
+inline constexpr int most_multiplied = 64;
+
+/// base^n for 0 < n <= most_multiplied, in the order of multiplications that `power` uses.
+template <class Number, class Multiply>
+Number multiply_out(Number base, int n, const Multiply& multiply) {
+    int bit = 1;
+    while (bit * 2 <= n) bit *= 2;
+    Number result = base;
+    for (bit /= 2; bit > 0; bit /= 2) {
+        result = multiply(result, result);
+        if ((n & bit) != 0) result = multiply(result, base);
+    }
+    return result;
+}
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The tile walk: quadtree over a band, samples only where the range does not decide.
+// The tile walk: tiles of a band halved until the range decides or they are small, then samples.
 #include "engine/tile_walk.h"
 
 #include <vector>
@@ -8,153 +8,284 @@
 namespace lamella {
 namespace {
 
-constexpr int tile_rows = 16;      // lines of a leaf tile
-constexpr int tile_pixels = 16;    // pixels along a leaf tile
-constexpr int quarter_splits = 2;  // 1 pitch -> 1/4 pitch
-constexpr int bisections = 10;     // 1/4 pitch (64 units) -> 1/16 unit
+constexpr int leaf_lines = 8;
+constexpr int leaf_pixels = 16;
+constexpr int quarter = run_unit / 4;
+constexpr int cells_per_unit = 16;                    // a crossing is found to 1/16 of a run unit
+constexpr int pair_cells = quarter * cells_per_unit;  // of a pair a quarter pitch apart
+constexpr int guesses = 3;                            // rounds of interpolation before plain halving
 
-/// Walks the leaf tiles of one strip of lines and collects the runs of each line from left to right.
-class StripWalk {
+/// Two neighbouring samples of a line, at run coordinates u0 < u1.
+struct Pair {
+    double u0, u1;
+    double v0, v1;
+    int line;
+
+    bool crosses() const { return (v0 < 0) != (v1 < 0); }
+};
+
+/// Cells lo to hi of a pair, between which the surface passes, and the values there.
+struct Bracket {
+    int lo, hi;
+    double v_lo, v_hi;
+
+    /// The border to try next.
+    int next(bool interpolate) const {
+        const double share = v_lo / (v_lo - v_hi);
+        if (!interpolate || !(0 <= share && share <= 1)) return lo + (hi - lo) / 2;
+        return std::min(std::max(lo + static_cast<int>((hi - lo) * share), lo + 1), hi - 1);
+    }
+
+    void take(int border, double value, bool begins_inside) {
+        if (border <= lo || hi <= border) return;
+        if ((value < 0) == begins_inside) {
+            lo = border;
+            v_lo = value;
+        } else {
+            hi = border;
+            v_hi = value;
+        }
+    }
+};
+
+/// Walks the tiles of a band and collects the runs of each line from left to right.
+class TileWalk {
   public:
-    StripWalk(const SliceField& slice, Metric metric, const RowBand& band)
-        : slice_(slice), metric_(metric), band_(band) {}
+    TileWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
+        : solid_(solid), metric_(metric), band_(band), lines_(static_cast<std::size_t>(band.lines())) {}
 
-    /// Lines [first, last) of the band, all pixels.
-    void walk(int first, int last, SpanRows& out) {
-        first_ = first;
-        last_ = last;
-        lines_.assign(static_cast<std::size_t>(last - first), {});
-        int width = 1;
-        while (width * tile_pixels < band_.hi - band_.lo) width *= 2;
-        visit(band_.lo, width * tile_pixels);
-        for (const auto& line : lines_) {
-            for (const Run& run : line) out.push(run.begin, run.end);
-            out.end_line();
+    void walk(SpanRows& out) {
+        if (band_.lo < band_.hi && band_.lines() > 0) {
+            int width = leaf_pixels, height = leaf_lines;
+            while (width < band_.hi - band_.lo) width *= 2;
+            while (height < band_.lines()) height *= 2;
+            visit({band_.lo, width, 0, height});
+        }
+        for (const auto& line : lines_) out.append_line(line);
+    }
+
+  private:
+    /// Pixels [lo, lo + width) of lines [first, first + height), as far as the band has them.
+    struct Place {
+        int lo, width, first, height;
+    };
+
+    int end_pixel(const Place& p) const { return std::min(p.lo + p.width, band_.hi); }
+    int end_line(const Place& p) const { return std::min(p.first + p.height, band_.lines()); }
+
+    Rect rect(const Place& p) const {
+        const auto point = [&](int pixel, int line) {
+            const double along = band_.along(static_cast<double>(pixel) * run_unit);
+            const double across = band_.line(line);
+            return band_.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
+        };
+        const dvec2 a = point(p.lo, p.first), b = point(end_pixel(p), end_line(p) - 1);
+        return {glm::min(a, b), glm::max(a, b)};
+    }
+
+    /// Visits a tile; those of one line come from left to right.
+    void visit(const Place& p) {
+        if (p.lo >= band_.hi || p.first >= band_.lines()) return;
+        const Interval values = solid_.enter(rect(p));
+        if (values.hi < 0) {
+            fill(p);
+        } else if (!(values.lo > 0)) {
+            descend(p);
+        }
+        solid_.leave();
+    }
+
+    void descend(const Place& p) {
+        const int across = p.width / leaf_pixels, down = p.height / leaf_lines;
+        if (across == 1 && down == 1) return sample(p);
+        // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
+        const bool wide = across >= down, high = down >= across;
+        const int width = wide ? p.width / 2 : p.width, height = high ? p.height / 2 : p.height;
+        for (int first = p.first; first < p.first + p.height; first += height) {
+            for (int lo = p.lo; lo < p.lo + p.width; lo += width) visit({lo, width, first, height});
+        }
+    }
+
+    void fill(const Place& p) {
+        for (int l = p.first; l < end_line(p); ++l) add(l, p.lo * run_unit, end_pixel(p) * run_unit);
+    }
+
+    void add(int line, std::int32_t begin, std::int32_t end) {
+        auto& runs = lines_[static_cast<std::size_t>(line)];
+        if (begin >= end) return;
+        if (!runs.empty() && runs.back().end >= begin) {
+            runs.back().end = end;
+        } else {
+            runs.push_back({begin, end});
+        }
+    }
+
+    void sample(const Place& p) {
+        // Where values prove nothing, all quarters are wanted at once.
+        const int step = metric_ == Metric::sign ? quarter : run_unit;
+        const int begin = p.lo * run_unit, end = end_pixel(p) * run_unit;
+        along_.clear();
+        across_.clear();
+        for (int u = begin; u <= end; u += step) along_.push_back(band_.along(u));
+        for (int l = p.first; l < end_line(p); ++l) across_.push_back(band_.line(l));
+        samples_.resize(along_.size() * across_.size());
+        solid_.values({band_.axis, along_, across_, true}, samples_);
+        pairs_.clear();
+        for (std::size_t l = 0; l < across_.size(); ++l) {
+            const double* const v = samples_.data() + l * along_.size();
+            bool inside = v[0] < 0;
+            for (std::size_t i = 0; i + 1 < along_.size(); ++i) {
+                const bool was_inside = inside;
+                inside = v[i + 1] < 0;
+                if (step == quarter && inside == was_inside) continue;
+                const double u = begin + static_cast<int>(i) * step;
+                consider({u, u + step, v[i], v[i + 1], p.first + static_cast<int>(l)}, pairs_);
+            }
+        }
+        for (int gap = step; gap > quarter; gap /= 2) split();
+        find_crossings();
+        turn(p, begin, end);
+    }
+
+    /// Keeps a pair that may have a surface between its samples.
+    void consider(const Pair& pair, std::vector<Pair>& out) const {
+        const double width = pair.u1 - pair.u0;
+        if (!pair.crosses()) {
+            const double gap = width * std::abs(band_.along_pitch) / run_unit;
+            const bool proven = metric_ != Metric::sign && std::abs(pair.v0) + std::abs(pair.v1) >= gap;
+            if (proven || width <= quarter) return;
+        }
+        out.push_back(pair);
+    }
+
+    /// The values halfway between the samples of all pairs.
+    void sample_middles() {
+        along_.clear();
+        across_.clear();
+        for (const Pair& pair : pairs_) {
+            along_.push_back(band_.along((pair.u0 + pair.u1) * 0.5));
+            across_.push_back(band_.line(pair.line));
+        }
+        middles_.resize(pairs_.size());
+        if (!pairs_.empty()) solid_.values({band_.axis, along_, across_, false}, middles_);
+    }
+
+    /// Halves all pairs.
+    void split() {
+        sample_middles();
+        halves_.clear();
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const Pair& pair = pairs_[i];
+            const double middle = (pair.u0 + pair.u1) * 0.5;
+            consider({pair.u0, middle, pair.v0, middles_[i], pair.line}, halves_);
+            consider({middle, pair.u1, middles_[i], pair.v1, pair.line}, halves_);
+        }
+        pairs_.swap(halves_);
+    }
+
+    /// Narrows all pairs, each of which has a crossing, to the cell where it lies: the two borders of the
+    /// cell where a straight line through the ends crosses are tried first, then borders halfway.
+    void find_crossings() {
+        brackets_.clear();
+        for (const Pair& pair : pairs_) brackets_.push_back({0, pair_cells, pair.v0, pair.v1});
+        for (int round = 0; ask_borders(round < guesses); ++round) {
+            solid_.values({band_.axis, along_, across_, false}, middles_);
+            std::size_t k = 0;
+            for (std::size_t i = 0; i < pairs_.size(); ++i) {
+                if (brackets_[i].hi - brackets_[i].lo == 1) continue;
+                for (const int border : {borders_[k], borders_[k + 1]})
+                    brackets_[i].take(border, middles_[k++], pairs_[i].v0 < 0);
+            }
+        }
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            Pair& pair = pairs_[i];
+            pair.u1 = pair.u0 + static_cast<double>(brackets_[i].hi) / cells_per_unit;
+            pair.u0 = pair.u0 + static_cast<double>(brackets_[i].lo) / cells_per_unit;
+        }
+    }
+
+    /// Lists two cell borders of every pair whose cell is not found yet; tells whether there are any.
+    bool ask_borders(bool interpolate) {
+        along_.clear();
+        across_.clear();
+        borders_.clear();
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const Bracket& bracket = brackets_[i];
+            if (bracket.hi - bracket.lo == 1) continue;
+            const int first = bracket.next(interpolate), second = std::min(first + 1, bracket.hi - 1);
+            for (const int border : {first, second}) {
+                borders_.push_back(border);
+                along_.push_back(band_.along(pairs_[i].u0 + static_cast<double>(border) / cells_per_unit));
+                across_.push_back(band_.line(pairs_[i].line));
+            }
+        }
+        middles_.resize(borders_.size());
+        return !borders_.empty();
+    }
+
+    /// Turns the crossings of a tile into runs.
+    void turn(const Place& p, std::int32_t begin, std::int32_t end) {
+        const std::size_t per_line = samples_.size() / static_cast<std::size_t>(end_line(p) - p.first);
+        std::size_t k = 0;
+        for (int l = p.first; l < end_line(p); ++l) {
+            bool inside = samples_[static_cast<std::size_t>(l - p.first) * per_line] < 0;
+            std::int32_t from = begin;
+            for (; k < pairs_.size() && pairs_[k].line == l; ++k) {
+                const std::int32_t u = round_run((pairs_[k].u0 + pairs_[k].u1) * 0.5);
+                if (inside) add(l, from, u);
+                from = u;
+                inside = !inside;
+            }
+            if (inside) add(l, from, end);
+        }
+    }
+
+    WalkedSolid& solid_;
+    Metric metric_;
+    const RowBand& band_;
+    std::vector<std::vector<Run>> lines_;
+    std::vector<double> along_, across_, samples_, middles_;
+    std::vector<Pair> pairs_, halves_;
+    std::vector<Bracket> brackets_;
+    std::vector<int> borders_;
+};
+
+/// A slice asked point by point.
+class WalkedSlice : public WalkedSolid {
+  public:
+    explicit WalkedSlice(const SliceField& slice) : slice_(slice) {}
+    Interval enter(const Rect& tile) override { return slice_.range(tile); }
+    void leave() override {}
+    void values(const WalkPoints& points, std::span<double> out) override {
+        std::size_t k = 0;
+        for (std::size_t l = 0; l < (points.lattice ? points.across.size() : 1); ++l) {
+            for (std::size_t i = 0; i < points.along.size(); ++i) {
+                const double across = points.across[points.lattice ? l : i];
+                out[k++] = value(points.at(points.along[i], across));
+            }
         }
     }
 
   private:
-    dvec2 point(double u, int line) const {
-        const double along = band_.along(u), across = band_.line(line);
-        return band_.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
-    }
-
-    Rect rect(int lo, int hi) const {
-        const dvec2 a = point(static_cast<double>(lo) * run_unit, first_);
-        const dvec2 b = point(static_cast<double>(hi) * run_unit, last_ - 1);
-        return {glm::min(a, b), glm::max(a, b)};
-    }
-
-    /// Visits pixels [lo, lo + size) of the strip in order.
-    void visit(int lo, int size) {
-        const int hi = std::min(lo + size, band_.hi);
-        if (lo >= hi) return;
-        const Interval values = slice_.range(rect(lo, hi));
-        if (values.lo > 0) return;
-        if (values.hi < 0) return fill(lo, hi);
-        if (size == tile_pixels) return sample_tile(lo, hi);
-        visit(lo, size / 2);
-        visit(lo + size / 2, size / 2);
-    }
-
-    void fill(int lo, int hi) {
-        for (auto& line : lines_) add(line, lo * run_unit, hi * run_unit);
-    }
-
-    static void add(std::vector<Run>& line, std::int32_t begin, std::int32_t end) {
-        if (begin >= end) return;
-        if (!line.empty() && line.back().end >= begin) {
-            line.back().end = end;
-        } else {
-            line.push_back({begin, end});
-        }
-    }
-
-    double value(double u, int line) const {
+    double value(dvec2 p) const {
         float v = 0;
-        slice_.sample({point(u, line), dvec2(1), 1, 1}, {&v, 1});
+        slice_.sample({p, dvec2(1), 1, 1}, {&v, 1});
         return v;
     }
 
-    void sample_tile(int lo, int hi) {
-        const int n = hi - lo + 1;
-        samples_.resize(static_cast<std::size_t>(n));
-        for (int l = first_; l < last_; ++l) {
-            const dvec2 from = point(static_cast<double>(lo) * run_unit, l);
-            const dvec2 step(band_.along_pitch);
-            const Tile tile = band_.axis == Axis::x ? Tile{from, step, n, 1} : Tile{from, step, 1, n};
-            slice_.sample(tile, samples_);
-            begin_ = samples_[0] < 0 ? lo * run_unit : none;
-            line_ = l;
-            for (int i = 0; i + 1 < n; ++i) {
-                cross(static_cast<double>(lo + i) * run_unit, samples_[static_cast<std::size_t>(i)],
-                      static_cast<double>(lo + i + 1) * run_unit, samples_[static_cast<std::size_t>(i) + 1],
-                      quarter_splits);
-            }
-            if (begin_ != none) close(hi * run_unit);
-        }
-    }
-
-    void close(std::int32_t end) {
-        add(lines_[static_cast<std::size_t>(line_ - first_)], begin_, end);
-        begin_ = none;
-    }
-
-    /// Finds the crossings between two samples and opens or closes the run there.
-    void cross(double u0, double v0, double u1, double v1, int splits) {
-        const bool in0 = v0 < 0, in1 = v1 < 0;
-        if (in0 == in1) {
-            const double gap = (u1 - u0) * std::abs(band_.along_pitch) / run_unit;
-            const bool proven = metric_ != Metric::sign && std::abs(v0) + std::abs(v1) >= gap;
-            if (proven || splits == 0) return;
-        } else if (splits == 0) {
-            return turn(crossing(u0, u1, in0), in1);
-        }
-        const double middle = (u0 + u1) * 0.5, v = value(middle, line_);
-        cross(u0, v0, middle, v, splits - 1);
-        cross(middle, v, u1, v1, splits - 1);
-    }
-
-    std::int32_t crossing(double u0, double u1, bool in0) const {
-        for (int i = 0; i < bisections; ++i) {
-            const double middle = (u0 + u1) * 0.5;
-            if ((value(middle, line_) < 0) == in0) {
-                u0 = middle;
-            } else {
-                u1 = middle;
-            }
-        }
-        return round_run((u0 + u1) * 0.5);
-    }
-
-    void turn(std::int32_t u, bool solid) {
-        if (solid) {
-            begin_ = u;
-        } else {
-            close(u);
-        }
-    }
-
-    static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
-
     const SliceField& slice_;
-    Metric metric_;
-    const RowBand& band_;
-    int first_ = 0, last_ = 0;
-    std::vector<std::vector<Run>> lines_;
-    std::vector<float> samples_;
-    std::int32_t begin_ = none;
-    int line_ = 0;
 };
 
 }  // namespace
 
-void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
     out.clear();
-    StripWalk walk(slice, metric, band);
-    for (int first = 0; first < band.lines(); first += tile_rows) {
-        walk.walk(first, std::min(first + tile_rows, band.lines()), out);
-    }
+    TileWalk(solid, metric, band).walk(out);
+}
+
+void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out) {
+    WalkedSlice solid(slice);
+    sampled_spans(solid, metric, band, out);
 }
 
 void SampledSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {

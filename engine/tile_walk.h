@@ -1,14 +1,45 @@
-// The tile walk: runs of a field that has no closed form, read off samples where the surface may pass.
+// The tile walk: runs of a solid that has no closed form, read off samples where the surface may pass.
 #pragma once
 
 #include "engine/field.h"
 
 namespace lamella {
 
-/// Solid runs of a band from range and samples alone. Tiles that `range` proves empty or full are not
+/// Points at which the walk asks for values, on lines of a band. A lattice has a point for every pair of
+/// positions; otherwise along[i] and across[i] belong together.
+struct WalkPoints {
+    Axis axis = Axis::x;
+    std::span<const double> along;   ///< mm
+    std::span<const double> across;  ///< mm
+    bool lattice = true;
+
+    std::size_t count() const { return lattice ? along.size() * across.size() : along.size(); }
+    /// The point of the plane at these positions.
+    dvec2 at(double a, double c) const { return axis == Axis::x ? dvec2(a, c) : dvec2(c, a); }
+};
+
+/// A solid in a plane as the walk sees it: it is told which tile the walk is in, so that it may narrow what
+/// it works with.
+class WalkedSolid {
+  public:
+    virtual ~WalkedSolid() = default;
+    /// The walk goes down into a tile, which lies in the one before: encloses every value over it. Values
+    /// are asked for within the innermost tile only.
+    virtual Interval enter(const Rect& tile) = 0;
+    /// The walk leaves the innermost tile.
+    virtual void leave() = 0;
+    /// The values at the points; a lattice's line by line: out[line * along.size() + i].
+    virtual void values(const WalkPoints& points, std::span<double> out) = 0;
+};
+
+/// Solid runs of a band from ranges and values alone. Tiles whose range proves them empty or full are not
 /// sampled; elsewhere neighbouring samples are compared, split down to a quarter pitch unless their values
-/// prove that no surface passes between them (metric exact or bound), and crossings are bisected to 1/4 of a
-/// run unit. A sample that is NaN counts as outside.
+/// prove that no surface passes between them (metric exact or bound), and crossings are narrowed to 1/16 of a
+/// run unit. A value that is NaN counts as outside. Samples lie at quarter pitches counted from the band's
+/// origin, so a line's runs do not depend on how it is cut into tiles and bands.
+void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
+
+/// The same for a slice that answers from range and sample.
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out);
 
 /// The slice of a field that answers from Field::value and Field::range.

@@ -1,0 +1,37 @@
+// A formula's number at a point, and its range over a box.
+#include "engine/formula_grading.h"
+
+#include "engine/formula_inputs.h"
+
+namespace lamella {
+namespace {
+
+class FormulaGrading : public Grading {
+  public:
+    FormulaGrading(Formula formula, std::vector<GradingPtr> others)
+        : formula_(std::move(formula)), others_(std::move(others)), read_(read_others(formula_)) {}
+
+    double at(dvec3 p) const override { return formula_at(formula_, others_, read_, p); }
+
+    Interval range(const Box& box) const override {
+        std::vector<FormulaRange> inputs;
+        fill_ranges(box, others_, read_, inputs);
+        const FormulaRange r = lamella::range(formula_, inputs);
+        if (r.values.empty()) return {infinity, infinity};
+        return {r.values.lo, r.maybe_nan ? infinity : r.values.hi};
+    }
+
+  private:
+    Formula formula_;
+    std::vector<GradingPtr> others_;
+    std::vector<std::size_t> read_;
+};
+
+}  // namespace
+
+GradingPtr make_formula_grading(Formula formula, std::vector<GradingPtr> others) {
+    require_inputs(formula, others);
+    return std::make_shared<FormulaGrading>(std::move(formula), std::move(others));
+}
+
+}  // namespace lamella
