@@ -2,14 +2,10 @@
 #include "engine/mesh_reader.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
 
 #include "engine/error.h"
 #include "engine/mesh_source.h"
+#include "engine/whole_file.h"
 
 namespace lamella {
 
@@ -53,37 +49,15 @@ MeshFile read_as_content_says(const MeshSource& source) {
     reject(source, "its format is not recognised; mesh files are STL, OBJ, PLY or 3MF");
 }
 
-std::string whole_file(const std::string& path) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
-        throw InputError(path + ": this is a folder; a mesh file (STL, OBJ, PLY or 3MF) was expected");
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) throw InputError(path + ": cannot be opened (" + std::strerror(errno) + ")");
-    std::string bytes;
-    const auto size = std::filesystem::file_size(path, error);
-    if (!error) bytes.reserve(static_cast<std::size_t>(size));
-    char block[1U << 16U];
-    while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) bytes.append(block, got);
-    if (std::ferror(file.get()) != 0)
-        throw FaultError(path + ": reading failed (" + std::strerror(errno) + ")");
-    return bytes;
-}
-
 }  // namespace
 
 MeshFile read_mesh(const std::string& path, const MeshReadOptions& options) {
-    const std::string bytes = whole_file(path);
+    const std::string bytes = whole_file(path, "a mesh file (STL, OBJ, PLY or 3MF)");
     return read_mesh(path, std::as_bytes(std::span(bytes)), options);
 }
 
 MeshFile read_mesh(std::string_view name, std::span<const std::byte> bytes, const MeshReadOptions& options) {
-    if (!(options.unit_mm > 0.0 && options.unit_mm <= 1e6)) {
-        throw InputError(std::string(name) + ": a unit must be more than 0 and at most 1,000,000 mm, not " +
-                         std::to_string(options.unit_mm));
-    }
-    return read_as_content_says(
-        {std::string(name), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options.unit_mm});
+    return read_as_content_says(mesh_source(name, bytes, options.unit_mm));
 }
 
 }  // namespace lamella

@@ -39,6 +39,14 @@ bool usable(double v) { return std::abs(v) <= MeshWelder::largest_coordinate; }
 
 }  // namespace
 
+MeshSource mesh_source(std::string_view name, std::span<const std::byte> bytes, double unit_mm) {
+    if (!(unit_mm > 0.0 && unit_mm <= 1e6)) {
+        throw InputError(std::string(name) + ": a unit must be more than 0 and at most 1,000,000 mm, not " +
+                         std::to_string(unit_mm));
+    }
+    return {std::string(name), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, unit_mm};
+}
+
 void reject(const MeshSource& source, const std::string& what) {
     throw InputError(source.name + ": " + what);
 }

@@ -20,6 +20,9 @@ struct MeshSource {
     double unit_mm = 1.0;    ///< mm per number, for formats that state no unit
 };
 
+/// The source of these bytes. Throws InputError for a unit that is not positive or absurdly large.
+MeshSource mesh_source(std::string_view name, std::span<const std::byte> bytes, double unit_mm);
+
 /// Throws InputError("name: what").
 [[noreturn]] void reject(const MeshSource& source, const std::string& what);
 

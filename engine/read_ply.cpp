@@ -3,164 +3,17 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/mesh_attribute.h"
 #include "engine/mesh_source.h"
+#include "engine/ply_header.h"
+#include "engine/triangulate.h"
+#include "engine/whole_file.h"
 
 namespace lamella {
 
 namespace {
 
-enum class Encoding { text, little_endian, big_endian };
-
-struct Scalar {
-    std::size_t bytes = 0;
-    enum class Kind { signed_integer, unsigned_integer, real } kind = Kind::real;
-};
-
-struct Property {
-    std::string name;
-    std::optional<Scalar> count;  // lists only
-    Scalar value;
-};
-
-struct Element {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<Property> properties;
-
-    bool has_lists() const {
-        return std::any_of(properties.begin(), properties.end(),
-                           [](const Property& p) { return p.count.has_value(); });
-    }
-    std::size_t row_bytes() const {
-        std::size_t bytes = 0;
-        for (const Property& p : properties) bytes += p.count ? p.count->bytes : p.value.bytes;
-        return bytes;
-    }
-    std::size_t index_of(std::string_view property) const {
-        const auto found = std::find_if(properties.begin(), properties.end(),
-                                        [&](const Property& p) { return p.name == property; });
-        return static_cast<std::size_t>(found - properties.begin());
-    }
-    bool has(std::string_view property) const { return index_of(property) < properties.size(); }
-};
-
-std::optional<Scalar> scalar_named(std::string_view name) {
-    using Kind = Scalar::Kind;
-    if (name == "char" || name == "int8") return Scalar{1, Kind::signed_integer};
-    if (name == "uchar" || name == "uint8") return Scalar{1, Kind::unsigned_integer};
-    if (name == "short" || name == "int16") return Scalar{2, Kind::signed_integer};
-    if (name == "ushort" || name == "uint16") return Scalar{2, Kind::unsigned_integer};
-    if (name == "int" || name == "int32") return Scalar{4, Kind::signed_integer};
-    if (name == "uint" || name == "uint32") return Scalar{4, Kind::unsigned_integer};
-    if (name == "float" || name == "float32") return Scalar{4, Kind::real};
-    if (name == "double" || name == "float64") return Scalar{8, Kind::real};
-    return std::nullopt;
-}
-
-struct Header {
-    Encoding encoding = Encoding::text;
-    std::vector<Element> elements;
-    std::size_t data_at = 0;
-};
-
-class HeaderReader {
-  public:
-    explicit HeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
-
-    Header read() {
-        text_.skip_line();  // "ply"
-        bool has_format = false;
-        for (;; text_.skip_line()) {
-            if (text_.at_end())
-                reject(source_, "the header has no \"end_header\" line; the file is cut off or damaged");
-            const std::string_view keyword = text_.token_on_line();
-            if (keyword == "end_header") break;
-            if (keyword == "format") has_format = take_format();
-            if (keyword == "element") take_element();
-            if (keyword == "property") take_property();
-            const bool known = keyword.empty() || keyword == "format" || keyword == "element" ||
-                               keyword == "property" || keyword == "comment" || keyword == "obj_info";
-            if (!known)
-                fail(quoted(keyword) +
-                     " is no line of a PLY header (format, element, property, comment, end_header)");
-        }
-        if (!has_format) fail("the header has no \"format\" line");
-        header_.data_at = behind_end_header();
-        return std::move(header_);
-    }
-
-  private:
-    [[noreturn]] void fail(const std::string& what) const {
-        reject(source_, "line " + std::to_string(text_.line()) + ": " + what);
-    }
-
-    bool take_format() {
-        const std::string_view name = text_.token_on_line();
-        if (name == "ascii") {
-            header_.encoding = Encoding::text;
-        } else if (name == "binary_little_endian") {
-            header_.encoding = Encoding::little_endian;
-        } else if (name == "binary_big_endian") {
-            header_.encoding = Encoding::big_endian;
-        } else {
-            fail("unknown format " + quoted(name) +
-                 "; known are ascii, binary_little_endian and binary_big_endian");
-        }
-        return true;
-    }
-
-    void take_element() {
-        constexpr std::size_t most_elements = 100;
-        Element element;
-        element.name = std::string(text_.token_on_line());
-        const std::string_view word = text_.token_on_line();
-        const auto count = parse_integer(word);
-        if (!count || *count < 0) fail(quoted(word) + " is no number of elements");
-        if (header_.elements.size() == most_elements) fail("more than 100 kinds of element");
-        element.count = static_cast<std::size_t>(*count);
-        header_.elements.push_back(std::move(element));
-    }
-
-    void take_property() {
-        constexpr std::size_t most_properties = 1000;
-        if (header_.elements.empty()) fail("a property before any element");
-        Property property;
-        std::string_view type = text_.token_on_line();
-        if (type == "list") {
-            property.count = take_scalar(text_.token_on_line());
-            if (property.count->kind == Scalar::Kind::real)
-                fail("the length of a list must be of an integer type");
-            type = text_.token_on_line();
-        }
-        property.value = take_scalar(type);
-        property.name = std::string(text_.token_on_line());
-        auto& properties = header_.elements.back().properties;
-        if (properties.size() == most_properties) fail("more than 1,000 properties in one element");
-        properties.push_back(std::move(property));
-    }
-
-    Scalar take_scalar(std::string_view type) const {
-        const auto scalar = scalar_named(type);
-        if (!scalar)
-            fail(quoted(type) + " is no PLY type (char, uchar, short, ushort, int, uint, float, double)");
-        return *scalar;
-    }
-
-    /// Binary data begins right behind the line end, whose form is that of the first line: behind a lone
-    /// carriage return, a byte 10 is data already.
-    std::size_t behind_end_header() const {
-        const std::string_view bytes = source_.bytes;
-        std::size_t at = text_.offset();
-        while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') ++at;
-        const bool lone_return = bytes[3] == '\r' && bytes[4] != '\n';
-        if (at + 1 < bytes.size() && bytes[at] == '\r' && bytes[at + 1] == '\n' && !lone_return) ++at;
-        return std::min(at + 1, bytes.size());
-    }
-
-    const MeshSource& source_;
-    TextCursor text_;
-    Header header_;
-};
+using ply::Element, ply::Encoding, ply::Header, ply::Property, ply::Scalar;
 
 /// Gives the values of the body one after another; `ok` turns false at the end of the data.
 class BodyCursor {
@@ -229,9 +82,28 @@ class BodyCursor {
 class PlyReader {
   public:
     explicit PlyReader(const MeshSource& source)
-        : source_(source), header_(HeaderReader(source).read()), body_(source, header_) {}
+        : source_(source), header_(ply::read_header(source)), body_(source, header_) {}
 
     MeshFile read() {
+        read_elements();
+        return build();
+    }
+
+    /// Strict where read() mends: a number must not end up at another corner.
+    AttributedMesh read_with(const std::string& attribute) {
+        choose(attribute);
+        read_elements();
+        if (!notes_.empty()) reject(source_, notes_.front());
+        if (!has_faces_) reject(source_, without_faces());
+        AttributedMesh out;
+        out.mesh.vertices = std::move(vertices_);
+        out.values = std::move(values_);
+        cut_faces(out.mesh);
+        return out;
+    }
+
+  private:
+    void read_elements() {
         for (const Element& element : header_.elements) {
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -242,10 +114,34 @@ class PlyReader {
             }
             if (!body_.ok()) break;
         }
-        return build();
     }
 
-  private:
+    /// Finds the property to be read at each vertex, and what one stands for.
+    void choose(const std::string& attribute) {
+        std::string names;
+        for (const Element& element : header_.elements) {
+            if (element.name != "vertex") continue;
+            if (!names.empty()) reject(source_, "its header announces vertices twice");
+            for (const Property& p : element.properties) {
+                if (p.name == "x" || p.name == "y" || p.name == "z" || p.count) continue;
+                names += (names.empty() ? "" : ", ") + quoted(p.name);
+                if (p.name != attribute) continue;
+                attribute_ = element.index_of(attribute);
+                const bool channel =
+                    attribute == "red" || attribute == "green" || attribute == "blue" || attribute == "alpha";
+                if (channel && p.value.kind != Scalar::Kind::real) full_scale_ = greatest(p.value);
+            }
+        }
+        if (attribute_ != none) return;
+        reject(source_, "its vertices have no number named " + quoted(attribute) + "; there " +
+                            (names.empty() ? "is none beside x, y and z" : "are " + names));
+    }
+
+    static double greatest(const Scalar& scalar) {
+        const std::size_t bits = 8 * scalar.bytes - (scalar.kind == Scalar::Kind::signed_integer ? 1 : 0);
+        return static_cast<double>((std::uint64_t{1} << bits) - 1);
+    }
+
     /// How many rows can be there at most, so that no announced count makes us allocate.
     std::size_t possible_rows(const Element& element) const {
         const std::size_t least =
@@ -263,15 +159,19 @@ class PlyReader {
         vertices_.reserve(possible_rows(element));
         for (std::size_t row = 0; row < element.count; ++row) {
             dvec3 p(0.0);
+            double number = 0.0;
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const double value = read_property(element.properties[i], nullptr);
                 if (i == x) p.x = value;
                 if (i == y) p.y = value;
                 if (i == z) p.z = value;
+                if (i == attribute_) number = value;
             }
             if (!body_.ok()) cut_off(element, row);
             if (!body_.ok()) return;
             vertices_.push_back(p * source_.unit_mm);
+            if (attribute_ != none)
+                values_.push_back(std::isfinite(number) ? number / full_scale_ : std::nan(""));
         }
     }
 
@@ -330,16 +230,56 @@ class PlyReader {
                          (rows == 1 ? " is" : " are") + " there whole");
     }
 
-    MeshFile build() {
-        if (!has_faces_) {
-            std::string why = "it holds points but no faces";
-            if (has_strips_)
-                why =
-                    "its triangles are stored as strips (tristrips), which are not read; export it with "
-                    "plain faces";
-            if (!notes_.empty()) why = notes_.front();
-            reject(source_, why + ", so there is nothing to print");
+    std::string without_faces() const {
+        if (!notes_.empty()) return notes_.front();
+        if (has_strips_) {
+            return "its triangles are stored as strips (tristrips), which are not read; export it with plain "
+                   "faces";
         }
+        return "it holds points but no faces";
+    }
+
+    /// Cuts the faces into triangles over the vertices as they stand; leaves out triangles without extent.
+    void cut_faces(TriangleMesh& mesh) const {
+        std::vector<dvec3> loop;
+        std::vector<std::array<std::uint32_t, 3>> cut;
+        std::size_t begin = 0;
+        for (std::size_t face = 0; face < face_ends_.size(); begin = face_ends_[face++]) {
+            loop.clear();
+            for (std::size_t i = begin; i < face_ends_[face]; ++i) {
+                loop.push_back(checked_corner(mesh, face, corners_[i]));
+            }
+            cut.clear();
+            triangulate_loop(loop, cut);
+            for (const auto& t : cut) {
+                if (loop[t[0]] == loop[t[1]] || loop[t[1]] == loop[t[2]] || loop[t[2]] == loop[t[0]])
+                    continue;
+                mesh.triangles.push_back({static_cast<std::uint32_t>(corners_[begin + t[0]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[1]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[2]])});
+            }
+        }
+        if (mesh.triangles.empty()) reject(source_, "none of its faces has an extent");
+    }
+
+    dvec3 checked_corner(const TriangleMesh& mesh, std::size_t face, std::int64_t corner) const {
+        const auto fail = [&](const std::string& what) {
+            reject(source_, "face " + grouped(face + 1) + " " + what);
+        };
+        if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.vertices.size()) {
+            fail("points to a vertex that does not exist");
+        }
+        const dvec3 p = mesh.vertices[static_cast<std::size_t>(corner)];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(p[axis]) <= MeshWelder::largest_coordinate)) {
+                fail("has a corner that is NaN, infinite or absurdly large");
+            }
+        }
+        return p;
+    }
+
+    MeshFile build() {
+        if (!has_faces_) reject(source_, without_faces() + ", so there is nothing to print");
         PolygonWelder welder(std::move(vertices_));
         std::size_t begin = 0;
         std::size_t bad_index = 0;
@@ -371,7 +311,11 @@ class PlyReader {
     const MeshSource& source_;
     Header header_;
     BodyCursor body_;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::size_t attribute_ = none;
+    double full_scale_ = 1.0;
     std::vector<dvec3> vertices_;
+    std::vector<double> values_;
     std::vector<std::int64_t> corners_;
     std::vector<std::size_t> face_ends_;
     std::vector<std::string> notes_;
@@ -382,5 +326,21 @@ class PlyReader {
 }  // namespace
 
 MeshFile read_ply(const MeshSource& source) { return PlyReader(source).read(); }
+
+AttributedMesh read_ply_attribute(std::string_view name, std::span<const std::byte> bytes,
+                                  const std::string& attribute, double unit_mm) {
+    const MeshSource source = mesh_source(name, bytes, unit_mm);
+    if (!source.bytes.starts_with("ply\n") && !source.bytes.starts_with("ply\r")) {
+        reject(source,
+               "a PLY file begins with a line \"ply\", and this one does not; no other mesh format "
+               "is read for numbers at its vertices");
+    }
+    return PlyReader(source).read_with(attribute);
+}
+
+AttributedMesh read_ply_attribute(const std::string& path, const std::string& attribute, double unit_mm) {
+    const std::string bytes = whole_file(path, "a PLY file");
+    return read_ply_attribute(path, std::as_bytes(std::span(bytes)), attribute, unit_mm);
+}
 
 }  // namespace lamella

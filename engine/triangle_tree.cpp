@@ -36,7 +36,40 @@ double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
                     std::min(squared_distance_to_edge(p, b, bc), squared_distance_to_edge(p, c, ca)));
 }
 
+/// How far along the edge from a to b the point closest to p lies, 0 to 1.
+double along_edge(dvec3 p, dvec3 a, dvec3 b) {
+    const dvec3 e = b - a;
+    const double length = squared(e);
+    return length > 0 ? std::min(std::max(glm::dot(p - a, e) / length, 0.0), 1.0) : 0.0;
+}
+
 }  // namespace
+
+SurfacePoint closest_point(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
+    const dvec3 ab = b - a, bc = c - b, ca = a - c, n = glm::cross(ab, c - a);
+    const double nn = glm::dot(n, n);
+    // Twice the area opposite to each corner, times the length of n, as seen along n.
+    const dvec3 areas(glm::dot(glm::cross(bc, p - b), n), glm::dot(glm::cross(ca, p - c), n),
+                      glm::dot(glm::cross(ab, p - a), n));
+    SurfacePoint best;
+    if (nn > 0 && areas.x >= 0 && areas.y >= 0 && areas.z >= 0) {
+        best.weights = areas / (areas.x + areas.y + areas.z);
+        best.distance = std::abs(glm::dot(n, p - a)) / std::sqrt(nn);
+        return best;
+    }
+    const dvec3 corners[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double t = along_edge(p, corners[i], corners[j]);
+        const double d = std::sqrt(squared(p - (corners[i] * (1 - t) + corners[j] * t)));
+        if (!(d < best.distance)) continue;
+        best.distance = d;
+        best.weights = dvec3(0.0);
+        best.weights[i] = 1 - t;
+        best.weights[j] = t;
+    }
+    return best;
+}
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
@@ -107,6 +140,41 @@ double TriangleTree::distance(dvec3 p, double limit) const {
         stack[top++] = left.bound < right.bound ? left : right;
     }
     return std::sqrt(best);
+}
+
+SurfacePoint TriangleTree::closest(dvec3 p) const {
+    // A box's distance may be rounded above that of a triangle within: without the slack, which of two
+    // equally close triangles is found would depend on the tree.
+    constexpr double slack = 1 - 1e-12;
+    SurfacePoint best;
+    if (nodes_.empty()) return best;
+    struct Entry {
+        std::uint32_t node;
+        double bound;
+    };
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {0, squared_distance(nodes_[0].box, p)};
+    while (top > 0) {
+        const Entry entry = stack[--top];
+        if (entry.bound * slack > best.distance * best.distance) continue;
+        const Node& node = nodes_[entry.node];
+        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+            const auto& t = mesh_.triangles[order_[k]];
+            SurfacePoint found =
+                closest_point(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+            found.triangle = order_[k];
+            const bool closer = found.distance < best.distance ||
+                                (found.distance == best.distance && found.triangle < best.triangle);
+            if (closer) best = found;
+        }
+        if (node.count > 0) continue;
+        const Entry left{entry.node + 1, squared_distance(nodes_[entry.node + 1].box, p)};
+        const Entry right{node.first, squared_distance(nodes_[node.first].box, p)};
+        stack[top++] = left.bound < right.bound ? right : left;
+        stack[top++] = left.bound < right.bound ? left : right;
+    }
+    return best;
 }
 
 int TriangleTree::winding(dvec3 p) const {

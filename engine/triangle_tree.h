@@ -1,12 +1,31 @@
-// A bounding-volume tree over triangles: closest point and winding number.
+// A bounding-volume tree over triangles: distance, closest point and winding number.
 #pragma once
 
 #include "engine/mesh.h"
 
 namespace lamella {
 
+/// Where a surface is closest to a point.
+struct SurfacePoint {
+    double distance = infinity;  ///< mm
+    std::uint32_t triangle = 0;
+    dvec3 weights{0.0};  ///< of the triangle's corners: barycentric, 0 to 1, adding up to 1
+};
+
+/// The point of a triangle that is closest to p (Ericson 2005, Real-time collision detection, section 5.1.5).
+/// A triangle without area counts as its longest edge. `triangle` is left 0.
+SurfacePoint closest_point(dvec3 p, dvec3 a, dvec3 b, dvec3 c);
+
 class TriangleTree {
   public:
+    /// Triangles within a box.
+    struct Node {
+        Box box;
+        std::uint32_t first;  ///< first triangle of a leaf, in order(); else the second child, the first one
+                              ///< follows its parent
+        std::uint32_t count;  ///< triangles of a leaf, 0 for an inner node
+    };
+
     /// The mesh must outlive the tree.
     explicit TriangleTree(const TriangleMesh& mesh);
 
@@ -16,13 +35,14 @@ class TriangleTree {
     /// mesh's sections. Meaningful for closed chains of triangles.
     int winding(dvec3 p) const;
 
-  private:
-    struct Node {
-        Box box;
-        std::uint32_t first;  ///< first triangle (leaf) or second child (the first one follows its parent)
-        std::uint32_t count;  ///< triangles of a leaf, 0 for an inner node
-    };
+    /// The closest point of all triangles; of equally close ones that of the lowest triangle.
+    SurfacePoint closest(dvec3 p) const;
 
+    /// Nodes with the root first, children behind their parents; empty for a mesh without triangles.
+    const std::vector<Node>& nodes() const { return nodes_; }
+    const std::vector<std::uint32_t>& order() const { return order_; }
+
+  private:
     void build(std::uint32_t first, std::uint32_t last, std::vector<dvec3>& centers);
     Box box_of(std::uint32_t first, std::uint32_t last) const;
 

@@ -1,0 +1,55 @@
+// Checks that every grading's range has to pass.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "engine/grading.h"
+
+namespace lamella::checks {
+
+inline dvec3 random_point(std::mt19937& random, const Box& box) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return box.lo + box.size() * dvec3(x, y, z);
+}
+
+/// How much wider the range of a box is than the numbers found at `points` places in it; fails when one of
+/// them is outside.
+inline double excess(const Grading& grading, const Box& box, std::mt19937& random, int points) {
+    const Interval range = grading.range(box);
+    Interval found;
+    for (int i = 0; i < points + 8; ++i) {
+        dvec3 p = random_point(random, box);
+        if (i < 8) {
+            p = {(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
+                 (i & 4) != 0 ? box.hi.z : box.lo.z};
+        }
+        const double number = grading.at(p);
+        if (std::isnan(number)) {
+            if (range.hi != infinity) FAIL("a NaN within a range that ends at " << range.hi);
+            continue;
+        }
+        if (!range.contains(number)) {
+            FAIL(number << " at " << p.x << " " << p.y << " " << p.z << " lies outside " << range.lo << " to "
+                        << range.hi);
+        }
+        found = {std::min(found.lo, number), std::max(found.hi, number)};
+    }
+    return range.width() - found.width();
+}
+
+/// Asks for the ranges of boxes from the whole of `within` down to a billionth, and of flat ones, at 10^4
+/// points in all.
+inline void check_ranges(const Grading& grading, const Box& within, unsigned seed = 1) {
+    std::mt19937 random(seed);
+    for (int round = 0; round < 200; ++round) {
+        const double shrink = std::pow(0.1, round % 10);
+        const dvec3 at = random_point(random, within);
+        dvec3 half = (random_point(random, within) - within.lo) * (shrink / 2);
+        if (round % 3 == 1) half[round % 9 / 3] = 0;
+        excess(grading, {at - half, at + half}, random, 50);
+    }
+}
+
+}  // namespace lamella::checks
