@@ -11,6 +11,7 @@
 #include "engine/mesh_repair.h"
 #include "engine/primitives.h"
 #include "engine/shell.h"
+#include "procedural/tpms.h"
 
 namespace lamella {
 
@@ -40,6 +41,14 @@ FieldPtr mesh_body(const PartRecipe& part, std::optional<MeshReport>& report) {
     return make_mesh_field(std::move(solid));
 }
 
+FieldPtr gyroid_block(const Box& block, double period, double thickness) {
+    TpmsSettings settings;
+    settings.period = make_constant_grading(period);
+    settings.thickness = make_constant_grading(thickness);
+    settings.region = block;
+    return make_intersection({make_box(block), make_tpms(settings)});
+}
+
 FieldPtr shape_body(const PartRecipe& part) {
     const double k = part.scale;
     const double radius = k * part.radius;
@@ -59,8 +68,7 @@ FieldPtr shape_body(const PartRecipe& part) {
         case Shape::torus:
             return make_torus(dvec3(0), radius, k * part.tube);
         case Shape::gyroid:
-            return make_intersection(
-                {make_box(Box{-half, half}), make_gyroid(k * part.period, k * part.thickness)});
+            return gyroid_block(Box{-half, half}, k * part.period, k * part.thickness);
         case Shape::none:
             break;
     }

@@ -2,13 +2,10 @@
 #include "engine/primitives.h"
 
 #include "engine/closed_slice.h"
-#include "engine/deterministic_math.h"
 #include "engine/error.h"
 
 namespace lamella {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
 
@@ -239,26 +236,6 @@ class HalfSpace : public ClosedShape<HalfSpace> {
     double offset_;
 };
 
-class Gyroid : public Field {
-  public:
-    Gyroid(double period, double thickness) : wave_(2 * pi / period), half_thickness_(thickness / 2) {}
-    double value(dvec3 p) const override {
-        const SineCosine x = sine_cosine(p.x * wave_), y = sine_cosine(p.y * wave_),
-                         z = sine_cosine(p.z * wave_);
-        const double g = x.sine * y.cosine + y.sine * z.cosine + z.sine * x.cosine;
-        // The gradient of g is at most sqrt(3) wave, so this never exceeds the distance to the sheet's
-        // middle.
-        return std::abs(g) / (steepest * wave_) - half_thickness_;
-    }
-    Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
-    Metric metric() const override { return Metric::bound; }
-    Box bounds() const override { return {dvec3(-infinity), dvec3(infinity)}; }
-
-  private:
-    static constexpr double steepest = 1.7320508075688774;
-    double wave_, half_thickness_;
-};
-
 }  // namespace
 
 FieldPtr make_empty() { return std::make_shared<Empty>(); }
@@ -299,11 +276,6 @@ FieldPtr make_half_space(dvec3 normal, double offset) {
     const double l = length(normal);
     require(positive(l) && std::isfinite(offset), "a half-space needs a normal that is not zero");
     return std::make_shared<HalfSpace>(normal / l, offset);
-}
-
-FieldPtr make_gyroid(double period, double thickness) {
-    require(positive(period) && positive(thickness), "a gyroid needs a positive period and thickness");
-    return std::make_shared<Gyroid>(period, thickness);
 }
 
 }  // namespace lamella

@@ -20,8 +20,5 @@ FieldPtr make_round_cone(const Beam& beam);
 FieldPtr make_torus(dvec3 center, double major_radius, double minor_radius);
 /// All points p with dot(p, normal) <= offset, for a unit normal (it is normalised here).
 FieldPtr make_half_space(dvec3 normal, double offset);
-/// The gyroid sheet sin x cos y + sin y cos z + sin z cos x = 0 with the given period, at least `thickness`
-/// thick. Unbounded.
-FieldPtr make_gyroid(double period, double thickness);
 
 }  // namespace lamella

@@ -12,7 +12,10 @@
 #include "engine/shell.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
+#include "procedural/strut_lattice.h"
+#include "procedural/tpms.h"
 #include "tests/engine/shapes.h"
+#include "tests/procedural/graded_lengths.h"
 
 using namespace lamella;
 
@@ -29,6 +32,17 @@ FieldPtr formula(const char* text, double half, Metric metric) {
     const std::vector<std::string> names{"x", "y", "z", "d"};
     const GradingPtr depth = make_depth_grading(make_sphere({0.2, 0, 0.1}, 2));
     return make_formula_field(parse_formula(text, names), {depth}, {dvec3(-half), dvec3(half)}, metric);
+FieldPtr tpms(TpmsKind kind, bool network, GradingPtr period, GradingPtr thickness) {
+    return make_tpms({kind, network, std::move(period), std::move(thickness), {dvec3(-4.5), dvec3(4.5)}});
+}
+
+FieldPtr gyroid(double period, double thickness) {
+    return tpms(TpmsKind::gyroid, false, make_constant_grading(period), make_constant_grading(thickness));
+}
+
+FieldPtr lattice(const char* cell_name, GradingPtr cell, GradingPtr beam) {
+    return make_strut_lattice(
+        {unit_cell(cell_name), std::move(cell), std::move(beam), {dvec3(-4.5), dvec3(4.5)}});
 }
 
 std::vector<Named> all_fields() {
@@ -39,6 +53,8 @@ std::vector<Named> all_fields() {
     const FieldPtr mesh = make_mesh_field(shapes::closed(shapes::icosphere(3, 2.4)));
     const glm::dmat3 turn(glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.6, 0.8, 0), glm::dvec3(0, 0, 1));
     const glm::dmat3 mirror(glm::dvec3(-1.1, 0, 0), glm::dvec3(0, 0.9, 0), glm::dvec3(0, 0, 1.2));
+    const auto slope = std::make_shared<LinearGrading>(0.3, dvec3(0.02, 0.01, -0.01));
+    const auto steep_slope = std::make_shared<LinearGrading>(2.5, dvec3(0.15, -0.1, 0.1));
     return {
         {"sphere", sphere},
         {"box", box},
@@ -51,7 +67,23 @@ std::vector<Named> all_fields() {
         {"steep cone", make_round_cone({{-1, 0, 0}, 1.8, {1.5, 0.1, 0.1}, 0.2})},
         {"torus", torus},
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
-        {"gyroid in a ball", make_intersection({make_gyroid(2.2, 0.3), sphere}), true},
+        {"octet lattice", lattice("octet", make_constant_grading(1.9), make_constant_grading(0.12))},
+        {"bcc lattice in cells of several sizes",
+         lattice("bcc", std::make_shared<LinearGrading>(2, dvec3(0.25, 0, 0.05)),
+                 std::make_shared<LinearGrading>(0.15, dvec3(0.01, 0, -0.005)))},
+        {"gyroid", gyroid(2.2, 0.3)},
+        {"Schwarz P network",
+         tpms(TpmsKind::schwarz_p, true, make_constant_grading(1.7), make_constant_grading(0.4))},
+        {"Schwarz D sheet",
+         tpms(TpmsKind::schwarz_d, false, make_constant_grading(2.7), make_constant_grading(0.2))},
+        {"Neovius network",
+         tpms(TpmsKind::neovius, true, make_constant_grading(3), make_constant_grading(0.3))},
+        {"Neovius sheet",
+         tpms(TpmsKind::neovius, false, make_constant_grading(3), make_constant_grading(0.3))},
+        {"gyroid sheet of graded thickness", tpms(TpmsKind::gyroid, false, make_constant_grading(2.2), slope),
+         true},
+        {"Schwarz D network of graded period", tpms(TpmsKind::schwarz_d, true, steep_slope, slope), true},
+        {"gyroid in a ball", make_intersection({gyroid(2.2, 0.3), sphere})},
         {"mesh", mesh},
         {"grown mesh", make_offset(mesh, 0.35)},
         {"shrunk mesh", make_offset(mesh, -0.35)},
@@ -300,9 +332,9 @@ TEST_CASE("a filled body has the value of the set operations that it stands for"
 }
 
 TEST_CASE("a solid without a true offset says so") {
-    const FieldPtr gyroid = make_gyroid(2, 0.3);
-    REQUIRE_THROWS_AS(make_offset(gyroid, 0.1), InputError);
-    REQUIRE_THROWS_AS(make_shell(gyroid, 0.1), InputError);
+    const FieldPtr sheet = gyroid(2, 0.3);
+    REQUIRE_THROWS_AS(make_offset(sheet, 0.1), InputError);
+    REQUIRE_THROWS_AS(make_shell(sheet, 0.1), InputError);
 }
 
 TEST_CASE("impossible sizes are refused") {

@@ -12,6 +12,7 @@
 #include "engine/primitives.h"
 #include "engine/shell.h"
 #include "engine/simd_target.h"
+#include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
 
 using namespace lamella;
@@ -41,6 +42,14 @@ FieldPtr foam_in(const FieldPtr& body, double cell, double beam, double skin) {
     return make_intersection({body, make_union({make_voronoi_foam(settings), make_shell(body, skin)})});
 }
 
+FieldPtr gyroid(const Box& region) {
+    TpmsSettings settings;
+    settings.period = make_constant_grading(4);
+    settings.thickness = make_constant_grading(0.8);
+    settings.region = region;
+    return make_tpms(settings);
+}
+
 std::map<std::string, FieldPtr> solids() {
     const MeshFile koala = read_mesh(LAMELLA_SOURCE_DIR "/examples/models/koala_mm.obj", MeshReadOptions{});
     const FieldPtr ball = make_sphere({0.1, 0.2, 0.3}, 9);
@@ -48,7 +57,7 @@ std::map<std::string, FieldPtr> solids() {
         {"primitives",
          make_union({make_torus({0, 0, 0}, 7, 2), make_round_cone({{-6, -6, -3}, 2, {6, 5, 4}, 0.7}),
                      make_cylinder({-5, 4, -4}, {3, -6, 5}, 1.5), make_box({{-8, 3, -2}, {-3, 8, 3}}, 1)})},
-        {"gyroid in a ball", make_intersection({ball, make_gyroid(4, 0.8)})},
+        {"gyroid in a ball", make_intersection({ball, gyroid(ball->bounds())})},
         {"smooth union", make_smooth_union(ball, make_sphere({8, 3, 1}, 5), 2)},
         {"foam ball", foam_in(ball, 2, 0.25, 0.7)},
         {"foam koala", foam_in(make_mesh_field(close_mesh(koala.mesh)), 4, 0.4, 0.8)},

@@ -1,0 +1,46 @@
+// Quotients of ranges, and the check that a length is one.
+#include "procedural/grading_quotient.h"
+
+#include <fmt/format.h>
+
+#include "engine/error.h"
+
+namespace lamella {
+namespace {
+
+class QuotientGrading : public Grading {
+  public:
+    QuotientGrading(GradingPtr numerator, GradingPtr denominator)
+        : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {}
+    double at(dvec3 p) const override { return numerator_->at(p) / denominator_->at(p); }
+    Interval range(const Box& box) const override {
+        const Interval n = numerator_->range(box), d = denominator_->range(box);
+        if (!(d.lo > 0)) return {-infinity, infinity};
+        return {std::min(n.lo / d.lo, n.lo / d.hi), std::max(n.hi / d.lo, n.hi / d.hi)};
+    }
+
+  private:
+    GradingPtr numerator_, denominator_;
+};
+
+}  // namespace
+
+GradingPtr make_quotient_grading(GradingPtr numerator, GradingPtr denominator) {
+    return std::make_shared<QuotientGrading>(std::move(numerator), std::move(denominator));
+}
+
+Interval positive_range(const Grading& length, const Box& region, const char* what) {
+    const Interval range = tight_range(length, region);
+    if (!(range.lo > 0)) {
+        throw InputError(fmt::format("{} goes down to {:.6g} mm; it must be positive", what, range.lo));
+    }
+    if (!std::isfinite(range.hi)) {
+        throw InputError(
+            fmt::format("{} is infinite or not defined somewhere in the region; it must be a "
+                        "finite length everywhere",
+                        what));
+    }
+    return range;
+}
+
+}  // namespace lamella

@@ -1,0 +1,130 @@
+// One wave a line; where something is graded, a walk along the line.
+#include "procedural/tpms_slice.h"
+
+#include <array>
+
+#include "engine/closed_slice.h"
+#include "procedural/line_walk.h"
+
+namespace lamella {
+namespace {
+
+constexpr int columns_at_once = 64;
+
+Interval along(const Rect& rect, Axis axis) {
+    return axis == Axis::x ? Interval{rect.lo.x, rect.hi.x} : Interval{rect.lo.y, rect.hi.y};
+}
+
+Interval across(const Rect& rect, Axis axis) { return along(rect, axis == Axis::x ? Axis::y : Axis::x); }
+
+Rect region_at(const Box& region, double z) {
+    return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
+}
+
+}  // namespace
+
+TpmsSlice::TpmsSlice(const Field& field, const TpmsSolid& solid, double z)
+    : SampledSlice(field, z),
+      solid_(solid),
+      z_(z),
+      region_(region_at(solid.region(), z)),
+      height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {}
+
+void TpmsSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
+    out.clear();
+    if (solid_.is_constant()) {
+        closed_spans(band, out);
+    } else {
+        walked_spans(band, out);
+    }
+}
+
+void TpmsSlice::closed_spans(const RowBand& band, SpanRows& out) const {
+    const double period = solid_.period();
+    const Interval levels = solid_.solid_levels(period, solid_.thickness_at(solid_.center()));
+    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
+    const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
+    // A pixel more than the band, whose runs are cut after rounding.
+    const Interval wanted = along(grown(band.rect(), std::abs(band.along_pitch)), band.axis);
+    const Interval clip{std::max(room.lo, wanted.lo), std::min(room.hi, wanted.hi)};
+    std::vector<Interval> intervals;
+    for (int l = 0; l < band.lines(); ++l) {
+        const double place = band.line(l);
+        intervals.clear();
+        if (lines.contains(place)) {
+            const double distance = place - solid_.center()[across_axis];
+            const Wave wave =
+                tpms_wave(solid_.kind(), band.axis, TpmsSolid::angle(distance, period), height_);
+            append_wave_runs(wave_runs(wave, levels), solid_.center()[along_axis], period, clip, intervals);
+        }
+        push_intervals(band, intervals, out);
+    }
+}
+
+void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
+    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
+    const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
+    const double u0 = band.coordinate(room.lo), u1 = band.coordinate(room.hi);
+    const std::int32_t lo = std::max(band.lo * run_unit, round_run(std::min(u0, u1)));
+    const std::int32_t hi = std::min(band.hi * run_unit, round_run(std::max(u0, u1)));
+    const double steepest = solid_.steepest() * std::abs(band.along_pitch) / run_unit;
+    const dvec3 center = solid_.center();
+    for (int l = 0; l < band.lines(); ++l) {
+        const double place = band.line(l);
+        if (lo >= hi || !lines.contains(place)) {
+            out.end_line();
+            continue;
+        }
+        dvec3 p(0, 0, z_);
+        p[across_axis] = place;
+        const auto walk = [&](const auto& value) { LineWalk(value, steepest, lo, hi, out).walk(); };
+        if (solid_.has_constant_period()) {
+            const double period = solid_.period();
+            const Wave wave = tpms_wave(solid_.kind(), band.axis,
+                                        TpmsSolid::angle(place - center[across_axis], period), height_);
+            walk([&](double u) {
+                dvec3 q = p;
+                q[along_axis] = band.along(u);
+                const double g = wave.at(TpmsSolid::angle(q[along_axis] - center[along_axis], period));
+                return solid_.value_of(g, period, solid_.thickness_at(q));
+            });
+        } else {
+            walk([&](double u) {
+                dvec3 q = p;
+                q[along_axis] = band.along(u);
+                return solid_.value(q);
+            });
+        }
+    }
+}
+
+void TpmsSlice::sample(const Tile& tile, std::span<float> out) const {
+    if (!solid_.has_constant_period()) return SampledSlice::sample(tile, out);
+    std::array<SineCosine, columns_at_once> columns;
+    for (int first = 0; first < tile.nx; first += columns_at_once) {
+        const int count = std::min(columns_at_once, tile.nx - first);
+        for (int i = 0; i < count; ++i) {
+            const double x = tile.origin.x + (first + i) * tile.step.x;
+            columns[static_cast<std::size_t>(i)] = TpmsSolid::angle(x - solid_.center().x, solid_.period());
+        }
+        const std::span used(columns.data(), static_cast<std::size_t>(count));
+        for (int j = 0; j < tile.ny; ++j) {
+            sample_row(tile, first, used, tile.origin.y + j * tile.step.y,
+                       out.subspan(static_cast<std::size_t>(j) * static_cast<std::size_t>(tile.nx) +
+                                   static_cast<std::size_t>(first)));
+        }
+    }
+}
+
+void TpmsSlice::sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
+                           std::span<float> out) const {
+    const double period = solid_.period();
+    const Wave wave =
+        tpms_wave(solid_.kind(), Axis::x, TpmsSolid::angle(y - solid_.center().y, period), height_);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const dvec3 p(tile.origin.x + (first + static_cast<int>(i)) * tile.step.x, y, z_);
+        out[i] = static_cast<float>(solid_.value_of(wave.at(columns[i]), period, solid_.thickness_at(p)));
+    }
+}
+
+}  // namespace lamella

@@ -1,0 +1,95 @@
+// Values scaled by the steepest gradient; ranges through the ranges of the angles.
+#include "procedural/tpms_solid.h"
+
+namespace lamella {
+namespace {
+
+constexpr int survey_side = 16;
+constexpr double survey_safety = 1.5;
+
+double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
+
+/// Gradings are clamped to what they ask for, so that a constant's range is one number.
+bool is_constant_over(const Grading& grading, const Box& box) {
+    const Interval range = grading.range(box);
+    return range.lo == range.hi;
+}
+
+Interval product(Interval a, Interval positive) {
+    return {std::min(a.lo * positive.lo, a.lo * positive.hi),
+            std::max(a.hi * positive.lo, a.hi * positive.hi)};
+}
+
+}  // namespace
+
+TpmsSolid::TpmsSolid(const TpmsSettings& settings)
+    : settings_(settings),
+      g_(tpms_constants(settings.kind)),
+      center_(settings.region.center()),
+      period_(settings.period->at(center_)),
+      thickness_(settings.thickness->at(center_)),
+      constant_period_(is_constant_over(*settings.period, settings.region)),
+      constant_thickness_(is_constant_over(*settings.thickness, settings.region)) {
+    if (!is_constant()) steepest_ = survey_steepest();
+}
+
+double TpmsSolid::survey_steepest() const {
+    const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
+    double graded = 0;
+    for (int i = 0; i < survey_side * survey_side * survey_side; ++i) {
+        const dvec3 at(i % survey_side, i / survey_side % survey_side, i / survey_side / survey_side);
+        const dvec3 p = settings_.region.lo + at * step;
+        const double period = period_at(p), thickness = thickness_at(p);
+        dvec3 of_period(0), of_thickness(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(step[axis] > 0)) continue;
+            dvec3 q = p;
+            q[axis] += step[axis];
+            of_period[axis] = (period_at(q) - period) / step[axis];
+            of_thickness[axis] = (thickness_at(q) - thickness) / step[axis];
+        }
+        const double stretch = length(of_period) * length(p - center_) / period;
+        const double scale = length(of_period) * 2 * g_.greatest / (turn * g_.steepest);
+        graded = std::max(graded, stretch + scale + length(of_thickness) / 2);
+    }
+    return 1 + graded * survey_safety;
+}
+
+double TpmsSolid::value_of(double g, double period, double thickness) const {
+    const double scale = period / (turn * g_.steepest);
+    if (settings_.network) return (g - g_.joined) * scale - thickness / 2;
+    return std::abs(g) * scale - g_.steepest_surface / g_.steepest * (thickness / 2);
+}
+
+Interval TpmsSolid::solid_levels(double period, double thickness) const {
+    const double steps = turn * (thickness / 2) / period;
+    if (settings_.network) return {-infinity, g_.joined + g_.steepest * steps};
+    return {-g_.steepest_surface * steps, g_.steepest_surface * steps};
+}
+
+double TpmsSolid::value(dvec3 p) const {
+    const double period = period_at(p);
+    const dvec3 d = p - center_;
+    const Wave wave = tpms_wave(kind(), Axis::x, angle(d.y, period), angle(d.z, period));
+    return value_of(wave.at(angle(d.x, period)), period, thickness_at(p));
+}
+
+Interval TpmsSolid::range(const Box& box) const {
+    const Interval period = constant_period_ ? Interval{period_, period_} : settings_.period->range(box);
+    const Interval thickness = thickness_over(box);
+    Box angles{(box.lo - center_) * turn, (box.hi - center_) * turn};
+    angles = {glm::min(angles.lo / period.lo, angles.lo / period.hi),
+              glm::max(angles.hi / period.lo, angles.hi / period.hi)};
+    Interval g = tpms_range(kind(), angles);
+    const double scale = 1 / (turn * g_.steepest);
+    if (settings_.network) {
+        const Interval part = product({(g.lo - g_.joined) * scale, (g.hi - g_.joined) * scale}, period);
+        return {part.lo - thickness.hi / 2, part.hi - thickness.lo / 2};
+    }
+    g = {g.contains(0) ? 0 : std::min(std::abs(g.lo), std::abs(g.hi)),
+         std::max(std::abs(g.lo), std::abs(g.hi))};
+    const double share = g_.steepest_surface / g_.steepest / 2;
+    return {g.lo * scale * period.lo - share * thickness.hi, g.hi * scale * period.hi - share * thickness.lo};
+}
+
+}  // namespace lamella
