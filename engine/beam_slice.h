@@ -15,6 +15,7 @@ namespace lamella {
 /// The beams of one plane, indexed by bands of lines; shared by foams, frames, supports and grown meshes.
 class BeamRows {
   public:
+    BeamRows() = default;
     /// Keeps the beams that meet the plane at height z, mm.
     BeamRows(const std::vector<Beam>& beams, double z);
 
@@ -31,7 +32,7 @@ class BeamRows {
                       RunCollector& runs) const;
 
     std::vector<Beam> beams_;
-    double z_;
+    double z_ = 0;
     PlaneIndex sections_;  ///< where each beam meets the plane
 };
 

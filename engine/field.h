@@ -13,6 +13,7 @@ namespace lamella {
 class Scratch;
 class SliceContext;
 class Field;
+class Grading;
 using FieldPtr = std::shared_ptr<const Field>;
 
 /// What a field's value says about the distance to its surface.
@@ -63,6 +64,9 @@ class Field : public std::enable_shared_from_this<Field> {
     /// A field that, inside this solid, is solid exactly within `thickness` mm of the surface (outside it may
     /// be anything); null where there is no closed form. The default takes the solid less its inward offset.
     virtual FieldPtr shell(double thickness) const;
+    /// The same with a thickness that varies (mm, >= 0, its range finite); null where there is no closed
+    /// form, as by default.
+    virtual FieldPtr graded_shell(const Grading& thickness) const;
     /// The solid in the plane at height z, owned by the context. The default samples `value`.
     /// Callers use SliceContext::slice, which works each pair (field, z) out once.
     virtual const SliceField& slice(SliceContext& context, double z) const;

@@ -1,14 +1,19 @@
-// Growing: per triangle a prism (its points moved up to a distance along the normal), per edge a capsule.
+// Growing: per triangle a wedge, per kept edge a beam.
 #include "engine/grown_mesh.h"
 
-#include "engine/line_frame.h"
+#include "engine/round_triangle_tree.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
 namespace {
 
-/// A reflex edge whose two prisms leave a wedge thinner than this is closed by rounding anyway, mm.
-constexpr double least_wedge = 1e-7;
+/// An edge whose two wedges leave a gap thinner than this is closed by rounding anyway, mm.
+constexpr double least_gap = 1e-7;
+/// How far an inner wedge reaches before its face, mm: enough for runs to meet the body's whatever the
+/// rounding.
+constexpr double overlap = 0.01;
+/// By how much a detour over another point has to be shorter to count, as a share of the radius.
+constexpr double clearly_shorter = 1e-6;
 
 struct HalfEdge {
     std::uint32_t low, high;  ///< corners, low < high
@@ -47,113 +52,170 @@ bool is_reflex(const TriangleMesh& mesh, const std::vector<dvec3>& normals, cons
     const dvec3 n = glm::cross(na, nb);
     const double sine = std::sqrt(glm::dot(n, n));
     const bool faces_away = glm::dot(na, nb) < 0;
-    if (!faces_away && sine * distance < least_wedge) return false;
+    if (!faces_away && sine * distance < least_gap) return false;
     const dvec3 edge = mesh.vertices[a.low];
     return glm::dot(na, mesh.vertices[opposite_corner(mesh, b)] - edge) > 0 ||
            glm::dot(nb, mesh.vertices[opposite_corner(mesh, a)] - edge) > 0;
 }
 
-}  // namespace
+/// The unit normal of the inner tangent plane of a triangle with radii, seen from the solid's inside.
+dvec3 inner_normal(const RoundTriangle& t) {
+    const auto wedge = inner_wedge(t, 0);
+    return wedge ? wedge->normals[1] : dvec3(0);
+}
 
-GrownMesh::GrownMesh(std::shared_ptr<const SolidMesh> solid, double distance, bool inside_only)
-    : solid_(std::move(solid)), distance_(distance) {
-    const TriangleMesh& mesh = solid_->mesh;
-    std::vector<Interval> heights;
+/// Whether some plane across the edge between two convex neighbours meets neither inner wedge where the
+/// edge's beam is. Seen along the edge, each wedge covers the angles from its face to its inner normal.
+bool leaves_gap(const TriangleMesh& mesh, dvec3 na, dvec3 nb, const HalfEdge& a, const HalfEdge& b,
+                double radius) {
+    if (na == dvec3(0) || nb == dvec3(0)) return true;
+    const dvec3 between = na - nb;
+    const bool faces_away = glm::dot(na, nb) < 0;
+    if (!faces_away && std::sqrt(glm::dot(between, between)) * radius < least_gap) return false;
+    const dvec3 edge = mesh.vertices[a.low];
+    return glm::dot(between, mesh.vertices[opposite_corner(mesh, b)] - edge) < 0 ||
+           glm::dot(-between, mesh.vertices[opposite_corner(mesh, a)] - edge) < 0;
+}
+
+std::vector<dvec3> face_normals(const TriangleMesh& mesh) {
+    std::vector<dvec3> normals;
+    normals.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles) {
         const dvec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
         const dvec3 n = glm::cross(b - a, c - a);
         const double area = std::sqrt(glm::dot(n, n));
-        normals_.push_back(area > 0 ? n / area : dvec3(0));
+        normals.push_back(area > 0 ? n / area : dvec3(0));
+    }
+    return normals;
+}
+
+}  // namespace
+
+GrownMesh::GrownMesh(std::shared_ptr<const SolidMesh> solid, double distance, bool inside_only)
+    : solid_(std::move(solid)), distance_(distance), whole_count_(mesh().triangles.size()) {
+    index_triangles();
+    const bool only_reflex = inside_only && solid_->oriented_manifold;
+    const std::vector<dvec3> normals = only_reflex ? face_normals(mesh()) : std::vector<dvec3>();
+    keep_edges([&](std::span<const HalfEdge> at_edge) {
+        return !only_reflex || at_edge.size() != 2 ||
+               is_reflex(mesh(), normals, at_edge[0], at_edge[1], distance_);
+    });
+}
+
+GrownMesh::GrownMesh(std::shared_ptr<const SolidMesh> solid, std::vector<double> radii,
+                     const RoundTriangleTree& tree)
+    : solid_(std::move(solid)), radii_(std::move(radii)), whole_count_(mesh().triangles.size()) {
+    index_triangles();
+    if (!solid_->oriented_manifold) {
+        keep_edges([](std::span<const HalfEdge>) { return true; });
+        return;
+    }
+    find_whole_triangles(tree);
+    const std::vector<dvec3> normals = face_normals(mesh());
+    keep_edges([&](std::span<const HalfEdge> at_edge) {
+        if (at_edge.size() != 2) return true;
+        const HalfEdge a = at_edge[0], b = at_edge[1];
+        if (whole_[a.triangle] || whole_[b.triangle]) return true;
+        const double largest = std::max(radius(a.low), radius(a.high));
+        return is_reflex(mesh(), normals, a, b, largest) ||
+               leaves_gap(mesh(), inner_normal(triangle(a.triangle)), inner_normal(triangle(b.triangle)), a,
+                          b, largest);
+    });
+}
+
+RoundTriangle GrownMesh::triangle(std::uint32_t number) const {
+    const auto& t = mesh().triangles[number];
+    return {{mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]},
+            {radius(t[0]), radius(t[1]), radius(t[2])}};
+}
+
+void GrownMesh::index_triangles() {
+    std::vector<Interval> heights;
+    heights.reserve(mesh().triangles.size());
+    for (const auto& t : mesh().triangles) {
+        const double a = mesh().vertices[t[0]].z, b = mesh().vertices[t[1]].z, c = mesh().vertices[t[2]].z;
+        const double reach = std::max(radius(t[0]), std::max(radius(t[1]), radius(t[2])));
+        // Without a radius there is nothing to grow, and an empty interval is never found.
         heights.push_back(
-            {std::min(a.z, std::min(b.z, c.z)) - distance, std::max(a.z, std::max(b.z, c.z)) + distance});
+            reach > 0 ? Interval{std::min(a, std::min(b, c)) - reach, std::max(a, std::max(b, c)) + reach}
+                      : Interval{});
     }
     triangles_by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
+}
 
-    const bool only_reflex = inside_only && solid_->oriented_manifold;
-    const std::vector<HalfEdge> halves = half_edges(mesh);
-    heights.clear();
+/// Marks the triangles at one of whose corners, or at whose centre, a way over another point of the surface
+/// undercuts the radius.
+void GrownMesh::find_whole_triangles(const RoundTriangleTree& tree) {
+    const auto undercut = [&](dvec3 p, double radius) {
+        const double limit = radius * (1 - clearly_shorter);
+        return radius > 0 && tree.least_detour(p, limit) < limit;
+    };
+    std::vector<bool> at_vertex(mesh().vertices.size());
+    for (std::uint32_t v = 0; v < at_vertex.size(); ++v)
+        at_vertex[v] = undercut(mesh().vertices[v], radius(v));
+    whole_.assign(mesh().triangles.size(), false);
+    whole_count_ = 0;
+    for (std::uint32_t k = 0; k < whole_.size(); ++k) {
+        const auto& t = mesh().triangles[k];
+        const RoundTriangle round = triangle(k);
+        whole_[k] = at_vertex[t[0]] || at_vertex[t[1]] || at_vertex[t[2]] ||
+                    undercut((round.corners[0] + round.corners[1] + round.corners[2]) / 3.0,
+                             (round.radii[0] + round.radii[1] + round.radii[2]) / 3.0);
+        whole_count_ += whole_[k];
+    }
+}
+
+template <typename IsKept>
+void GrownMesh::keep_edges(const IsKept& is_kept) {
+    const std::vector<HalfEdge> halves = half_edges(mesh());
+    std::vector<Interval> heights;
     for (std::size_t k = 0; k < halves.size();) {
         std::size_t end = k + 1;
         while (end < halves.size() && halves[end].low == halves[k].low && halves[end].high == halves[k].high)
             ++end;
-        const bool kept =
-            !only_reflex || end - k != 2 || is_reflex(mesh, normals_, halves[k], halves[k + 1], distance);
-        if (kept) {
-            const double a = mesh.vertices[halves[k].low].z, b = mesh.vertices[halves[k].high].z;
-            edges_.emplace_back(halves[k].low, halves[k].high);
-            heights.push_back({std::min(a, b) - distance, std::max(a, b) + distance});
+        const std::uint32_t low = halves[k].low, high = halves[k].high;
+        const double reach = std::max(radius(low), radius(high));
+        if (reach > 0 && is_kept(std::span(halves).subspan(k, end - k))) {
+            const double a = mesh().vertices[low].z, b = mesh().vertices[high].z;
+            edges_.emplace_back(low, high);
+            heights.push_back({std::min(a, b) - reach, std::max(a, b) + reach});
         }
         k = end;
     }
     edges_by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
 }
 
-void GrownMesh::near_plane(double z, std::vector<std::uint32_t>& triangles,
-                           std::vector<Beam>& capsules) const {
-    triangles_by_height_.query({z, z}, triangles);
-    std::vector<std::uint32_t> edges;
-    edges_by_height_.query({z, z}, edges);
-    capsules.clear();
-    for (const std::uint32_t e : edges) {
-        capsules.push_back(
-            {mesh().vertices[edges_[e].first], distance_, mesh().vertices[edges_[e].second], distance_});
+void GrownMesh::near_plane(double z, std::vector<Wedge>& wedges, std::vector<Beam>& beams) const {
+    std::vector<std::uint32_t> found;
+    triangles_by_height_.query({z, z}, found);
+    wedges.clear();
+    wedges.reserve(found.size());
+    for (const std::uint32_t k : found) {
+        const bool inner = !whole_.empty() && !whole_[k];
+        if (const auto w = inner ? inner_wedge(triangle(k), overlap) : wedge(triangle(k)))
+            wedges.push_back(*w);
     }
-}
-
-void GrownMesh::collect_prism(std::uint32_t triangle, double z, const RowBand& band,
-                              RunCollector& runs) const {
-    const dvec3 n = normals_[triangle];
-    if (n == dvec3(0)) return;
-    const auto& t = mesh().triangles[triangle];
-    const dvec3 corner[3] = {mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]};
-    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
-    const double low = std::min(corner[0][across], std::min(corner[1][across], corner[2][across]));
-    const double high = std::max(corner[0][across], std::max(corner[1][across], corner[2][across]));
-    const double reach = distance_ * std::sqrt(std::max(1 - n.z * n.z, 0.0));
-    const LineRange lines = lines_across(band, {low - reach, high + reach});
-    if (lines.first >= lines.last) return;
-
-    const dvec3 center = (corner[0] + corner[1] + corner[2]) / 3.0;
-    const double dz = z - center.z;
-    PrismInPlane p;
-    const auto set = [&](std::size_t k, dvec3 normal, double limit) {
-        p.nx[k] = static_cast<float>(normal[along]);
-        p.ny[k] = static_cast<float>(normal[across]);
-        p.limit[k] = static_cast<float>(limit - normal.z * dz);
-    };
-    const double height = glm::dot(n, corner[0] - center);
-    set(0, n, height + distance_);
-    set(1, -n, distance_ - height);
-    for (std::size_t e = 0; e < 3; ++e) {
-        const dvec3 side = glm::cross(corner[(e + 1) % 3] - corner[e], n);
-        const double l = std::sqrt(glm::dot(side, side));
-        set(2 + e, side / l, glm::dot(side / l, corner[e] - center));
+    edges_by_height_.query({z, z}, found);
+    beams.clear();
+    for (const std::uint32_t e : found) {
+        const auto [a, b] = edges_[e];
+        beams.push_back({mesh().vertices[a], radius(a), mesh().vertices[b], radius(b)});
     }
-    const auto out = runs.add(lines.first, lines.last - lines.first);
-    prism_rows(line_frame(band, lines.first, dvec2(center)), p, lines.last - lines.first, out.begin, out.end);
 }
 
 GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, double z)
-    : SampledSlice(field, z), grown_(grown), z_(z) {
-    std::vector<Beam> capsules;
-    grown.near_plane(z, triangles_, capsules);
-    capsules_ = std::make_unique<BeamRows>(capsules, z);
-    std::vector<Rect> prisms;
-    for (const std::uint32_t triangle : triangles_) {
-        const auto& t = grown.mesh().triangles[triangle];
-        Box box;
-        for (const std::uint32_t v : t) box.include(grown.mesh().vertices[v]);
-        prisms.push_back(lamella::grown(box.rect(), grown.distance()));
-    }
-    prisms_ = PlaneIndex(std::move(prisms));
+    : SampledSlice(field, z) {
+    std::vector<Wedge> wedges;
+    std::vector<Beam> beams;
+    grown.near_plane(z, wedges, beams);
+    wedges_ = WedgeRows(std::move(wedges), z);
+    beams_ = BeamRows(beams, z);
 }
 
 void GrownMeshSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
-    std::vector<std::uint32_t> items;
-    prisms_.query(band, items);
     scratch.collector.clear();
-    for (const std::uint32_t i : items) grown_.collect_prism(triangles_[i], z_, band, scratch.collector);
-    capsules_->collect(band, scratch.collector);
+    wedges_.collect(band, scratch.collector);
+    beams_.collect(band, scratch.collector);
     scratch.collector.merge(band, out);
 }
 

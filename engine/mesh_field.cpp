@@ -4,8 +4,11 @@
 #include "engine/closed_slice.h"
 #include "engine/csg.h"
 #include "engine/error.h"
+#include "engine/graded_mesh.h"
 #include "engine/grown_mesh.h"
 #include "engine/mesh_section.h"
+#include "engine/primitives.h"
+#include "engine/round_triangle_tree.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 
@@ -58,17 +61,49 @@ class MeshSlice : public SampledSlice {
 class GrownMeshField : public Field {
   public:
     GrownMeshField(MeshDataPtr data, double distance, bool inside_only)
-        : data_(std::move(data)), grown_(data_->solid, distance, inside_only) {}
-    double value(dvec3 p) const override { return data_->tree.distance(p) - grown_.distance(); }
+        : data_(std::move(data)), distance_(distance), grown_(data_->solid, distance, inside_only) {}
+    double value(dvec3 p) const override { return data_->tree.distance(p) - distance_; }
     Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
     Metric metric() const override { return Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override {
         return context.make<GrownMeshSlice>(*this, grown_, z);
     }
-    Box bounds() const override { return grown(data_->bounds, grown_.distance()); }
+    Box bounds() const override { return grown(data_->bounds, distance_); }
 
   private:
     MeshDataPtr data_;
+    double distance_;
+    GrownMesh grown_;
+};
+
+/// Everything within a distance of a mesh's surface that varies over it; only the part inside the mesh
+/// counts.
+class GradedMeshShell : public Field {
+  public:
+    GradedMeshShell(const SolidMesh& solid, GradedMesh graded)
+        : solid_(std::make_shared<const SolidMesh>(divided(solid, std::move(graded.mesh)))),
+          radii_(graded.numbers),
+          tree_(solid_->mesh, radii_),
+          grown_(solid_, std::move(graded.numbers), tree_) {}
+    double value(dvec3 p) const override { return tree_.distance(p); }
+    Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
+    Metric metric() const override { return Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.make<GrownMeshSlice>(*this, grown_, z);
+    }
+    Box bounds() const override { return tree_.bounds(); }
+
+  private:
+    static SolidMesh divided(const SolidMesh& solid, TriangleMesh mesh) {
+        SolidMesh divided;
+        divided.mesh = std::move(mesh);
+        divided.oriented_manifold = solid.oriented_manifold;
+        return divided;
+    }
+
+    std::shared_ptr<const SolidMesh> solid_;
+    std::vector<double> radii_;
+    RoundTriangleTree tree_;
     GrownMesh grown_;
 };
 
@@ -91,6 +126,12 @@ class MeshField : public Field {
     }
     FieldPtr shell(double thickness) const override {
         return std::make_shared<GrownMeshField>(data_, thickness, true);
+    }
+    FieldPtr graded_shell(const Grading& thickness) const override {
+        GradedMesh graded = read_on_mesh(thickness, data_->solid->mesh);
+        const auto& radii = graded.numbers;
+        if (std::all_of(radii.begin(), radii.end(), [](double r) { return r == 0; })) return make_empty();
+        return std::make_shared<GradedMeshShell>(*data_->solid, std::move(graded));
     }
     const SliceField& slice(SliceContext& context, double z) const override {
         return context.make<MeshSlice>(*this, *data_, z);

@@ -1,8 +1,11 @@
 // Shells by the body's own closed form, and filled bodies that ask the body once for each point.
 #include "engine/shell.h"
 
+#include <fmt/format.h>
+
 #include "engine/csg.h"
 #include "engine/error.h"
+#include "engine/primitives.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -45,7 +48,31 @@ class FilledBody : public Field {
     FieldPtr solid_;
 };
 
+/// What lies, inside a body with exact distances, no deeper than the thickness asked for there.
+class GradedShell : public Field {
+  public:
+    GradedShell(FieldPtr body, GradingPtr thickness)
+        : body_(std::move(body)), thickness_(std::move(thickness)) {}
+    double value(dvec3 p) const override { return -body_->value(p) - thickness_->at(p); }
+    Interval range(const Box& box) const override {
+        const Interval values = body_->range(box), thickness = thickness_->range(box);
+        return {-values.hi - thickness.hi, -values.lo - thickness.lo};
+    }
+    Metric metric() const override { return Metric::sign; }
+    Box bounds() const override { return body_->bounds(); }
+
+  private:
+    FieldPtr body_;
+    GradingPtr thickness_;
+};
+
+[[noreturn]] void refuse_skin() {
+    throw InputError("this shape has no exact 3D offset, so it cannot be given a skin of a stated thickness");
+}
+
 }  // namespace
+
+FieldPtr Field::graded_shell(const Grading& /*thickness*/) const { return nullptr; }
 
 FieldPtr Field::shell(double thickness) const {
     FieldPtr core = offset(-thickness);
@@ -56,11 +83,26 @@ FieldPtr make_shell(const FieldPtr& body, double thickness) {
     if (!(thickness > 0) || !std::isfinite(thickness))
         throw InputError("a skin needs a positive, finite thickness");
     if (FieldPtr shell = body->shell(thickness)) return shell;
-    if (body->metric() != Metric::exact) {
-        throw InputError(
-            "this shape has no exact 3D offset, so it cannot be given a skin of a stated thickness");
-    }
+    if (body->metric() != Metric::exact) refuse_skin();
     return make_difference(body, make_offset(body, -thickness));
+}
+
+FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
+    if (!body || !thickness) throw InputError("a graded skin needs a body and a thickness");
+    if (!(0 <= limits.lo && limits.lo <= limits.hi && 0 < limits.hi && std::isfinite(limits.hi))) {
+        throw InputError(
+            fmt::format("the thickness of a graded skin is limited to {} .. {} mm; the limits must be in "
+                        "order and finite, "
+                        "the lower one at least 0, the upper one above 0",
+                        limits.lo, limits.hi));
+    }
+    const GradingPtr clamped = make_clamped_grading(thickness, limits);
+    const Interval asked = clamped->range(body->bounds());
+    if (asked.hi == 0) return make_empty();
+    if (asked.width() == 0) return make_shell(body, asked.hi);
+    if (FieldPtr shell = body->graded_shell(*clamped)) return shell;
+    if (body->metric() != Metric::exact) refuse_skin();
+    return std::make_shared<GradedShell>(body, clamped);
 }
 
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
@@ -72,6 +114,15 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
     FieldPtr inside = skinned ? make_union({filling, std::move(shell)}) : filling;
     FieldPtr solid = make_intersection({body, std::move(inside)});
     return std::make_shared<FilledBody>(std::move(body), std::move(filling), thickness, std::move(solid));
+}
+
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness, Interval limits) {
+    FieldPtr shell = make_shell(body, thickness, limits);
+    const Interval asked = make_clamped_grading(thickness, limits)->range(body->bounds());
+    if (asked.width() == 0 && (filling || asked.hi > 0))
+        return make_filled_body(std::move(body), std::move(filling), asked.hi);
+    FieldPtr inside = filling ? make_union({std::move(filling), std::move(shell)}) : std::move(shell);
+    return make_intersection({std::move(body), std::move(inside)});
 }
 
 }  // namespace lamella

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/field.h"
+#include "engine/grading.h"
 
 namespace lamella {
 
@@ -10,8 +11,19 @@ namespace lamella {
 /// a closed-form offset.
 FieldPtr make_shell(const FieldPtr& body, double thickness);
 
+/// A shell whose thickness varies, mm, kept within limits (0 <= lo <= hi, hi > 0; where the grading is NaN,
+/// the upper one). A mesh's is read at its surface: about each of its points the ball with the thickness
+/// there as radius; triangles are divided until the thickness is linear over them to 2 %, or they are small
+/// against it. Where it is 0 there is no shell. Any other body needs a metric that is exact, and its
+/// thickness is read at the point in question. InputError for other bodies.
+FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
+
 /// The body filled: its part that is in the filling or within `thickness` mm of its surface. The filling may
 /// be null (a hollow body), the thickness 0 (no skin); not both.
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness);
+
+/// The body filled, with a shell of varying thickness; the filling may be null.
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness,
+                          Interval thickness_limits);
 
 }  // namespace lamella

@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "engine/triangle_distance.h"
+
 namespace lamella {
 namespace {
 
@@ -11,29 +13,6 @@ constexpr std::uint32_t leaf_size = 4;
 double squared_distance(const Box& box, dvec3 p) {
     const dvec3 d = glm::max(glm::max(box.lo - p, p - box.hi), dvec3(0.0));
     return d.x * d.x + d.y * d.y + d.z * d.z;
-}
-
-double squared(dvec3 v) { return glm::dot(v, v); }
-
-/// Squared distance from p to the segment a, a + e.
-double squared_distance_to_edge(dvec3 p, dvec3 a, dvec3 e) {
-    const dvec3 d = p - a;
-    const double t = std::min(std::max(glm::dot(d, e) / glm::dot(e, e), 0.0), 1.0);
-    return squared(d - e * t);
-}
-
-/// Squared distance from p to a triangle: over its face when p projects into it, else to its nearest edge.
-double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
-    const dvec3 ab = b - a, bc = c - b, ca = a - c;
-    const dvec3 n = glm::cross(ab, c - a);
-    const bool inside = glm::dot(glm::cross(ab, n), p - a) <= 0 && glm::dot(glm::cross(bc, n), p - b) <= 0 &&
-                        glm::dot(glm::cross(ca, n), p - c) <= 0;
-    if (inside) {
-        const double h = glm::dot(n, p - a);
-        return h * h / glm::dot(n, n);
-    }
-    return std::min(squared_distance_to_edge(p, a, ab),
-                    std::min(squared_distance_to_edge(p, b, bc), squared_distance_to_edge(p, c, ca)));
 }
 
 /// How far along the edge from a to b the point closest to p lies, 0 to 1.
