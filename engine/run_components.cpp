@@ -1,0 +1,200 @@
+// Labelling within a layer, and union-find over the layers.
+#include "engine/run_components.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace lamella {
+namespace {
+
+/// The root above an entry; shortens the way to it.
+std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
+    while (parents[i] != i) {
+        parents[i] = parents[parents[i]];
+        i = parents[i];
+    }
+    return i;
+}
+
+/// Joins two sets; the lower root stays, so that numbers tell what came first.
+void join(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
+    a = root_of(parents, a);
+    b = root_of(parents, b);
+    parents[std::max(a, b)] = std::min(a, b);
+}
+
+bool begins_first(const LabelledRun& a, const LabelledRun& b) { return a.begin < b.begin; }
+
+/// Appends the union of the grown runs of lines [first, last] as one row, each run a component of its own.
+void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t units,
+                      std::vector<LabelledRun>& row, LabelledLayer& out) {
+    row.clear();
+    for (int l = first; l <= last; ++l) {
+        const auto sorted = static_cast<std::ptrdiff_t>(row.size());
+        for (const Run& run : lines.line(static_cast<std::size_t>(l))) {
+            row.push_back({run.begin - units, run.end + units, 0});
+        }
+        std::inplace_merge(row.begin(), row.begin() + sorted, row.end(), begins_first);
+    }
+    const std::size_t start = out.runs.size();
+    for (const LabelledRun& run : row) {
+        if (out.runs.size() > start && run.begin <= out.runs.back().end) {
+            out.runs.back().end = std::max(out.runs.back().end, run.end);
+        } else {
+            out.runs.push_back({run.begin, run.end, static_cast<std::uint32_t>(out.runs.size())});
+        }
+    }
+    out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
+}
+
+/// Turns the number of each run into the number of its component, by appearance; returns how many there are.
+std::uint32_t number_components(LabelledLayer& layer) {
+    std::vector<std::uint32_t> parents(layer.runs.size());
+    std::iota(parents.begin(), parents.end(), 0U);
+    for (int r = layer.first_row + 1; r < layer.first_row + layer.rows(); ++r) {
+        for_touching(layer.row(r - 1), layer.row(r), [&](const LabelledRun& a, const LabelledRun& b) {
+            join(parents, a.component, b.component);
+        });
+    }
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < layer.runs.size(); ++i) {
+        const std::uint32_t root = root_of(parents, i);
+        layer.runs[i].component = root == i ? count++ : layer.runs[root].component;
+    }
+    return count;
+}
+
+}  // namespace
+
+void ComponentExtent::include(const ComponentExtent& other) {
+    length += other.length;
+    along = {std::min(along.begin, other.along.begin), std::max(along.end, other.along.end)};
+    first_row = std::min(first_row, other.first_row);
+    last_row = std::max(last_row, other.last_row);
+    first_layer = std::min(first_layer, other.first_layer);
+    last_layer = std::max(last_layer, other.last_layer);
+}
+
+std::span<const LabelledRun> LabelledLayer::row(int r) const {
+    const int i = r - first_row;
+    if (i < 0 || i >= rows()) return {};
+    const auto at = static_cast<std::size_t>(i);
+    return std::span(runs).subspan(starts[at], starts[at + 1] - starts[at]);
+}
+
+LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth) {
+    LabelledLayer out;
+    out.first_row = -growth.rows;
+    out.starts.push_back(0);
+    const int count = static_cast<int>(rows.lines());
+    std::vector<LabelledRun> row;
+    for (int r = -growth.rows; r < count + growth.rows; ++r) {
+        append_grown_row(rows, std::max(r - growth.rows, 0), std::min(r + growth.rows, count - 1),
+                         growth.units, row, out);
+    }
+    out.components.resize(number_components(out));
+    for (int r = 0; r < count; ++r) {
+        for_touching(
+            rows.line(static_cast<std::size_t>(r)), out.row(r),
+            [&](const Run& run, const LabelledRun& grown) {
+                out.components[grown.component].include({run.end - run.begin, run, r, r, layer, layer});
+                out.owners.push_back(grown.component);
+            });
+    }
+    assert(out.owners.size() == rows.runs().size());
+    return out;
+}
+
+RunComponents::RunComponents(const Growth& growth, std::size_t most_runs)
+    : reach_(2 * growth.layers + 1), most_runs_(most_runs) {}
+
+std::uint32_t RunComponents::find(std::uint32_t number) { return root_of(parents_, number); }
+
+std::vector<std::uint32_t> RunComponents::add(LabelledLayer layer, int index) {
+    constexpr std::uint32_t none = UINT32_MAX;
+    std::vector<std::uint32_t> numbers(layer.components.size(), none);
+    const auto link = [&](const LabelledRun& run, const LabelledRun& older) {
+        std::uint32_t& number = numbers[run.component];
+        if (number == older.component) return;
+        if (number == none) {
+            number = older.component;
+        } else {
+            unite(number, older.component);
+        }
+    };
+    for (const LabelledLayer& older : recent_) {
+        for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+            if (layer.row(r).empty()) continue;
+            for (int near = r - 1; near <= r + 1; ++near) {
+                for_touching(layer.row(r), older.row(near), link);
+            }
+        }
+    }
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+        if (numbers[c] == none) {
+            numbers[c] = static_cast<std::uint32_t>(parents_.size());
+            parents_.push_back(numbers[c]);
+            components_.push_back(std::make_unique<Component>());
+        }
+        numbers[c] = find(numbers[c]);
+        components_[numbers[c]]->extent.include(layer.components[c]);
+    }
+    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+        for (const LabelledRun& run : layer.row(r)) {
+            Component& component = *components_[numbers[run.component]];
+            if (++component.run_count <= most_runs_) {
+                component.runs.push_back({index, r, run.begin, run.end});
+                ++runs_kept_;
+            } else {
+                forget_runs(component);
+            }
+        }
+    }
+    for (LabelledRun& run : layer.runs) run.component = numbers[run.component];
+    recent_.push_back(std::move(layer));
+    if (recent_.size() > static_cast<std::size_t>(reach_)) recent_.pop_front();
+    return numbers;
+}
+
+void RunComponents::unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return;
+    const std::uint32_t low = std::min(a, b), high = std::max(a, b);
+    Component& kept = *components_[low];
+    Component& joined = *components_[high];
+    kept.extent.include(joined.extent);
+    kept.run_count += joined.run_count;
+    if (kept.run_count > most_runs_) {
+        forget_runs(kept);
+        forget_runs(joined);
+    } else {
+        if (kept.runs.size() < joined.runs.size()) kept.runs.swap(joined.runs);
+        kept.runs.insert(kept.runs.end(), joined.runs.begin(), joined.runs.end());
+    }
+    for (const std::uint32_t group : joined.groups) mark(low, group);
+    parents_[high] = low;
+    components_[high].reset();
+}
+
+void RunComponents::forget_runs(Component& component) {
+    runs_kept_ -= component.runs.size();
+    component.runs = {};
+}
+
+void RunComponents::mark(std::uint32_t number, std::uint32_t group) {
+    auto& groups = components_[find(number)]->groups;
+    const auto place = std::lower_bound(groups.begin(), groups.end(), group);
+    if (place == groups.end() || *place != group) groups.insert(place, group);
+}
+
+std::vector<std::uint32_t> RunComponents::numbers() const {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < components_.size(); ++i) {
+        if (components_[i]) numbers.push_back(i);
+    }
+    return numbers;
+}
+
+}  // namespace lamella

@@ -1,0 +1,221 @@
+// Nodes by rounding, XML in pieces, the package's three parts.
+#include "printers/beam_lattice.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/number_format.h"
+#include "printers/zip_writer.h"
+
+namespace lamella {
+namespace {
+
+constexpr int decimals = 5;
+constexpr double units_per_mm = 1e5;
+constexpr double shortest = 1 / units_per_mm;  // mm; nodes that differ are at least this far apart
+constexpr double farthest = 1e6;               // mm
+constexpr std::size_t most_beams = (std::size_t{1} << 31U) - 1;
+
+constexpr std::string_view content_types =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+    "</Types>\n";
+constexpr std::string_view relationships =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+    "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
+    "</Relationships>\n";
+
+/// A place in units of 1e-5 mm.
+using Node = std::array<std::int64_t, 3>;
+
+/// Halves away from zero, as numbers are written.
+std::int64_t rounded(double mm) { return std::llround(mm * units_per_mm); }
+Node node_at(dvec3 p) { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+
+struct NodeHash {
+    std::size_t operator()(const Node& node) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t v : node) {
+            hash = (hash ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15U;
+            hash ^= hash >> 32U;
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
+void check(std::span<const Beam> beams) {
+    if (beams.empty()) throw InputError("a beam lattice needs beams, and there are none");
+    if (beams.size() > most_beams) throw InputError("a beam lattice holds at most 2^31 - 1 beams");
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        const Beam& beam = beams[i];
+        bool good = beam.ra > 0 && beam.rb > 0 && beam.ra <= farthest && beam.rb <= farthest;
+        for (int k = 0; k < 3; ++k)
+            good = good && std::abs(beam.a[k]) <= farthest && std::abs(beam.b[k]) <= farthest;
+        if (!good)
+            throw InputError(
+                "beam " + std::to_string(i) +
+                " cannot be written: its ends must lie within 1e6 mm of the origin and its radii "
+                "between 0 and 1e6 mm");
+    }
+}
+
+/// The bytes that begin a valid UTF-8 character of XML at the start of the text; 0 when there is none.
+std::size_t character_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned first = byte(0);
+    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+    std::uint32_t code = first & (0xffU >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0U) != 0x80) return 0;
+        code = code << 6U | (byte(i) & 0x3fU);
+    }
+    const bool overlong = code < (length == 2 ? 0x80U : length == 3 ? 0x800U : 0x10000U);
+    const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+    return overlong || surrogate || code > 0x10ffff || code == 0xfffe || code == 0xffff ? 0 : length;
+}
+
+/// The text as the value of an XML attribute.
+std::string attribute_text(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        if (length == 1 && text[0] == '&') {
+            out += "&amp;";
+        } else if (length == 1 && text[0] == '<') {
+            out += "&lt;";
+        } else if (length == 1 && text[0] == '"') {
+            out += "&quot;";
+        } else {
+            out += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return out;
+}
+
+/// Text that goes to the archive in pieces.
+class Piecewise {
+  public:
+    explicit Piecewise(ZipWriter& zip) : zip_(zip) {}
+    Piecewise& operator<<(std::string_view text) {
+        text_ += text;
+        if (text_.size() >= piece) flush();
+        return *this;
+    }
+    Piecewise& number(double value) {
+        append_number(text_, value, decimals);
+        return *this;
+    }
+    void flush() {
+        zip_.write(text_);
+        text_.clear();
+    }
+
+  private:
+    static constexpr std::size_t piece = 1 << 16;
+    ZipWriter& zip_;
+    std::string text_;
+};
+
+double radius_of(double r) { return std::max(r, shortest); }
+
+class LatticeWriter {
+  public:
+    LatticeWriter(std::span<const Beam> beams, ZipWriter& zip) : beams_(beams), out_(zip) {}
+
+    BeamLatticeReport write(const std::string& name) {
+        out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+                "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+                "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\" "
+                "requiredextensions=\"b\">\n"
+                "<metadata name=\"Application\">Lamella</metadata>\n"
+                "<resources>\n<object id=\"1\" type=\"model\" name=\""
+             << attribute_text(name) << "\">\n<mesh>\n<vertices>\n";
+        write_nodes();
+        out_ << "</vertices>\n<triangles/>\n";
+        write_beams();
+        out_ << "</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n";
+        out_.flush();
+        return report_;
+    }
+
+  private:
+    /// Nodes are numbered as the beams name them first; a beam without a length names none.
+    void write_nodes() {
+        for (const Beam& beam : beams_) {
+            const Node a = node_at(beam.a), b = node_at(beam.b);
+            if (a == b) {
+                ++report_.dropped;
+                continue;
+            }
+            write_node(a);
+            write_node(b);
+            ++report_.beams;
+        }
+        if (report_.beams == 0)
+            throw InputError("a beam lattice needs a beam of some length, and there is none");
+        report_.vertices = numbers_.size();
+    }
+
+    void write_node(const Node& node) {
+        if (!numbers_.emplace(node, numbers_.size()).second) return;
+        (out_ << "<vertex x=\"").number(static_cast<double>(node[0]) / units_per_mm) << "\" y=\"";
+        out_.number(static_cast<double>(node[1]) / units_per_mm) << "\" z=\"";
+        out_.number(static_cast<double>(node[2]) / units_per_mm) << "\"/>\n";
+    }
+
+    /// Radii that a beam does not state are the lattice's: the first beam's.
+    void write_beams() {
+        std::int64_t common = 0;
+        for (const Beam& beam : beams_) {
+            if (node_at(beam.a) == node_at(beam.b)) continue;
+            const std::int64_t r1 = rounded(radius_of(beam.ra)), r2 = rounded(radius_of(beam.rb));
+            if (common == 0) {
+                common = r1;
+                (out_ << "<b:beamlattice minlength=\"").number(shortest) << "\" radius=\"";
+                out_.number(static_cast<double>(common) / units_per_mm) << "\" cap=\"sphere\">\n<b:beams>\n";
+            }
+            out_ << "<b:beam v1=\"" << std::to_string(numbers_.at(node_at(beam.a))) << "\" v2=\""
+                 << std::to_string(numbers_.at(node_at(beam.b)));
+            if (r1 != common || r2 != common)
+                (out_ << "\" r1=\"").number(static_cast<double>(r1) / units_per_mm);
+            if (r2 != r1) (out_ << "\" r2=\"").number(static_cast<double>(r2) / units_per_mm);
+            out_ << "\"/>\n";
+        }
+        out_ << "</b:beams>\n</b:beamlattice>\n";
+    }
+
+    std::span<const Beam> beams_;
+    Piecewise out_;
+    std::unordered_map<Node, std::size_t, NodeHash> numbers_;
+    BeamLatticeReport report_;
+};
+
+}  // namespace
+
+BeamLatticeReport write_beam_lattice(const std::filesystem::path& path, std::span<const Beam> beams,
+                                     const std::string& name) {
+    check(beams);
+    ZipWriter zip(path);
+    zip.begin_entry("[Content_Types].xml");
+    zip.write(content_types);
+    zip.begin_entry("_rels/.rels");
+    zip.write(relationships);
+    zip.begin_entry("3D/3dmodel.model");
+    const BeamLatticeReport report = LatticeWriter(beams, zip).write(name);
+    zip.finish();
+    return report;
+}
+
+}  // namespace lamella
