@@ -134,10 +134,9 @@ std::string graded_text(const Json& number) {
 
 std::string foam_text(const Json& foam) {
     const bool walls = foam.contains("wall_mm");
-    std::string text =
-        fmt::format("foam      {}: cells of {} mm, {} of {} mm", foam["kind"].get<std::string>(),
-                    graded_text(foam["cell_mm"]), walls ? "walls" : "beams of radius",
-                    graded_text(foam[walls ? "wall_mm" : "beam_mm"]));
+    std::string text = fmt::format("foam      {}: cells of {} mm, {} {} mm", foam["kind"].get<std::string>(),
+                                   graded_text(foam["cell_mm"]), walls ? "walls of" : "beams of radius",
+                                   graded_text(foam[walls ? "wall_mm" : "beam_mm"]));
     if (foam.contains("seed")) {
         text += fmt::format(", seed {}: about {:.0f} seeds in the bounds", foam["seed"].get<std::int64_t>(),
                             foam["expected_seeds_in_bounds"].get<double>());

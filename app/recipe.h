@@ -96,7 +96,7 @@ struct FoamRecipe {
     double beam_min = 0.005;
     double beam_max = 500;
     GradedNumber wall;  ///< thickness of walls, of a network's struts, mm
-    double wall_min = 0.005;
+    double wall_min = 0.01;
     double wall_max = 500;
     bool network = false;   ///< struts along one side of a periodic surface instead of a wall on it
     std::int64_t seed = 1;  ///< of the random draws

@@ -31,6 +31,9 @@ void add_part(std::vector<Setting>& t) {
         {.fallback = "a mesh, a shape or a field must be given",
          .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder.",
          .is_path = true}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.field; }>(
+        "part", "field", "--field",
+        {.fallback = "the only [[field]] there is", .help = "Name of the [[field]] that is the body."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.shape; }>(
         "part", "shape", "--shape",
         {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
@@ -212,6 +215,7 @@ void add_foam_row(std::vector<Setting>& t, const char* key, const char* flag, Fa
 
 constexpr Limits cells{0.05, 1000};
 constexpr Limits beams{0.005, 500};
+constexpr Limits walls{0.01, 500};
 
 void add_foam(std::vector<Setting>& t) {
     using F = FoamRecipe;
@@ -245,12 +249,12 @@ void add_foam(std::vector<Setting>& t) {
                                    "Greatest radius that is made: graded beams are kept below it.");
     add_foam_row<&F::wall>(t, "wall", "--wall",
                            {.unit = "mm",
-                            .limits = beams,
+                            .limits = walls,
                             .fallback = "required by periodic surfaces",
                             .help = "Thickness of the walls, at least; of a network, of its struts."});
-    bound.operator()<&F::wall_min>("wall_min", "--wall-min", beams, beams.lo,
+    bound.operator()<&F::wall_min>("wall_min", "--wall-min", walls, walls.lo,
                                    "Least thickness that is made: graded walls are kept above it.");
-    bound.operator()<&F::wall_max>("wall_max", "--wall-max", beams, beams.hi,
+    bound.operator()<&F::wall_max>("wall_max", "--wall-max", walls, walls.hi,
                                    "Greatest thickness that is made: graded walls are kept below it.");
     add_foam_row<&F::network>(
         t, "network", "--network",

@@ -73,8 +73,9 @@ Value another_value(const Setting& setting) {
         case ValueType::formula:
             return GradedNumber{"x - 1.5", ""};
         case ValueType::rows:
-            return NumberRows(std::max<std::size_t>(setting.shape.rows, 1),
-                              std::vector<double>(setting.shape.columns, 2.5));
+            return NumberRows(
+                std::max<std::size_t>(setting.shape.rows, 1),
+                std::vector<double>(setting.shape.columns, setting.limits.hi <= 1 ? 0.375 : 2.5));
         case ValueType::choice:
             return format_value(held) == setting.choices.back() ? setting.choices.front()
                                                                 : setting.choices.back();
@@ -120,7 +121,7 @@ TEST_CASE("a recipe's values arrive in the recipe") {
     CHECK(recipe.foam->beam.number() == 0.4);
     CHECK(recipe.foam->seed == 9223372036854775807);
     REQUIRE(recipe.skin);
-    CHECK(recipe.skin->thickness == 0.8);
+    CHECK(recipe.skin->thickness.number() == 0.8);
     CHECK(recipe.layer_height == 0.1);
     CHECK(recipe.printer.backend == "svg");
     CHECK(recipe.printer.image.pixel_x == 0.04);
