@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "app/build_job.h"
@@ -10,6 +11,7 @@
 #include "app/settings.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "printers/beam_lattice.h"
 
 namespace lamella {
 
@@ -40,40 +42,59 @@ Box parse_box(const std::string& text) {
     return box;
 }
 
-void write_seeds(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
+void write_seeds(const BuiltFoam& foam, const Box& box, TextOutput& out) {
     for (const Seed& s : foam.seeds_in(box)) {
         out.write(fmt::format("{},{},{}\n", s.position.x, s.position.y, s.position.z));
     }
 }
 
-void write_beams(const VoronoiFoam& foam, const Box& box, TextOutput& out) {
+void write_beams(const BuiltFoam& foam, const Box& box, TextOutput& out) {
     for (const Beam& b : foam.beams_touching(box)) {
         out.write(
             fmt::format("{},{},{},{},{},{},{},{}\n", b.a.x, b.a.y, b.a.z, b.ra, b.b.x, b.b.y, b.b.z, b.rb));
     }
 }
 
+void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& options,
+                   const std::string& name) {
+    if (options.what != "beams") throw InputError("--format: 3mf holds beams; accepted: dump beams, or csv");
+    if (options.output.empty() || options.output == "-") {
+        throw InputError("--output: missing; accepted: the file that 3mf is written to");
+    }
+    const BeamLatticeReport report = write_beam_lattice(options.output, foam.beams_touching(box), name);
+    std::fputs(fmt::format("{}: {} beams between {} nodes, {} too short to be written\n", options.output,
+                           report.beams, report.vertices, report.dropped)
+                   .c_str(),
+               stderr);
+}
+
 void run(const DumpOptions& options) {
     const Recipe recipe = options.recipe.read(false);
     if (!recipe.foam)
         throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
-    const bool has_body = !recipe.part.mesh.empty() || recipe.part.shape != Shape::none;
+    const bool has_body =
+        !recipe.part.mesh.empty() || !recipe.part.field.empty() || recipe.part.shape != Shape::none;
     if (options.box.empty() && !has_body)
         throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
     std::optional<Box> box;
     if (!options.box.empty()) box = parse_box(options.box);
-    std::shared_ptr<const VoronoiFoam> foam;
+    BuiltFoam foam;
     if (has_body) {
-        const BuiltJob built = build_job(recipe);
-        foam = built.foam;
+        BuiltJob built = build_job(recipe);
+        foam = std::move(*built.foam);
         if (!box) box = built.job.bounds;
     } else {
-        foam = build_foam(*recipe.foam, *box);
+        foam = build_foam_alone(recipe, *box);
     }
-    TextOutput out(options.output);
     const bool seeds = options.what == "seeds";
+    if (seeds ? !foam.seeds_in : !foam.beams_touching) {
+        throw InputError(fmt::format("foam.kind: {} has no {}; accepted: another kind of foam",
+                                     recipe.foam->kind, options.what));
+    }
+    if (options.format == "3mf") return write_lattice(foam, *box, options, recipe.part.name);
+    TextOutput out(options.output);
     if (options.header) out.write(seeds ? "x,y,z\n" : "x0,y0,z0,r0,x1,y1,z1,r1\n");
-    seeds ? write_seeds(*foam, *box, out) : write_beams(*foam, *box, out);
+    seeds ? write_seeds(foam, *box, out) : write_beams(foam, *box, out);
     out.close();
 }
 
@@ -89,13 +110,16 @@ void add_dump_command(CLI::App& root) {
     options->recipe.add_to(command);
     command.add_option("--box", options->box, "Corners in mm, part coordinates; default: the part's bounds")
         ->type_name("x0,y0,z0,x1,y1,z1");
-    command.add_option("--format", options->format, "csv: numbers that read back exactly, a line each")
-        ->check(CLI::IsMember({"csv"}))
+    command
+        .add_option("--format", options->format,
+                    "csv: numbers that read back exactly, a line each; 3mf: beams as a beam lattice")
+        ->check(CLI::IsMember({"csv", "3mf"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
     command.add_flag("--header", options->header, "Names of the columns in the first line");
     finish_command(command,
                    "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
+                   "  lamella dump beams insole.toml --format 3mf -o foam.3mf\n"
                    "  lamella dump seeds insole.toml --header -o seeds.csv");
     command.callback([options] { run(*options); });
 }

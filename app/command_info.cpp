@@ -1,11 +1,14 @@
 // `lamella info`: what a recipe will make, before it is made.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/build_job.h"
 #include "app/commands.h"
+#include "app/foam_statistics.h"
+#include "app/grading_report.h"
 #include "app/memory_bound.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
@@ -19,6 +22,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     RecipeOptions recipe;
     bool json = false;
+    bool islands = false;
     int threads = 0;
 };
 
@@ -34,14 +38,43 @@ Json mesh_json(const MeshReport& mesh) {
             {"notes", mesh.notes}};
 }
 
-Json foam_json(const FoamRecipe& recipe, const VoronoiFoam& foam, const Box& bounds) {
-    const dvec3 size = bounds.size();
-    const double seeds = size.x * size.y * size.z / cell_volume(recipe.cell);
-    return {{"cell_mm", recipe.cell},
-            {"beam_mm", recipe.beam},
-            {"seed", recipe.seed},
-            {"expected_seeds_in_bounds", std::floor(seeds + 0.5)},
-            {"expected_volume_fraction", foam.expected_volume_fraction(bounds.center())}};
+/// The number, or the formula that gives it.
+Json graded_json(const GradedNumber& number) {
+    return number.is_formula() ? Json(number.formula()) : Json(number.number());
+}
+
+Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bounds) {
+    const FoamStatistics sums = foam_statistics(foam, bounds);
+    const bool walls = foam.member.key == "foam.wall";
+    Json json{{"kind", recipe.kind},
+              {"cell_mm", graded_json(recipe.cell)},
+              {walls ? "wall_mm" : "beam_mm", graded_json(walls ? recipe.wall : recipe.beam)}};
+    if (foam.seeds_in) {
+        json["seed"] = recipe.seed;
+        json["expected_seeds_in_bounds"] = std::floor(sums.seeds + 0.5);
+    }
+    if (!std::isnan(sums.volume_fraction)) json["expected_volume_fraction"] = sums.volume_fraction;
+    return json;
+}
+
+Json grading_json(const GradingReport& report) {
+    Json json{{"key", report.key},
+              {"limits_mm", {report.limits.lo, report.limits.hi}},
+              {"clamped_share", report.clamped},
+              {"undefined_share", report.undefined},
+              {"steepest_cell_ratio", report.steepest},
+              {"warnings", warnings(report)}};
+    if (!report.asked.empty()) json["asked_mm"] = {report.asked.lo, report.asked.hi};
+    return json;
+}
+
+Json islands_json(const IslandReport& islands) {
+    return {{"components", islands.components},
+            {"bodies", islands.bodies},
+            {"islands", islands.count},
+            {"too_large_to_drop", islands.too_large},
+            {"island_volume_mm3", islands.volume},
+            {"part_volume_mm3", islands.part_volume}};
 }
 
 Json memory_json(const MemoryBound& bound) {
@@ -64,7 +97,9 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
               {"layers", job.layer_count}};
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, job.bounds);
-    if (recipe.skin) info["skin"] = {{"thickness_mm", recipe.skin->thickness}};
+    if (recipe.skin) info["skin"] = {{"thickness_mm", graded_json(recipe.skin->thickness)}};
+    for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
+    if (built.islands) info["islands"] = islands_json(*built.islands);
     info["printer"] = {{"profile", recipe.printer.name}, {"kind", recipe.printer.backend}};
     info["memory"] = memory_json(memory_bound(recipe, built, threads));
     return info;
@@ -91,6 +126,45 @@ std::string mesh_text(const Json& mesh) {
     return text;
 }
 
+/// "cells of 2 mm" or "cells of `1 + d` mm".
+std::string graded_text(const Json& number) {
+    return number.is_string() ? "`" + number.get<std::string>() + "`"
+                              : fmt::format("{}", number.get<double>());
+}
+
+std::string foam_text(const Json& foam) {
+    const bool walls = foam.contains("wall_mm");
+    std::string text = fmt::format("foam      {}: cells of {} mm, {} {} mm", foam["kind"].get<std::string>(),
+                                   graded_text(foam["cell_mm"]), walls ? "walls of" : "beams of radius",
+                                   graded_text(foam[walls ? "wall_mm" : "beam_mm"]));
+    if (foam.contains("seed")) {
+        text += fmt::format(", seed {}: about {:.0f} seeds in the bounds", foam["seed"].get<std::int64_t>(),
+                            foam["expected_seeds_in_bounds"].get<double>());
+    }
+    if (foam.contains("expected_volume_fraction")) {
+        text += fmt::format(", {:.1f} % solid", 100 * foam["expected_volume_fraction"].get<double>());
+    }
+    return text + "\n";
+}
+
+std::string islands_text(const Json& islands) {
+    return fmt::format(
+        "islands   {} of {:.3f} mm3 float free, {} of them too large to be dropped; the part has "
+        "{:.1f} mm3\n",
+        islands["islands"].get<std::size_t>(), islands["island_volume_mm3"].get<double>(),
+        islands["too_large_to_drop"].get<std::size_t>(), islands["part_volume_mm3"].get<double>());
+}
+
+std::string grading_text(const Json& grading) {
+    std::string text;
+    if (grading.contains("asked_mm")) {
+        text = fmt::format("graded    {} from {:.4g} to {:.4g} mm\n", grading["key"].get<std::string>(),
+                           grading["asked_mm"][0].get<double>(), grading["asked_mm"][1].get<double>());
+    }
+    for (const auto& warning : grading["warnings"]) text += "          " + warning.get<std::string>() + "\n";
+    return text;
+}
+
 double mebibytes(const Json& bytes) { return bytes.get<double>() / (1 << 20); }
 
 std::string memory_text(const Json& m) {
@@ -111,17 +185,13 @@ std::string as_text(const Json& info) {
     text += fmt::format("layers    {} of {} mm\n", info["layers"].get<int>(),
                         info["layer_height_mm"].get<double>());
     if (info.contains("mesh")) text += mesh_text(info["mesh"]);
-    if (info.contains("foam")) {
-        const Json& foam = info["foam"];
-        text += fmt::format(
-            "foam      cells of {} mm, beams of radius {} mm, seed {}: about {:.0f} seeds in the bounds, "
-            "{:.1f} % solid\n",
-            foam["cell_mm"].get<double>(), foam["beam_mm"].get<double>(), foam["seed"].get<std::int64_t>(),
-            foam["expected_seeds_in_bounds"].get<double>(),
-            100 * foam["expected_volume_fraction"].get<double>());
-    }
+    if (info.contains("foam")) text += foam_text(info["foam"]);
     if (info.contains("skin"))
-        text += fmt::format("skin      {} mm\n", info["skin"]["thickness_mm"].get<double>());
+        text += fmt::format("skin      {} mm\n", graded_text(info["skin"]["thickness_mm"]));
+    if (info.contains("graded")) {
+        for (const Json& grading : info["graded"]) text += grading_text(grading);
+    }
+    if (info.contains("islands")) text += islands_text(info["islands"]);
     text += fmt::format("printer   {} ({})\n", info["printer"]["profile"].get<std::string>(),
                         info["printer"]["kind"].get<std::string>());
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
@@ -129,7 +199,12 @@ std::string as_text(const Json& info) {
 
 void run(const InfoOptions& options) {
     const Recipe recipe = options.recipe.read();
-    const BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe);
+    if (options.islands) {
+        IslandSurveyOptions survey;
+        survey.threads = options.threads;
+        drop_islands(built, survey);
+    }
     const Json info = describe(recipe, built, options.threads);
     TextOutput out("");
     out.write(options.json ? info.dump(2) + "\n" : as_text(info));
@@ -144,6 +219,7 @@ void add_info_command(CLI::App& root) {
         *root.add_subcommand("info", "Say what a recipe will make: size, layers, foam, mesh, memory");
     options->recipe.add_to(command);
     command.add_flag("--json", options->json, "As JSON");
+    command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
     command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
         ->check(CLI::Range(0, 1024));
     finish_command(command,

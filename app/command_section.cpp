@@ -34,7 +34,8 @@ std::string chosen_format(const SectionOptions& options) {
 
 std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
-    const BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe);
+    if (recipe.foam && recipe.foam->drop_islands) drop_islands(built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
         throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",

@@ -9,6 +9,7 @@
 
 #include "app/build_job.h"
 #include "app/commands.h"
+#include "app/grading_report.h"
 #include "app/interrupt.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
@@ -108,18 +109,39 @@ void summarise(const SliceOptions& options, const Job& job, const StreamReport& 
         stderr);
 }
 
+void survey(BuiltJob& built, const SliceOptions& options, const CancelToken& cancel) {
+    IslandSurveyOptions survey;
+    survey.threads = options.threads;
+    survey.cancel = &cancel;
+    drop_islands(built, survey);
+    if (options.quiet) return;
+    const IslandReport& found = *built.islands;
+    const std::string left =
+        found.too_large > 0 ? fmt::format("; {} too large to be debris are left", found.too_large) : "";
+    std::fputs(fmt::format("islands: {} with {:.3f} mm3 in all float free and are left out{}\n",
+                           found.count - found.too_large, found.volume, left)
+                   .c_str(),
+               stderr);
+}
+
 void run(SliceOptions options) {
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
     if (options.output.empty()) options.output = default_output(recipe.printer, recipe.part.name);
-    const BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe);
     if (built.mesh && !options.quiet) {
         for (const std::string& note : built.mesh->notes) {
             std::fputs((built.mesh->path + ": " + note + "\n").c_str(), stderr);
         }
     }
+    if (!options.quiet) {
+        for (const GradingReport& graded : grading_reports(built)) {
+            for (const std::string& line : warnings(graded)) std::fputs((line + "\n").c_str(), stderr);
+        }
+    }
+    if (recipe.foam && recipe.foam->drop_islands) survey(built, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     stream.threads = options.threads;

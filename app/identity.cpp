@@ -1,15 +1,52 @@
-// FNV-1a over the settings table and the bytes of the mesh.
+// FNV-1a over the settings table and the bytes of input files.
 #include "app/identity.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "app/settings.h"
 #include "engine/error.h"
+#include "procedural/nrrd_header.h"
 
 namespace lamella {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files that an input consists of: itself; of a folder or a pattern the pages there, by name;
+/// of a detached NRRD header also the data that it names.
+std::vector<std::string> input_files(const std::string& path) {
+    std::error_code error;
+    std::vector<std::string> files;
+    const bool pattern = fs::path(path).filename().string().find_first_of("*?") != std::string::npos;
+    const fs::path folder = pattern ? fs::path(path).parent_path() : fs::path(path);
+    if (pattern || fs::is_directory(path, error)) {
+        for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+            const std::string name = entry.path().filename().string();
+            const bool page = pattern ? fnmatch(fs::path(path).filename().c_str(), name.c_str(), 0) == 0
+                                      : !name.starts_with('.');
+            if (page && entry.is_regular_file(error)) files.push_back(entry.path().string());
+        }
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+    files.push_back(path);
+    if (path.ends_with(".nhdr")) {
+        std::ifstream header(path, std::ios::binary);
+        const std::string data = header ? read_nrrd_header(header, path).data_file : "";
+        if (!data.empty()) files.push_back((fs::path(path).parent_path() / data).string());
+    }
+    return files;
+}
+
+}  // namespace
 
 void Fnv128::add(std::string_view bytes) {
     // The prime is 2^88 + 0x13b, so the product is a shift and a multiplication by a small number.
@@ -39,15 +76,27 @@ std::string hash_file(const std::string& path) {
     return hash.hex();
 }
 
+std::string hash_input(const std::string& path) {
+    Fnv128 hash;
+    for (const std::string& file : input_files(path)) hash.add(hash_file(file) + "\n");
+    return hash.hex();
+}
+
 std::string job_identity(const Recipe& recipe) {
     Fnv128 hash;
     hash.add("lamella " LAMELLA_VERSION "\n");
-    for (const Setting& setting : settings()) {
-        if (setting.section == "foam" && !recipe.foam) continue;
-        if (setting.section == "skin" && !recipe.skin) continue;
-        std::string value = format_value(setting.load(recipe));
-        if (setting.name() == "part.mesh" && !recipe.part.mesh.empty()) value = hash_file(recipe.part.mesh);
-        hash.add(setting.name() + "=" + value + "\n");
+    for (const Section& section : sections()) {
+        if (section.name == "foam" && !recipe.foam) continue;
+        if (section.name == "skin" && !recipe.skin) continue;
+        const std::size_t entries = section.is_list() ? section.entries(recipe) : 1;
+        for (std::size_t entry = 0; entry < entries; ++entry) {
+            for (const Setting& setting : settings()) {
+                if (setting.section != section.name) continue;
+                std::string value = format_value(setting.load(recipe, entry));
+                if (setting.type == ValueType::path && !value.empty()) value = hash_input(value);
+                hash.add(setting.name() + "=" + value + "\n");
+            }
+        }
     }
     return hash.hex();
 }

@@ -26,7 +26,11 @@ class Fnv128 {
 /// The hash of a file's bytes. Throws InputError when it cannot be read.
 std::string hash_file(const std::string& path);
 
-/// The job's identity: program version, every setting's value (a mesh counts by its bytes, not by its path).
+/// The hash of an input: a file, a folder or pattern of pages, a header with its data.
+std::string hash_input(const std::string& path);
+
+/// The job's identity: program version, every setting's value (an input counts by its bytes, not by its
+/// path).
 std::string job_identity(const Recipe& recipe);
 
 }  // namespace lamella

@@ -4,6 +4,9 @@
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "app/foam_statistics.h"
 
 namespace lamella {
 
@@ -24,8 +27,6 @@ constexpr std::int64_t program_bytes = 124 << 20;  // measured: the resident siz
 
 }  // namespace
 
-double cell_volume(double d) { return d * d * d; }
-
 MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int threads) {
     const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
     const dvec3 size = built.job.bounds.size();
@@ -36,14 +37,15 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
         bound.mesh_bytes = static_cast<std::int64_t>(built.mesh->triangles) * bytes_per_triangle +
                            static_cast<std::int64_t>(built.mesh->vertices * sizeof(dvec3));
     }
-    if (recipe.foam) {
-        const double seeds_per_mm = size.x * size.y / cell_volume(recipe.foam->cell);  // per mm of height
-        const double met = beam_length_per_cell * recipe.foam->cell / 2 + 2 * recipe.foam->beam;
+    if (built.foam && built.foam->beams_touching) {
+        const FoamStatistics foam = foam_statistics(*built.foam, built.job.bounds);
+        const double seeds_per_mm = size.x * size.y * foam.densest_plane;  // per mm of height
+        const double met = beam_length_per_cell / std::cbrt(foam.densest_plane) / 2 + 2 * foam.mean_member;
         bound.beams_per_layer = seeds_per_mm * beams_per_seed / 2 * met;
         const double reach =
-            bound.layers_in_flight * built.job.layer_height + reach_in_cells * recipe.foam->cell;
+            bound.layers_in_flight * built.job.layer_height + reach_in_cells * foam.greatest_cell;
         bound.cell_bytes = static_cast<std::int64_t>(
-            seeds_per_mm * std::min(reach, size.z + 2 * recipe.foam->cell) * bytes_per_seed);
+            seeds_per_mm * std::min(reach, size.z + 2 * foam.greatest_cell) * bytes_per_seed);
     }
     const ImageProfile& image = recipe.printer.image;
     // The page at one byte in sixteen pixels is what deflate leaves of dense foam; rows hold a run of 8 bytes

@@ -24,7 +24,4 @@ struct MemoryBound {
 /// Threads 0 means one a core.
 MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int threads);
 
-/// Volume of a cell of this mean diameter, mm^3: seeds lie one to such a volume.
-double cell_volume(double cell_diameter);
-
 }  // namespace lamella

@@ -5,20 +5,40 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "engine/geometry.h"
 #include "printers/profile.h"
+#include "procedural/attractors.h"
 
 namespace lamella {
 
-/// A body with a closed form, centred at the origin. `none`: the body is a mesh.
+/// A body with a closed form, centred at the origin. `none`: the body is a mesh or a [[field]].
 enum class Shape : unsigned char { none, sphere, box, cylinder, capsule, torus, gyroid };
 
 /// What one unit of a mesh file is, for formats that do not say.
 enum class LengthUnit : unsigned char { mm, cm, m, inch };
 
+/// A number, or a formula that gives one at every point.
+struct GradedNumber {
+    std::variant<double, std::string> value{0.0};
+    std::string where;  ///< where it stands, for messages: "foam.toml:7: foam.cell" or "--cell"
+
+    bool is_formula() const { return value.index() == 1; }
+    /// The number; only where it is no formula.
+    double number() const { return std::get<double>(value); }
+    const std::string& formula() const { return std::get<std::string>(value); }
+    /// Two are equal that ask for the same, wherever they stand.
+    friend bool operator==(const GradedNumber& a, const GradedNumber& b) { return a.value == b.value; }
+};
+
+/// Rows of numbers, all of one length: points, corners, ends of segments, rows of a table.
+using NumberRows = std::vector<std::vector<double>>;
+
 struct PartRecipe {
-    std::string mesh;  ///< path of the mesh file; empty when a shape is asked for
+    std::string mesh;   ///< path of the mesh file; empty when the body is something else
+    std::string field;  ///< name of a [[field]]; empty when the body is something else
     Shape shape = Shape::none;
     double radius = 0;     ///< sphere, cylinder, capsule; of the torus its centre circle, mm
     dvec3 size{0};         ///< box and gyroid, mm
@@ -31,20 +51,73 @@ struct PartRecipe {
     std::string name;  ///< empty: taken from the input
 };
 
+/// A body that is the inside (below zero) of a formula or of a program for libfive's virtual machine.
+struct FieldRecipe {
+    std::string where;  ///< where the entry begins, for messages
+    std::string name;
+    std::string kind = "formula";  ///< a word of the registered kinds
+    GradedNumber formula;          ///< over x, y, z, mm
+    std::string file;              ///< .vm
+    NumberRows bounds;             ///< two corners, mm; empty: found by search
+};
+
+/// A number that varies in space, for formulas to use by its name.
+struct GradingRecipe {
+    std::string where;  ///< where the entry begins, for messages
+    std::string name;
+    std::string kind;          ///< a word of the registered kinds
+    double value = 0;          ///< constant
+    GradedNumber formula;      ///< formula, over x, y, z, d and gradings
+    std::string file;          ///< volume, table, attribute
+    NumberRows box;            ///< volume: two corners, mm; empty: the file says
+    std::int64_t channel = 0;  ///< volume: of an image
+    GradedNumber along;        ///< table: the formula that the table is looked up with
+    NumberRows rows;           ///< table: position and number
+    bool smooth = false;       ///< table
+    std::string attribute;     ///< attribute: name of the vertices' property
+    NumberRows points;         ///< attractors, mm
+    NumberRows segments;       ///< attractors: six numbers each, mm
+    double near_value = 0;     ///< attractors: the number at them
+    double far_value = 0;      ///< attractors: the number beyond their reach
+    double radius = 0;         ///< attractors: their reach, mm
+    Falloff falloff = Falloff::smooth;
+    dvec3 at{0};      ///< point and plane, mm
+    dvec3 a{0};       ///< line: one end, mm
+    dvec3 b{0};       ///< line: the other end, mm
+    dvec3 normal{0};  ///< plane
+};
+
 struct FoamRecipe {
-    double cell = 0;        ///< mean cell diameter, mm
-    double beam = 0;        ///< radius of the beams, mm
+    std::string kind = "voronoi";  ///< a word of the registered kinds
+    GradedNumber cell;             ///< mean cell diameter, mm
+    GradedNumber beam;             ///< radius of the beams, mm
+    double cell_min = 0.05;        ///< the printable range of graded cells and beams, mm
+    double cell_max = 1000;
+    double beam_min = 0.005;
+    double beam_max = 500;
+    GradedNumber wall;  ///< thickness of walls, of a network's struts, mm
+    double wall_min = 0.01;
+    double wall_max = 500;
+    bool network = false;   ///< struts along one side of a periodic surface instead of a wall on it
     std::int64_t seed = 1;  ///< of the random draws
+    double jitter = 0.05;   ///< kelvin: share of the spacing by which seeds are moved
+    dvec3 stretch{1};       ///< factors on the cells along three axes at right angles
+    dvec3 turn{0};          ///< of these axes about x, then y, then z, degrees
+    std::string unit_cell;  ///< lattice: the name of a cell
+    NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
+    bool drop_islands = false;
 };
 
 struct SkinRecipe {
-    double thickness = 0;  ///< mm, inward from the surface
+    GradedNumber thickness;  ///< mm, inward from the surface
 };
 
 /// Without foam and skin the part is solid; with foam alone it is bare foam cut by the body; with a skin
 /// alone it is a hollow shell.
 struct Recipe {
     PartRecipe part;
+    std::vector<FieldRecipe> fields;
+    std::vector<GradingRecipe> gradings;
     std::optional<FoamRecipe> foam;
     std::optional<SkinRecipe> skin;
     double layer_height = 0.05;  ///< mm

@@ -5,125 +5,195 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/printer_choice.h"
+#include "app/recipe_formulas.h"
 #include "engine/error.h"
 
 namespace lamella {
 
 namespace {
 
-struct ShapeKeys {
-    std::string shape;
-    std::vector<std::string> keys;
-};
+/// The keys that name a body; one of them holds.
+const std::vector<std::string> body_keys{"mesh", "shape", "field"};
 
-const std::vector<ShapeKeys>& shape_keys() {
-    static const std::vector<ShapeKeys> list{{"sphere", {"radius"}},
-                                             {"box", {"size"}},
-                                             {"cylinder", {"radius", "height"}},
-                                             {"capsule", {"radius", "height"}},
-                                             {"torus", {"radius", "tube"}},
-                                             {"gyroid", {"size", "period", "thickness"}}};
-    return list;
+std::string listed(const std::vector<std::string>& words, const char* between = ", ") {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
 }
 
-const std::vector<std::string> all_shape_keys{"radius", "size", "height", "tube", "period", "thickness"};
+/// All keys that go with a kind, or with any kind of the section.
+std::vector<std::string> keys_of(const Kind& kind) {
+    std::vector<std::string> keys;
+    for (const std::string& need : kind.needs) {
+        for (std::string& key : alternatives(need)) keys.push_back(std::move(key));
+    }
+    keys.insert(keys.end(), kind.takes.begin(), kind.takes.end());
+    return keys;
+}
 
-std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
+std::set<std::string> keys_of(const KindSection& section) {
+    std::set<std::string> keys;
+    for (const Kind& kind : section.kinds) {
+        for (std::string& key : keys_of(kind)) keys.insert(std::move(key));
+    }
+    return keys;
 }
 
 }  // namespace
 
-void RecipeDraft::set(const Setting& setting, Value value, std::string where, bool from_flag) {
-    entries_[setting.name()] = {std::move(value), std::move(where), from_flag};
+void RecipeDraft::set(const Setting& setting, std::size_t number, Value value, const std::string& where,
+                      bool from_flag) {
+    if (auto* graded = std::get_if<GradedNumber>(&value)) graded->where = where;
+    entries_[{setting.section, number, setting.key}] = {std::move(value), where, from_flag};
 }
 
 void RecipeDraft::assign_flag(const Setting& setting, const std::string& text) {
     std::string wrong;
     const auto value = parse_value(setting, text, wrong);
-    if (!value) refuse(0, fmt::format("{}: {}; accepted: {}", setting.flag, wrong, accepted(setting)));
-    entries_[setting.name()] = {value, setting.flag, true};
+    if (value) return set(setting, 0, *value, setting.flag, true);
+    refuse(0, fmt::format("{}: {}; accepted: {}", setting.flag, wrong, accepted(setting)));
+    entries_[{setting.section, 0, setting.key}] = {std::nullopt, setting.flag, true};
 }
 
-const RecipeDraft::Entry* RecipeDraft::entry(std::string_view section, std::string_view key) const {
-    const auto found = entries_.find(std::string(section) + "." + std::string(key));
+const RecipeDraft::Entry* RecipeDraft::entry(std::string_view section, std::string_view key,
+                                             std::size_t number) const {
+    const auto found = entries_.find({std::string(section), number, std::string(key)});
     return found == entries_.end() ? nullptr : &found->second;
 }
 
-bool RecipeDraft::section_used(const std::string& section) const {
-    if (sections_.contains(section)) return true;
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [&](const auto& e) { return e.first.starts_with(section + "."); });
+/// Where a key stands, or where it would stand.
+std::string RecipeDraft::where(std::string_view section, std::string_view key, std::size_t number) const {
+    if (const Entry* given = entry(section, key, number); given && !given->where.empty()) return given->where;
+    if (const auto begin = sections_.find({std::string(section), number}); begin != sections_.end()) {
+        return fmt::format("{}.{}", begin->second, key);
+    }
+    const Setting* setting = find_setting(section, key);
+    return setting && !setting->flag.empty() ? setting->flag : fmt::format("{}.{}", section, key);
+}
+
+std::size_t RecipeDraft::count(const Section& section) const {
+    std::size_t most = 0;
+    for (const auto& [part, begin] : sections_) {
+        if (part.section == section.name) most = std::max(most, part.entry + 1);
+    }
+    for (const auto& [place, value] : entries_) {
+        if (place.section == section.name) most = std::max(most, place.entry + 1);
+    }
+    return most;
 }
 
 /// A body given by a flag takes the place of the one in the recipe, whichever kind that was.
 void RecipeDraft::drop_overridden_body() {
-    const Entry* mesh = entry("part", "mesh");
-    const Entry* shape = entry("part", "shape");
-    if (!mesh || !shape || mesh->from_flag == shape->from_flag) return;
-    if (shape->from_flag) {
-        entries_.erase("part.mesh");
-        return;
-    }
-    entries_.erase("part.shape");
-    for (const std::string& key : all_shape_keys) {
-        if (const Entry* size = entry("part", key); size && !size->from_flag) entries_.erase("part." + key);
-    }
-}
-
-void RecipeDraft::check_required(const std::string& section, const std::string& key, const std::string& why) {
-    if (entry(section, key)) return;
-    const Setting& setting = *find_setting(section, key);
-    const auto begin = sections_.find(section);
-    const std::string where =
-        begin == sections_.end() ? setting.flag : fmt::format("{}.{}", begin->second, key);
-    refuse(0, fmt::format("{}: missing, {} needs it; accepted: {}", where, why, accepted(setting)));
-}
-
-void RecipeDraft::check_body() {
-    const Entry* mesh = entry("part", "mesh");
-    const Entry* shape = entry("part", "shape");
-    const bool no_shape = !shape || (shape->value && std::get<std::string>(*shape->value) == "none");
-    if (mesh && !no_shape && shape->value) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh or a shape, not both", shape->where,
-                              mesh->where));
-        return;
-    }
-    if (!mesh && no_shape && body_required_) {
-        const auto part = sections_.find("part");
-        refuse(
-            0,
-            fmt::format(
-                "{}: no body is given; accepted: a mesh file (part.mesh or MODEL), or part.shape / --shape",
-                part == sections_.end() ? "part" : part->second));
-    }
-    if (shape && !shape->value) return;
-    const std::string word = no_shape ? "none" : std::get<std::string>(*shape->value);
-    std::vector<std::string> wanted;
-    for (const ShapeKeys& keys : shape_keys()) {
-        if (keys.shape == word) wanted = keys.keys;
-    }
-    for (const std::string& key : wanted) check_required("part", key, "shape " + word);
-    for (const std::string& key : all_shape_keys) {
+    const auto from_flag = [&](const std::string& key) {
         const Entry* given = entry("part", key);
+        return given && given->from_flag;
+    };
+    if (std::none_of(body_keys.begin(), body_keys.end(), from_flag)) return;
+    for (const std::string& key : body_keys) {
+        if (!from_flag(key)) entries_.erase({"part", 0, key});
+    }
+    if (entry("part", "shape")) return;
+    for (const KindSection& section : kind_sections()) {
+        if (section.section != "part") continue;
+        for (const std::string& key : keys_of(section)) {
+            if (!from_flag(key)) entries_.erase({"part", 0, key});
+        }
+    }
+}
+
+/// Where a section or an entry of a list section begins.
+std::string RecipeDraft::where_begins(const std::string& section, std::size_t number) const {
+    const auto begin = sections_.find({section, number});
+    return begin == sections_.end() ? section : begin->second;
+}
+
+void RecipeDraft::check_need(const Part& part, const std::string& need, const std::string& why) {
+    const std::vector<std::string> keys = alternatives(need);
+    std::vector<std::string> given;
+    for (const std::string& key : keys) {
+        if (entry(part.section, key, part.entry)) given.push_back(key);
+    }
+    const Setting& setting = *find_setting(part.section, keys.front());
+    if (given.empty()) {
+        const std::string other =
+            keys.size() > 1 ? fmt::format(" (or {})", listed({keys.begin() + 1, keys.end()}, " or ")) : "";
+        refuse(0, fmt::format("{}: missing, {} needs it{}; accepted: {}",
+                              where(part.section, keys.front(), part.entry), why, other, accepted(setting)));
+    } else if (given.size() > 1) {
+        refuse(0, fmt::format("{}: contradicts {}; accepted: one of {}",
+                              where(part.section, given[1], part.entry),
+                              where(part.section, given[0], part.entry), listed(keys)));
+    }
+}
+
+void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
+    const Entry* chosen = entry(section.section, section.key, number);
+    if (chosen && !chosen->value) return;
+    if (!chosen && section.fallback.empty()) {
+        return check_need({section.section, number}, section.key, "[[" + section.section + "]]");
+    }
+    const std::string word = chosen ? std::get<std::string>(*chosen->value) : section.fallback;
+    const auto kind = std::find_if(section.kinds.begin(), section.kinds.end(),
+                                   [&](const Kind& k) { return k.word == word; });
+    const std::string why = section.key + " " + word;
+    for (const std::string& need : kind->needs) check_need({section.section, number}, need, why);
+    const std::vector<std::string> wanted = keys_of(*kind);
+    for (const std::string& key : keys_of(section)) {
+        const Entry* given = entry(section.section, key, number);
         if (!given || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
+        const bool no_shape = section.section == "part" && word == "none";
         refuse(0, no_shape ? fmt::format("{}: only a shape has it; accepted: part.shape / --shape with it",
                                          given->where)
-                           : fmt::format("{}: a {} does not have it; accepted: {}", given->where, word,
+                           : fmt::format("{}: {} does not have it; accepted: {}", given->where, why,
                                          listed(wanted)));
     }
 }
 
-void RecipeDraft::check_structure() {
-    if (section_used("foam")) {
-        check_required("foam", "cell", "foam");
-        check_required("foam", "beam", "foam");
+/// Exactly one body, which may be the only [[field]]; false when there are several.
+bool RecipeDraft::check_bodies() {
+    std::vector<const Entry*> given;
+    for (const std::string& key : body_keys) {
+        const Entry* body = entry("part", key);
+        if (body && !body->value) return true;
+        if (body && !(key == "shape" && std::get<std::string>(*body->value) == "none")) given.push_back(body);
     }
-    if (section_used("skin")) check_required("skin", "thickness", "a skin");
+    if (given.size() > 1) {
+        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh, a shape or a field, one of them",
+                              given[1]->where, given[0]->where));
+        return false;
+    }
+    const std::size_t fields = count(*find_section("field"));
+    if (!given.empty() || !body_required_ || fields == 1) return true;
+    const std::string begin = where_begins("part", 0);
+    refuse(0, fields == 0
+                  ? fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), "
+                                "part.shape / --shape, or a [[field]]",
+                                begin)
+                  : fmt::format("{}: no body is given; accepted: part.field / --field with the name of "
+                                "one of the {} [[field]]",
+                                begin, fields));
+    return true;
+}
+
+void RecipeDraft::check_structure() {
+    const bool one_body = check_bodies();
+    for (const Section& section : sections()) {
+        const std::size_t found = count(section);
+        for (std::size_t number = 0; section.is_list() && number < found; ++number) {
+            check_need({section.name, number}, "name", section.title());
+        }
+        for (const KindSection& kinds : kind_sections()) {
+            if (kinds.section != section.name || (section.name == "part" && !one_body)) continue;
+            for (std::size_t number = 0; number < std::max<std::size_t>(found, section.name == "part");
+                 ++number) {
+                check_kind(kinds, number);
+            }
+        }
+    }
+    if (count(*find_section("skin")) > 0) check_need({"skin", 0}, "thickness", "a skin");
 }
 
 void RecipeDraft::check_printer() {
@@ -132,7 +202,7 @@ void RecipeDraft::check_printer() {
         const Entry* one = entry("printer", key);
         if (!pixel || !one) continue;
         if (pixel->from_flag != one->from_flag) {
-            entries_.erase(pixel->from_flag ? std::string("printer.") + key : "printer.pixel");
+            entries_.erase({"printer", 0, pixel->from_flag ? std::string(key) : "pixel"});
             pixel = entry("printer", "pixel");
         } else {
             refuse(0, fmt::format("{}: contradicts {}; accepted: pixel alone, or pixel_x and pixel_y",
@@ -147,32 +217,62 @@ Recipe RecipeDraft::assemble() const {
     if (const Entry* profile = entry("printer", "profile"); profile && profile->value) {
         recipe.printer = profile_named(std::get<std::string>(*profile->value));
     }
-    for (const Setting& setting : settings()) {
-        const Entry* given = entry(setting.section, setting.key);
-        if (given && given->value && setting.name() != "printer.profile")
-            setting.store(recipe, *given->value);
+    for (const auto& [place, given] : entries_) {
+        const Setting& setting = *find_setting(place.section, place.key);
+        if (given.value && setting.name() != "printer.profile") {
+            setting.store(recipe, place.entry, *given.value);
+        }
     }
-    if (recipe.skin && recipe.skin->thickness == 0) recipe.skin.reset();
-    if (recipe.part.name.empty()) {
-        const std::string stem = std::filesystem::path(recipe.part.mesh).stem().string();
-        const Setting& shape = *find_setting("part", "shape");
-        recipe.part.name = recipe.part.mesh.empty() ? format_value(shape.load(recipe)) : stem;
+    for (std::size_t i = 0; i < recipe.fields.size(); ++i) recipe.fields[i].where = where_begins("field", i);
+    for (std::size_t i = 0; i < recipe.gradings.size(); ++i) {
+        recipe.gradings[i].where = where_begins("grading", i);
+    }
+    if (recipe.skin && recipe.skin->thickness == GradedNumber{}) recipe.skin.reset();
+    PartRecipe& part = recipe.part;
+    if (part.mesh.empty() && part.shape == Shape::none && part.field.empty() && recipe.fields.size() == 1) {
+        part.field = recipe.fields.front().name;
+    }
+    if (part.name.empty()) {
+        const std::string shape = format_value(find_setting("part", "shape")->load(recipe, 0));
+        const std::string stem = std::filesystem::path(part.mesh).stem().string();
+        part.name = !part.mesh.empty() ? stem : !part.field.empty() ? part.field : shape;
     }
     return recipe;
 }
 
+/// Rules between the numbers of a foam.
+void RecipeDraft::check_foam(const FoamRecipe& foam) {
+    if (entry("foam", "turn") && foam.stretch == dvec3(1)) {
+        refuse(0,
+               fmt::format("{}: turns nothing where nothing is stretched; accepted: foam.stretch / --stretch "
+                           "with it",
+                           where("foam", "turn")));
+    }
+    const auto limits = [&](const char* key, const GradedNumber& number, double least, double most) {
+        const std::string low = std::string(key) + "_min", high = std::string(key) + "_max";
+        if (least > most) {
+            refuse(0, fmt::format("{}: {} mm is more than {}, {} mm; accepted: the least first",
+                                  where("foam", low), least, where("foam", high), most));
+        } else if (!number.is_formula() && (number.number() < least || number.number() > most)) {
+            refuse(0, fmt::format("{}: {} mm lies outside foam.{} and foam.{}; accepted: {} to {} mm",
+                                  where("foam", key), number.number(), low, high, least, most));
+        }
+    };
+    limits("cell", foam.cell, foam.cell_min, foam.cell_max);
+    if (!entry("foam", "beam")) return limits("wall", foam.wall, foam.wall_min, foam.wall_max);
+    limits("beam", foam.beam, foam.beam_min, foam.beam_max);
+    if (foam.cell.is_formula() || foam.beam.is_formula()) return;
+    if (foam.beam.number() >= foam.cell.number() / 2) {
+        refuse(0, fmt::format("{}: {} mm fills cells of {} mm; accepted: less than half the cell, {} mm",
+                              where("foam", "beam"), foam.beam.number(), foam.cell.number(),
+                              foam.cell.number() / 2));
+    }
+}
+
 /// Rules between numbers that are each fine on their own.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
-    const auto where = [&](const char* section, const char* key) {
-        const Entry* given = entry(section, key);
-        return given ? given->where : std::string(section) + "." + key;
-    };
     const PartRecipe& part = recipe.part;
-    if (recipe.foam && recipe.foam->beam >= recipe.foam->cell / 2) {
-        refuse(0, fmt::format("{}: {} mm fills cells of {} mm; accepted: less than half the cell, {} mm",
-                              where("foam", "beam"), recipe.foam->beam, recipe.foam->cell,
-                              recipe.foam->cell / 2));
-    }
+    if (recipe.foam) check_foam(*recipe.foam);
     if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
         refuse(0, fmt::format(
                       "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
@@ -195,12 +295,14 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
 
 Recipe RecipeDraft::finish() {
     drop_overridden_body();
-    check_body();
     check_structure();
     check_printer();
     const bool single_values_fine = mistakes_.empty();
     Recipe recipe = assemble();
-    if (single_values_fine) check_numbers(recipe);
+    if (single_values_fine) {
+        check_numbers(recipe);
+        for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
+    }
     if (mistakes_.empty()) return recipe;
     std::stable_sort(mistakes_.begin(), mistakes_.end(), [](const Mistake& a, const Mistake& b) {
         return (a.line ? a.line : 1 << 30) < (b.line ? b.line : 1 << 30);

@@ -2,12 +2,15 @@
 // on the way.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/recipe_kinds.h"
 #include "app/settings.h"
 
 namespace lamella {
@@ -41,20 +44,41 @@ class RecipeDraft {
     };
     friend class TomlRecipe;
 
-    void set(const Setting& setting, Value value, std::string where, bool from_flag);
+    /// A key of a section; of a list section, of one of its entries.
+    struct Place {
+        std::string section;
+        std::size_t entry = 0;
+        std::string key;
+        auto operator<=>(const Place&) const = default;
+    };
+    /// A section or one entry of a list section.
+    struct Part {
+        std::string section;
+        std::size_t entry = 0;
+        auto operator<=>(const Part&) const = default;
+    };
+
+    void set(const Setting& setting, std::size_t entry, Value value, const std::string& where,
+             bool from_flag);
     void refuse(int line, std::string text) { mistakes_.push_back({line, std::move(text)}); }
-    const Entry* entry(std::string_view section, std::string_view key) const;
-    bool section_used(const std::string& section) const;
+    const Entry* entry(std::string_view section, std::string_view key, std::size_t number = 0) const;
+    std::string where(std::string_view section, std::string_view key, std::size_t number = 0) const;
+    std::string where_begins(const std::string& section, std::size_t number) const;
+    /// How many entries of a list section were found; of a plain section, whether it is used.
+    std::size_t count(const Section& section) const;
+
     void drop_overridden_body();
-    void check_required(const std::string& section, const std::string& key, const std::string& why);
-    void check_body();
+    bool check_bodies();
+    void check_kind(const KindSection& section, std::size_t number);
+    void check_need(const Part& part, const std::string& need, const std::string& why);
     void check_structure();
     void check_printer();
     Recipe assemble() const;
     void check_numbers(const Recipe& recipe);
+    void check_foam(const FoamRecipe& foam);
 
-    std::map<std::string, Entry> entries_;         ///< by "section.key"
-    std::map<std::string, std::string> sections_;  ///< sections present in the file: where they begin
+    std::map<Place, Entry> entries_;
+    std::map<Part, std::string> sections_;  ///< those present in the file: where they begin
     std::vector<Mistake> mistakes_;
     bool body_required_ = true;
 };

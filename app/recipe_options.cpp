@@ -28,6 +28,14 @@ std::string value_hint(const Setting& setting) {
             return "N";
         case ValueType::number:
             return setting.unit == "mm" ? "MM" : "X";
+        case ValueType::graded:
+            return setting.unit == "mm" ? "MM|FORMULA" : "X|FORMULA";
+        case ValueType::formula:
+            return "FORMULA";
+        case ValueType::path:
+            return "FILE";
+        case ValueType::rows:
+            return "X,...;X,...";
         case ValueType::text:
             return "TEXT";
         case ValueType::choice:
@@ -50,7 +58,8 @@ void RecipeOptions::add_to(CLI::App& command) {
     texts_.resize(settings().size());
     for (std::size_t i = 0; i < texts_.size(); ++i) {
         const Setting& setting = settings()[i];
-        CLI::Option* option = nullptr;
+        CLI::Option*& option = options_.emplace_back(nullptr);
+        if (setting.flag.empty()) continue;
         if (setting.type == ValueType::boolean) {
             const std::string names =
                 fmt::format("{}{{true}},--no-{}{{false}}", setting.flag, setting.flag.substr(2));
@@ -61,7 +70,6 @@ void RecipeOptions::add_to(CLI::App& command) {
         }
         option->group("Recipe [" + setting.section + "]");
         option->take_last();
-        options_.push_back(option);
     }
 }
 
@@ -74,7 +82,7 @@ Recipe RecipeOptions::read(bool needs_body) const {
         draft.assign_flag(*find_setting("part", "mesh"), input_);
     }
     for (std::size_t i = 0; i < options_.size(); ++i) {
-        if (options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
+        if (options_[i] && options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
     }
     return draft.finish();
 }

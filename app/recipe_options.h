@@ -26,7 +26,7 @@ class RecipeOptions {
   private:
     std::string input_;
     std::vector<std::string> texts_;     ///< by row of the table
-    std::vector<CLI::Option*> options_;  ///< by row of the table
+    std::vector<CLI::Option*> options_;  ///< by row of the table; null for rows without a flag
 };
 
 /// Makes --version and the examples of a subcommand's help.

@@ -71,6 +71,28 @@ std::optional<Value> triple(const toml::node& node) {
     return v;
 }
 
+/// Appends the numbers of an array, also of arrays in it; whether there was nothing else.
+bool flatten(const toml::node& node, std::vector<double>& out, int depth = 0) {
+    if (const auto one = number(node)) {
+        out.push_back(*one);
+        return depth > 0;
+    }
+    const auto* array = node.as_array();
+    if (!array || depth > 1) return false;
+    return std::all_of(array->begin(), array->end(),
+                       [&](const toml::node& part) { return flatten(part, out, depth + 1); });
+}
+
+std::optional<Value> rows(const toml::node& node) {
+    const auto* array = node.as_array();
+    if (!array) return std::nullopt;
+    NumberRows rows;
+    for (const toml::node& part : *array) {
+        if (!flatten(part, rows.emplace_back())) return std::nullopt;
+    }
+    return rows;
+}
+
 /// The node as a value of the setting's type; nothing when it has another type.
 std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
     switch (setting.type) {
@@ -84,11 +106,20 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
             if (const auto v = number(node)) return *v;
             break;
         case ValueType::text:
+        case ValueType::path:
         case ValueType::choice:
             if (const auto* v = node.as_string()) return v->get();
             break;
         case ValueType::triple:
             return triple(node);
+        case ValueType::graded:
+            if (const auto v = number(node)) return GradedNumber{*v, ""};
+            [[fallthrough]];
+        case ValueType::formula:
+            if (const auto* v = node.as_string()) return GradedNumber{v->get(), ""};
+            break;
+        case ValueType::rows:
+            return rows(node);
     }
     return std::nullopt;
 }
@@ -114,16 +145,16 @@ class TomlRecipe {
         for (const auto& [key, node] : root) {
             const std::string name(key.str());
             const int line = static_cast<int>(key.source().begin.line);
-            if (std::find(known.begin(), known.end(), name) != known.end()) {
-                read_section(name, line, node);
-            } else if (node.is_table()) {
+            if (const Section* section = find_section(name)) {
+                section->is_list() ? read_list(*section, line, node) : read_section(*section, line, node);
+            } else if (node.is_table() || node.is_array_of_tables()) {
                 const std::string near = nearest(name, known);
-                refuse(line, fmt::format("[{}]", shown(name)),
-                       "unknown section" + (near.empty() ? "" : fmt::format(", did you mean `[{}]`?", near)),
-                       "[part], [foam], [skin], [layers], [printer]");
+                const std::string hint =
+                    near.empty() ? "" : fmt::format(", did you mean `{}`?", find_section(near)->title());
+                refuse(line, fmt::format("[{}]", shown(name)), "unknown section" + hint, section_titles());
             } else {
                 refuse(line, shown(name), "stands outside a section" + belongs(name),
-                       "keys below one of [part], [foam], [skin], [layers], [printer]");
+                       "keys below one of " + section_titles());
             }
         }
     }
@@ -140,35 +171,64 @@ class TomlRecipe {
     /// ", it belongs to [foam]" when another section has the key.
     static std::string belongs(const std::string& key) {
         for (const Setting& setting : settings()) {
-            if (setting.key == key) return fmt::format(", `{}` belongs to [{}]", key, setting.section);
+            if (setting.key == key) {
+                return fmt::format(", `{}` belongs to {}", key, find_section(setting.section)->title());
+            }
         }
         return "";
     }
 
-    void read_section(const std::string& section, int line, const toml::node& node) {
+    void read_section(const Section& section, int line, const toml::node& node) {
         const auto* table = node.as_table();
         if (!table) {
-            refuse(line, section, found_type(node), fmt::format("a section [{}] with keys", section));
+            refuse(line, section.name, found_type(node),
+                   fmt::format("a section {} with keys", section.title()));
             return;
         }
-        draft_.sections_[section] = at(line, section);
-        for (const auto& [key, child] : *table) {
-            read_key(section, std::string(key.str()), static_cast<int>(key.source().begin.line), child);
+        read_table(section.name, 0, line, *table);
+    }
+
+    void read_list(const Section& section, int line, const toml::node& node) {
+        const auto* list = node.as_array();
+        if (!list) {
+            refuse(line, section.name, found_type(node),
+                   fmt::format("a section {} with keys, as often as wanted", section.title()));
+            return;
+        }
+        std::size_t number = 0;
+        for (const toml::node& part : *list) {
+            const int begin = static_cast<int>(part.source().begin.line);
+            if (const auto* table = part.as_table()) {
+                read_table(section.name, number++, begin, *table);
+            } else {
+                refuse(begin, section.name, found_type(part),
+                       fmt::format("sections {} with keys", section.title()));
+            }
         }
     }
 
-    void read_key(const std::string& section, const std::string& key, int line, const toml::node& node) {
+    /// The keys of a section, or of one entry of a list section.
+    void read_table(const std::string& section, std::size_t number, int line, const toml::table& table) {
+        draft_.sections_[{section, number}] = at(line, section);
+        for (const auto& [key, child] : table) {
+            read_key(section, number, std::string(key.str()), static_cast<int>(key.source().begin.line),
+                     child);
+        }
+    }
+
+    void read_key(const std::string& section, std::size_t number, const std::string& key, int line,
+                  const toml::node& node) {
         const Setting* setting = find_setting(section, key);
-        if (!setting) return refuse_key(section, key, line);
+        if (!setting) return refuse_key(section, number, key, line);
         const std::string where = at(line, setting->name());
         const auto value = value_of(*setting, node);
         std::optional<std::string> wrong = value ? objection(*setting, *value) : found_type(node);
-        if (!wrong) return draft_.set(*setting, located(*setting, *value), where, false);
+        if (!wrong) return draft_.set(*setting, number, located(*setting, *value), where, false);
         refuse(line, setting->name(), *wrong, accepted(*setting));
-        draft_.entries_[setting->name()] = {std::nullopt, where, false};
+        draft_.entries_[{section, number, key}] = {std::nullopt, where, false};
     }
 
-    void refuse_key(const std::string& section, const std::string& key, int line) {
+    void refuse_key(const std::string& section, std::size_t number, const std::string& key, int line) {
         std::vector<std::string> known;
         std::string listing;
         for (const Setting& setting : settings()) {
@@ -181,12 +241,12 @@ class TomlRecipe {
                "unknown key" + (near.empty() ? belongs(key) : fmt::format(", did you mean `{}`?", near)),
                listing);
         // The key that was meant is not missing as well: one mistake, one message.
-        if (!near.empty()) draft_.entries_.try_emplace(section + "." + near);
+        if (!near.empty()) draft_.entries_.try_emplace({section, number, near});
     }
 
     /// Paths in a recipe start at the recipe's folder.
     Value located(const Setting& setting, const Value& value) const {
-        if (setting.name() != "part.mesh") return value;
+        if (setting.type != ValueType::path) return value;
         const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
         return (folder / std::get<std::string>(value)).lexically_normal().string();
     }

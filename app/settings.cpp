@@ -12,6 +12,8 @@ namespace lamella {
 namespace {
 
 constexpr std::size_t longest_text = 4096;
+constexpr std::size_t longest_formula = 1 << 16;
+constexpr std::size_t most_rows = 1 << 16;
 
 std::string with_unit(const Setting& setting) { return setting.unit.empty() ? "" : " " + setting.unit; }
 
@@ -33,12 +35,44 @@ std::optional<std::string> range_objection(const Setting& setting, double v) {
     return std::nullopt;
 }
 
-std::optional<std::string> text_objection(const std::string& text) {
+std::optional<std::string> text_objection(const std::string& text, std::size_t longest = longest_text) {
     if (text.empty()) return "the text is empty";
-    if (text.size() > longest_text) return fmt::format("the text has more than {} bytes", longest_text);
+    if (text.size() > longest) return fmt::format("the text has more than {} bytes", longest);
     const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), control)) return "the text holds control characters";
     return std::nullopt;
+}
+
+/// Formulas may be parted into lines.
+std::optional<std::string> formula_objection(std::string text) {
+    const auto white = [](char c) { return c == '\n' || c == '\r' || c == '\t'; };
+    std::replace_if(text.begin(), text.end(), white, ' ');
+    if (text.find_first_not_of(' ') == std::string::npos) return "the formula is empty";
+    return text_objection(text, longest_formula);
+}
+
+std::optional<std::string> rows_objection(const Setting& setting, const NumberRows& rows) {
+    const RowShape& shape = setting.shape;
+    if (rows.empty()) return "it is empty";
+    if (rows.size() > most_rows) return fmt::format("it has more than {} rows", most_rows);
+    if (shape.rows != 0 && rows.size() != shape.rows) {
+        return fmt::format("{} were found where {} belong", rows.size(), shape.rows);
+    }
+    for (const auto& row : rows) {
+        if (row.size() != shape.columns) {
+            return fmt::format("{} numbers were found where {} belong together", row.size(), shape.columns);
+        }
+        for (const double v : row) {
+            if (auto wrong = range_objection(setting, v)) return wrong;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string rows_text(const NumberRows& rows) {
+    std::string text;
+    for (const auto& row : rows) text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(row, ","));
+    return text;
 }
 
 template <typename T>
@@ -48,6 +82,20 @@ std::optional<T> entire(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return number;
+}
+
+/// Rows with semicolons between them.
+std::optional<NumberRows> parse_rows(std::string_view text, std::size_t columns) {
+    NumberRows rows;
+    while (rows.size() <= most_rows) {
+        const std::size_t end = text.find(';');
+        auto row = parse_numbers(text.substr(0, end), columns);
+        if (!row) return std::nullopt;
+        rows.push_back(std::move(*row));
+        if (end == std::string_view::npos) return rows;
+        text.remove_prefix(end + 1);
+    }
+    return std::nullopt;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -66,6 +114,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+const Section* find_section(std::string_view name) {
+    for (const Section& section : sections()) {
+        if (section.name == name) return &section;
+    }
+    return nullptr;
+}
+
+std::string section_titles() {
+    std::string text;
+    for (const Section& section : sections()) text += (text.empty() ? "" : ", ") + section.title();
+    return text;
+}
 
 const Setting* find_setting(std::string_view section, std::string_view key) {
     for (const Setting& setting : settings()) {
@@ -86,10 +147,18 @@ std::string accepted(const Setting& setting) {
             return "a number" + range_text(setting) + with_unit(setting);
         case ValueType::text:
             return "a text";
+        case ValueType::path:
+            return "a path";
         case ValueType::choice:
             return "one of " + joined(setting.choices);
         case ValueType::triple:
             return "three numbers" + range_text(setting) + with_unit(setting);
+        case ValueType::graded:
+            return "a number" + range_text(setting) + with_unit(setting) + " or a formula";
+        case ValueType::formula:
+            return "a formula";
+        case ValueType::rows:
+            return setting.shape.form + range_text(setting) + with_unit(setting);
     }
     return {};
 }
@@ -107,6 +176,7 @@ std::optional<std::string> objection(const Setting& setting, const Value& value)
         case ValueType::number:
             return range_objection(setting, std::get<double>(value));
         case ValueType::text:
+        case ValueType::path:
             return text_objection(std::get<std::string>(value));
         case ValueType::choice: {
             const auto& word = std::get<std::string>(value);
@@ -123,6 +193,14 @@ std::optional<std::string> objection(const Setting& setting, const Value& value)
             }
             return std::nullopt;
         }
+        case ValueType::graded:
+        case ValueType::formula: {
+            const auto& graded = std::get<GradedNumber>(value);
+            return graded.is_formula() ? formula_objection(graded.formula())
+                                       : range_objection(setting, graded.number());
+        }
+        case ValueType::rows:
+            return rows_objection(setting, std::get<NumberRows>(value));
     }
     return std::nullopt;
 }
@@ -140,8 +218,23 @@ std::optional<Value> parse_value(const Setting& setting, const std::string& text
             if (const auto number = entire<double>(text)) value = *number;
             break;
         case ValueType::text:
+        case ValueType::path:
         case ValueType::choice:
             value = text;
+            break;
+        case ValueType::graded:
+            value = GradedNumber{};
+            if (const auto number = entire<double>(text)) {
+                std::get<GradedNumber>(*value).value = *number;
+            } else {
+                std::get<GradedNumber>(*value).value = text;
+            }
+            break;
+        case ValueType::formula:
+            value = GradedNumber{text, ""};
+            break;
+        case ValueType::rows:
+            if (const auto rows = parse_rows(text, setting.shape.columns)) value = *rows;
             break;
         case ValueType::triple:
             if (const auto three = parse_numbers(text, 3))
@@ -166,6 +259,10 @@ std::string format_value(const Value& value) {
         std::string operator()(double v) const { return fmt::format("{}", v); }
         std::string operator()(const std::string& v) const { return v; }
         std::string operator()(const dvec3& v) const { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+        std::string operator()(const GradedNumber& v) const {
+            return v.is_formula() ? v.formula() : fmt::format("{}", v.number());
+        }
+        std::string operator()(const NumberRows& v) const { return rows_text(v); }
     };
     return std::visit(Format{}, value);
 }
@@ -201,11 +298,12 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string settings_reference() {
     std::string text;
     for (const Section& section : sections()) {
-        text += fmt::format("{}[{}]  {}\n", text.empty() ? "" : "\n", section.name, section.help);
+        text += fmt::format("{}{}  {}\n", text.empty() ? "" : "\n", section.title(), section.help);
         for (const Setting& s : settings()) {
             if (s.section != section.name) continue;
             text += fmt::format("  {:<20}{}\n", s.key, s.help);
-            text += fmt::format("  {:<20}{}; default: {}; flag: {}\n", "", accepted(s), s.fallback, s.flag);
+            text += fmt::format("  {:<20}{}; default: {}{}\n", "", accepted(s), s.fallback,
+                                s.flag.empty() ? "" : "; flag: " + s.flag);
         }
     }
     return text;

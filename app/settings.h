@@ -1,6 +1,7 @@
 // The settings table: every key of a recipe and every recipe flag of the command, described once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,12 +14,30 @@
 
 namespace lamella {
 
-/// A setting's value as it stands in a recipe or on the command line. Choices are text.
-using Value = std::variant<bool, std::int64_t, double, std::string, dvec3>;
+/// A setting's value as it stands in a recipe or on the command line. Choices and paths are text.
+using Value = std::variant<bool, std::int64_t, double, std::string, dvec3, GradedNumber, NumberRows>;
 
-enum class ValueType : unsigned char { boolean, integer, number, text, choice, triple };
+enum class ValueType : unsigned char {
+    boolean,
+    integer,
+    number,
+    text,
+    path,  ///< of an input: in a recipe it starts at the recipe's folder, and its bytes count
+    choice,
+    triple,
+    graded,   ///< a number, or a formula over place, depth and gradings
+    formula,  ///< a formula only
+    rows      ///< rows of numbers; see RowShape
+};
 
-/// The numbers that a setting accepts; for a triple, each of the three.
+/// How many numbers a row holds and how many rows there are, for settings that are rows.
+struct RowShape {
+    std::size_t columns = 0;
+    std::size_t rows = 0;   ///< 0: one or more
+    const char* form = "";  ///< "points [[x, y, z], ...]", for people
+};
+
+/// The numbers that a setting accepts; for triples and rows, each of them.
 struct Limits {
     double lo = -infinity;
     double hi = infinity;
@@ -29,15 +48,18 @@ struct Limits {
 struct Setting {
     std::string section;
     std::string key;
-    std::string flag;  ///< long option of the command, with its dashes
+    std::string flag;  ///< long option of the command, with its dashes; empty in list sections
     ValueType type;
     std::string unit;  ///< "mm", "px" and so on; empty where there is none
     Limits limits;
     std::vector<std::string> choices;  ///< accepted words of a choice
-    std::string fallback;              ///< what holds when the setting is absent, for people
-    std::string help;                  ///< one sentence
-    void (*store)(Recipe&, const Value&);
-    Value (*load)(const Recipe&);
+    RowShape shape;
+    std::string fallback;  ///< what holds when the setting is absent, for people
+    std::string help;      ///< one sentence
+    /// The second argument counts the entries of a list section, which grows as needed; other sections
+    /// ignore it.
+    void (*store)(Recipe&, std::size_t, const Value&);
+    Value (*load)(const Recipe&, std::size_t);
 
     std::string name() const { return section + "." + key; }
 };
@@ -49,8 +71,20 @@ std::span<const Setting> settings();
 struct Section {
     std::string name;
     std::string help;
+    /// How many entries a list section ([[name]], as often as wanted) has; null for plain sections.
+    std::size_t (*entries)(const Recipe&) = nullptr;
+
+    bool is_list() const { return entries != nullptr; }
+    /// "[foam]" or "[[grading]]".
+    std::string title() const { return is_list() ? "[[" + name + "]]" : "[" + name + "]"; }
 };
 std::span<const Section> sections();
+
+/// The section of that name, null when there is none.
+const Section* find_section(std::string_view name);
+
+/// "[part], [foam], ...": all sections, for messages.
+std::string section_titles();
 
 /// The row of a key, null when there is none.
 const Setting* find_setting(std::string_view section, std::string_view key);

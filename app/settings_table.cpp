@@ -1,18 +1,8 @@
-// The rows of the settings table: one line of facts for each key of a recipe.
-#include <type_traits>
-
-#include "app/printer_choice.h"
-#include "app/settings.h"
+// The rows of the settings table about the part, its fields and gradings, foam, skin and layers.
+#include "app/recipe_kinds.h"
+#include "app/settings_rows.h"
 
 namespace lamella {
-
-namespace {
-
-FoamRecipe& foam(Recipe& r) { return r.foam ? *r.foam : r.foam.emplace(); }
-SkinRecipe& skin(Recipe& r) { return r.skin ? *r.skin : r.skin.emplace(); }
-
-template <auto place>
-using Placed = std::remove_reference_t<decltype(place(std::declval<Recipe&>()))>;
 
 const std::vector<std::string>& words(Shape) {
     static const std::vector<std::string> list{"none",    "sphere", "box",   "cylinder",
@@ -23,97 +13,27 @@ const std::vector<std::string>& words(LengthUnit) {
     static const std::vector<std::string> list{"mm", "cm", "m", "inch"};
     return list;
 }
-const std::vector<std::string>& words(ImageFormat) {
-    static const std::vector<std::string> list{"png", "tiff", "bmp", "pgm"};
-    return list;
-}
-const std::vector<std::string>& words(Antialiasing) {
-    static const std::vector<std::string> list{"off", "rows", "exact"};
+const std::vector<std::string>& words(Falloff) {
+    static const std::vector<std::string> list{"linear", "smooth", "gaussian", "inverse"};
     return list;
 }
 
-template <typename T>
-constexpr ValueType type_of() {
-    if constexpr (std::is_same_v<T, bool>) return ValueType::boolean;
-    if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::int64_t>) return ValueType::integer;
-    if constexpr (std::is_same_v<T, double>) return ValueType::number;
-    if constexpr (std::is_same_v<T, std::string>) return ValueType::text;
-    if constexpr (std::is_same_v<T, dvec3>) return ValueType::triple;
-    return ValueType::choice;
-}
-
-template <typename T>
-T from_value(const Value& value) {
-    if constexpr (std::is_enum_v<T>) {
-        const auto& list = words(T{});
-        const auto& word = std::get<std::string>(value);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            if (list[i] == word) return static_cast<T>(i);
-        }
-        return T{};
-    } else if constexpr (std::is_same_v<T, int>) {
-        return static_cast<int>(std::get<std::int64_t>(value));
-    } else {
-        return std::get<T>(value);
-    }
-}
-
-template <typename T>
-Value to_value(const T& held) {
-    if constexpr (std::is_enum_v<T>) {
-        return words(held)[static_cast<std::size_t>(held)];
-    } else if constexpr (std::is_same_v<T, int>) {
-        return static_cast<std::int64_t>(held);
-    } else {
-        return held;
-    }
-}
-
-/// What the rows below say about a key besides its name and flag.
-struct Facts {
-    std::string unit{};
-    Limits limits{};
-    std::vector<std::string> choices{};
-    std::string fallback{};
-    std::string help{};
-};
-
-/// A row whose value is stored in one or several places of the recipe, and read from the first.
-template <auto place, auto... others>
-Setting row(std::string section, std::string key, std::string flag, Facts facts) {
-    using Held = Placed<place>;
-    Setting s{std::move(section),
-              std::move(key),
-              std::move(flag),
-              facts.choices.empty() ? type_of<Held>() : ValueType::choice,
-              std::move(facts.unit),
-              facts.limits,
-              std::move(facts.choices),
-              std::move(facts.fallback),
-              std::move(facts.help),
-              [](Recipe& r, const Value& value) {
-                  place(r) = from_value<Held>(value);
-                  ((others(r) = place(r)), ...);
-              },
-              [](const Recipe& r) {
-                  Recipe copy = r;
-                  return to_value<Held>(place(copy));
-              }};
-    if constexpr (std::is_enum_v<Held>) {
-        s.choices = words(Held{});
-    }
-    return s;
-}
+namespace {
 
 constexpr Limits any_length{1e-3, 1e4};
 constexpr Limits extent{1e-2, 1e5};
-constexpr Limits speed{0.1, 2000};
+constexpr Limits place{-1e6, 1e6};
+constexpr Limits any_number{-1e9, 1e9};
 
 void add_part(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.mesh; }>(
         "part", "mesh", "--mesh",
-        {.fallback = "a mesh or a shape must be given",
-         .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder."}));
+        {.fallback = "a mesh, a shape or a field must be given",
+         .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder.",
+         .is_path = true}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.field; }>(
+        "part", "field", "--field",
+        {.fallback = "the only [[field]] there is", .help = "Name of the [[field]] that is the body."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.shape; }>(
         "part", "shape", "--shape",
         {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
@@ -164,25 +84,216 @@ void add_part(std::vector<Setting>& t) {
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
 }
 
-void add_structure(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe & r) -> auto& { return foam(r).cell; }>(
-        "foam", "cell", "--cell",
+template <auto member>
+void add_field_row(std::vector<Setting>& t, const char* key, Facts facts) {
+    t.push_back(list_row<&Recipe::fields, member>("field", key, std::move(facts)));
+}
+
+void add_fields(std::vector<Setting>& t) {
+    add_field_row<&FieldRecipe::name>(
+        t, "name", {.fallback = "required", .help = "Name, for part.field to use: letters, digits and _."});
+    add_field_row<&FieldRecipe::kind>(t, "kind",
+                                      {.choices = kind_words("field"),
+                                       .fallback = "formula",
+                                       .help = "Where the field's values come from."});
+    add_field_row<&FieldRecipe::formula>(
+        t, "formula",
+        {.fallback = "required by formula",
+         .help = "Formula over x, y, z (mm): the body is where it is below zero.",
+         .is_formula = true});
+    add_field_row<&FieldRecipe::file>(
+        t, "file",
+        {.fallback = "required by vm",
+         .help = "Program of one operation a line (.vm), relative to the recipe's folder.",
+         .is_path = true});
+    add_field_row<&FieldRecipe::bounds>(
+        t, "bounds",
         {.unit = "mm",
-         .limits = {0.05, 1000},
+         .limits = place,
+         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+         .fallback = "found by search",
+         .help = "Box that the body lies in; outside it the body is cut off."});
+}
+
+template <auto member>
+void add_grading_row(std::vector<Setting>& t, const char* key, Facts facts) {
+    t.push_back(list_row<&Recipe::gradings, member>("grading", key, std::move(facts)));
+}
+
+void add_gradings(std::vector<Setting>& t) {
+    using G = GradingRecipe;
+    add_grading_row<&G::name>(
+        t, "name", {.fallback = "required", .help = "Name, for formulas to use: letters, digits and _."});
+    add_grading_row<&G::kind>(
+        t, "kind",
+        {.choices = kind_words("grading"), .fallback = "required", .help = "Where the number comes from."});
+    add_grading_row<&G::value>(
+        t, "value",
+        {.limits = any_number, .fallback = "required by constant", .help = "The number everywhere."});
+    add_grading_row<&G::formula>(t, "formula",
+                                 {.fallback = "required by formula",
+                                  .help = "Formula over x, y, z, the depth d (mm) and other gradings.",
+                                  .is_formula = true});
+    add_grading_row<&G::file>(
+        t, "file",
+        {.fallback = "required by volume; of an attribute, part.mesh",
+         .help = "Volume (.nrrd, .tif or a folder of images), PLY mesh or table (.csv), relative to the "
+                 "recipe's folder.",
+         .is_path = true});
+    add_grading_row<&G::box>(t, "box",
+                             {.unit = "mm",
+                              .limits = place,
+                              .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+                              .fallback = "the file's",
+                              .help = "Box that a volume's voxels fill."});
+    add_grading_row<&G::channel>(
+        t, "channel", {.limits = {0, 255}, .fallback = "0", .help = "Channel of a volume's images, from 0."});
+    add_grading_row<&G::along>(t, "along",
+                               {.fallback = "required by table",
+                                .help = "Formula whose value the table is looked up with: \"z\", \"d\", ...",
+                                .is_formula = true});
+    add_grading_row<&G::rows>(t, "rows",
+                              {.limits = any_number,
+                               .shape = {2, 0, "pairs [[position, number], ...]"},
+                               .fallback = "a table has rows or a file",
+                               .help = "Rows of a table, in order of position."});
+    add_grading_row<&G::smooth>(
+        t, "smooth",
+        {.fallback = "false", .help = "Pass through a table's rows smoothly instead of straight."});
+    add_grading_row<&G::attribute>(
+        t, "attribute",
+        {.fallback = "required by attribute", .help = "Property of a PLY's vertices: red, quality, ..."});
+    add_grading_row<&G::points>(t, "points",
+                                {.unit = "mm",
+                                 .limits = place,
+                                 .shape = {3, 0, "points [[x, y, z], ...]"},
+                                 .fallback = "attractors have points or segments",
+                                 .help = "Points that attract."});
+    add_grading_row<&G::segments>(t, "segments",
+                                  {.unit = "mm",
+                                   .limits = place,
+                                   .shape = {6, 0, "segments [[[x, y, z], [x, y, z]], ...]"},
+                                   .fallback = "attractors have points or segments",
+                                   .help = "Straight segments that attract."});
+    add_grading_row<&G::near_value>(
+        t, "near",
+        {.limits = any_number, .fallback = "required by attractors", .help = "The number at an attractor."});
+    add_grading_row<&G::far_value>(t, "far",
+                                   {.limits = any_number,
+                                    .fallback = "required by attractors",
+                                    .help = "The number beyond the radius."});
+    add_grading_row<&G::radius>(t, "radius",
+                                {.unit = "mm",
+                                 .limits = extent,
+                                 .fallback = "required by attractors",
+                                 .help = "Distance over which the number changes."});
+    add_grading_row<&G::falloff>(t, "falloff",
+                                 {.fallback = "smooth", .help = "How the number changes from near to far."});
+    add_grading_row<&G::at>(t, "at",
+                            {.unit = "mm",
+                             .limits = place,
+                             .fallback = "required by point, plane",
+                             .help = "The point, or a point of the plane."});
+    add_grading_row<&G::a>(
+        t, "a",
+        {.unit = "mm", .limits = place, .fallback = "required by line", .help = "One end of the line."});
+    add_grading_row<&G::b>(t, "b",
+                           {.unit = "mm",
+                            .limits = place,
+                            .fallback = "required by line",
+                            .help = "The other end of the line."});
+    add_grading_row<&G::normal>(t, "normal",
+                                {.limits = place,
+                                 .fallback = "required by plane",
+                                 .help = "Direction in which the distance from a plane is positive."});
+}
+
+template <auto member>
+void add_foam_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+    t.push_back(optional_row<&Recipe::foam, member>("foam", key, flag, std::move(facts)));
+}
+
+constexpr Limits cells{0.05, 1000};
+constexpr Limits beams{0.005, 500};
+constexpr Limits walls{0.01, 500};
+
+void add_foam(std::vector<Setting>& t) {
+    using F = FoamRecipe;
+    add_foam_row<&F::kind>(t, "kind", "--foam",
+                           {.choices = kind_words("foam"),
+                            .fallback = FoamRecipe{}.kind,
+                            .help = "What the body is filled with."});
+    add_foam_row<&F::cell>(
+        t, "cell", "--cell",
+        {.unit = "mm",
+         .limits = cells,
          .fallback = "required in [foam]",
-         .help = "Mean diameter of a foam cell: one seed to every cell cubed."}));
-    t.push_back(
-        row<[](Recipe & r) -> auto& { return foam(r).beam; }>("foam", "beam", "--beam",
-                                                              {.unit = "mm",
-                                                               .limits = {0.005, 500},
-                                                               .fallback = "required in [foam]",
-                                                               .help = "Radius of the foam's beams."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return foam(r).seed; }>(
-        "foam", "seed", "--seed",
-        {.limits = {0, 9223372036854775807.0},
-         .fallback = "1",
-         .help = "Number that picks one foam among all."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return skin(r).thickness; }>(
+         .help = "Mean diameter of a cell: one seed to every cell cubed; side or period of what repeats."});
+    add_foam_row<&F::beam>(t, "beam", "--beam",
+                           {.unit = "mm",
+                            .limits = beams,
+                            .fallback = "required in [foam]",
+                            .help = "Radius of the foam's beams."});
+    const auto bound = [&]<auto member>(const char* key, const char* flag, Limits limits, double fallback,
+                                        const char* help) {
+        add_foam_row<member>(
+            t, key, flag, {.unit = "mm", .limits = limits, .fallback = format_value(fallback), .help = help});
+    };
+    bound.operator()<&F::cell_min>("cell_min", "--cell-min", cells, cells.lo,
+                                   "Least cell that is made: graded cells are kept above it.");
+    bound.operator()<&F::cell_max>("cell_max", "--cell-max", cells, cells.hi,
+                                   "Greatest cell that is made: graded cells are kept below it.");
+    bound.operator()<&F::beam_min>("beam_min", "--beam-min", beams, beams.lo,
+                                   "Least radius that is made: graded beams are kept above it.");
+    bound.operator()<&F::beam_max>("beam_max", "--beam-max", beams, beams.hi,
+                                   "Greatest radius that is made: graded beams are kept below it.");
+    add_foam_row<&F::wall>(t, "wall", "--wall",
+                           {.unit = "mm",
+                            .limits = walls,
+                            .fallback = "required by periodic surfaces",
+                            .help = "Thickness of the walls, at least; of a network, of its struts."});
+    bound.operator()<&F::wall_min>("wall_min", "--wall-min", walls, walls.lo,
+                                   "Least thickness that is made: graded walls are kept above it.");
+    bound.operator()<&F::wall_max>("wall_max", "--wall-max", walls, walls.hi,
+                                   "Greatest thickness that is made: graded walls are kept below it.");
+    add_foam_row<&F::network>(
+        t, "network", "--network",
+        {.fallback = "false", .help = "Struts on one side of a periodic surface instead of a wall on it."});
+    add_foam_row<&F::unit_cell>(t, "unit_cell", "--unit-cell",
+                                {.choices = {"cubic", "bcc", "fcc", "octet"},
+                                 .fallback = "a lattice has unit_cell or struts",
+                                 .help = "Struts that a lattice repeats, by name."});
+    add_foam_row<&F::struts>(t, "struts", "--struts",
+                             {.limits = {0, 1},
+                              .shape = {6, 0, "struts [[[x, y, z], [x, y, z]], ...]"},
+                              .fallback = "a lattice has unit_cell or struts",
+                              .help = "Struts that a lattice repeats, by their ends in the unit cube."});
+    add_foam_row<&F::seed>(t, "seed", "--seed",
+                           {.limits = {0, 9223372036854775807.0},
+                            .fallback = "1",
+                            .help = "Number that picks one foam among all."});
+    add_foam_row<&F::jitter>(
+        t, "jitter", "--jitter",
+        {.limits = {0, 1},
+         .fallback = format_value(F{}.jitter),
+         .help = "Disorder of Kelvin's foam: share of the spacing that seeds are moved by."});
+    add_foam_row<&F::stretch>(t, "stretch", "--stretch",
+                              {.limits = {0.05, 20},
+                               .fallback = "1, 1, 1",
+                               .help = "Factors on the cells along x, y and z, or along these axes turned."});
+    add_foam_row<&F::turn>(t, "turn", "--turn",
+                           {.unit = "degrees",
+                            .limits = {-360, 360},
+                            .fallback = "0, 0, 0",
+                            .help = "Turns the axes of stretch about x, then y, then z."});
+    add_foam_row<&F::drop_islands>(
+        t, "drop_islands", "--drop-islands",
+        {.fallback = "false",
+         .help = "Leave out what floats free of the part; the layers are surveyed first."});
+}
+
+void add_skin_and_layers(std::vector<Setting>& t) {
+    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness>(
         "skin", "thickness", "--skin",
         {.unit = "mm",
          .limits = {0, 1000},
@@ -193,117 +304,14 @@ void add_structure(std::vector<Setting>& t) {
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
 }
 
-void add_printer(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.name; }>(
-        "printer", "profile", "--printer",
-        {.choices = profile_words(),
-         .fallback = default_profile().name,
-         .help =
-             "Machine profile to start from, or a back-end's name for that back-end with plain settings."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.backend; }>(
-        "printer", "kind", "--printer-kind",
-        {.choices = backend_words(), .help = "Back-end that makes the output."}));
-}
-
-void add_image(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.width; }>(
-        "printer", "width", "--printer-width",
-        {.unit = "px", .limits = {1, 65535}, .help = "Width of the display."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.height; }>(
-        "printer", "height", "--printer-height",
-        {.unit = "px", .limits = {1, 65535}, .help = "Height of the display."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }, [](Recipe & r) -> auto& {
-        return r.printer.image.pixel_y;
-    }>("printer", "pixel", "--printer-pixel",
-       {.unit = "mm", .limits = any_length, .help = "Edge of a square pixel; pixel_x and pixel_y in one."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }>(
-        "printer", "pixel_x", "--printer-pixel-x",
-        {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's width."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_y; }>(
-        "printer", "pixel_y", "--printer-pixel-y",
-        {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's height."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.format; }>(
-        "printer", "format", "--printer-format", {.help = "File format of the images of a stack."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_x; }>(
-        "printer", "mirror_x", "--printer-mirror-x", {.help = "Mirror the images left to right."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_y; }>(
-        "printer", "mirror_y", "--printer-mirror-y", {.help = "Mirror the images top to bottom."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.portrait; }>(
-        "printer", "portrait", "--printer-portrait", {.help = "Image columns run along +y of the plate."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.antialiasing; }>(
-        "printer", "antialiasing", "--printer-antialiasing",
-        {.help = "Grey edges: none, by sub_rows lines a pixel row, or by exact area."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_rows; }>(
-        "printer", "sub_rows", "--printer-sub-rows",
-        {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
-}
-
-void add_vector(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.tolerance; }, [](Recipe & r) -> auto& {
-        return r.printer.filament.tolerance;
-    }>("printer", "tolerance", "--printer-tolerance",
-       {.unit = "mm",
-        .limits = {0.0005, 10},
-        .help = "Largest distance between a contour and the surface."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.one_file; }>(
-        "printer", "one_file", "--printer-one-file",
-        {.help = "One vector file with a group a layer instead of a folder of files."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.margin; }>(
-        "printer", "margin", "--printer-margin",
-        {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin round the part in vector files."}));
-}
-
-/// A number of the printer's section.
-template <auto member>
-void add_machine_number(std::vector<Setting>& t, const char* key, const char* flag, const char* unit,
-                        Limits limits, const char* help) {
-    constexpr auto place = [](Recipe & r) -> auto& { return r.printer.filament.*member; };
-    t.push_back(row<place>("printer", key, flag, {.unit = unit, .limits = limits, .help = help}));
-}
-
-void add_filament(std::vector<Setting>& t) {
-    add_machine_number<&FilamentProfile::bed_x>(t, "bed_x", "--printer-bed-x", "mm", {1, 1e5},
-                                                "Width of the bed.");
-    add_machine_number<&FilamentProfile::bed_y>(t, "bed_y", "--printer-bed-y", "mm", {1, 1e5},
-                                                "Depth of the bed.");
-    add_machine_number<&FilamentProfile::bed_z>(t, "bed_z", "--printer-bed-z", "mm", {1, 1e5},
-                                                "Largest height of a print.");
-    add_machine_number<&FilamentProfile::nozzle>(t, "nozzle", "--printer-nozzle", "mm", {0.05, 10},
-                                                 "Diameter of the nozzle's bore.");
-    add_machine_number<&FilamentProfile::filament>(t, "filament", "--printer-filament", "mm", {0.5, 10},
-                                                   "Diameter of the filament.");
-    add_machine_number<&FilamentProfile::line_width>(t, "line_width", "--printer-line-width", "mm",
-                                                     {0.05, 20}, "Width of an extruded line.");
-    add_machine_number<&FilamentProfile::infill_density>(t, "infill_density", "--printer-infill-density", "",
-                                                         {0, 1}, "Share of the inside that is filled.");
-    add_machine_number<&FilamentProfile::nozzle_temperature>(
-        t, "nozzle_temperature", "--printer-nozzle-temperature", "degrees Celsius", {0, 500},
-        "Temperature of the nozzle.");
-    add_machine_number<&FilamentProfile::bed_temperature>(t, "bed_temperature", "--printer-bed-temperature",
-                                                          "degrees Celsius", {0, 250},
-                                                          "Temperature of the bed.");
-    add_machine_number<&FilamentProfile::print_speed>(t, "print_speed", "--printer-print-speed", "mm/s",
-                                                      speed, "Speed of printing.");
-    add_machine_number<&FilamentProfile::first_layer_speed>(t, "first_layer_speed",
-                                                            "--printer-first-layer-speed", "mm/s", speed,
-                                                            "Speed of printing the first layer.");
-    add_machine_number<&FilamentProfile::travel_speed>(t, "travel_speed", "--printer-travel-speed", "mm/s",
-                                                       speed, "Speed of moves without extrusion.");
-    add_machine_number<&FilamentProfile::retraction>(t, "retraction", "--printer-retraction", "mm", {0, 100},
-                                                     "Filament drawn back before a move.");
-    add_machine_number<&FilamentProfile::retraction_speed>(t, "retraction_speed",
-                                                           "--printer-retraction-speed", "mm/s", speed,
-                                                           "Speed of drawing filament back.");
-}
-
 std::vector<Setting> make_table() {
     std::vector<Setting> table;
     add_part(table);
-    add_structure(table);
-    add_printer(table);
-    add_image(table);
-    add_vector(table);
-    add_filament(table);
+    add_fields(table);
+    add_gradings(table);
+    add_foam(table);
+    add_skin_and_layers(table);
+    add_printer_settings(table);
     for (Setting& setting : table) {
         if (setting.fallback.empty()) setting.fallback = "the profile's";
     }
@@ -333,8 +341,12 @@ std::span<const Setting> settings() {
 
 std::span<const Section> sections() {
     static const std::vector<Section> list{
-        {"part", "the body: a mesh file or a shape"},
-        {"foam", "Voronoi foam inside the body; without this section the part has none"},
+        {"part", "the body: a mesh file, a shape or a field"},
+        {"field", "a body that is the inside of a formula, by name",
+         [](const Recipe& r) { return r.fields.size(); }},
+        {"grading", "a number that varies in space, for formulas to use by its name",
+         [](const Recipe& r) { return r.gradings.size(); }},
+        {"foam", "foam inside the body; without this section the part has none"},
         {"skin", "closed skin under the body's surface; without this section the part has none"},
         {"layers", "how the part is cut"},
         {"printer", "the machine: a profile, and what differs from it"}};

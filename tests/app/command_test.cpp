@@ -129,7 +129,7 @@ TEST_CASE("wrong command lines end with code 2 and a message") {
     }
     const Outcome flag = run_lamella("slice " + ball + "--cell three --beam 0.2");
     CHECK(flag.code == 2);
-    CHECK(mentions(flag.err, "--cell: \"three\" cannot be read; accepted: a number from 0.05 to 1000 mm"));
+    CHECK(mentions(flag.err, "--cell: column 1: unknown name `three`"));
 }
 
 TEST_CASE("a wrong recipe is told with all its lines and makes nothing") {

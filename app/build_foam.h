@@ -1,0 +1,37 @@
+// From the recipe's [foam] to the foam: kinds are registered here, a line each.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/build_gradings.h"
+#include "engine/beam.h"
+#include "procedural/seed_tree.h"
+
+namespace lamella {
+
+struct BuiltFoam {
+    FieldPtr field;
+    GradedUse cell;
+    GradedUse member;  ///< radius of the beams or thickness of the walls
+    /// The beams whose solid touches a box, and the seeds in it; null for foams that have none.
+    std::function<std::vector<Beam>(const Box&)> beams_touching;
+    std::function<std::vector<Seed>(const Box&)> seeds_in;
+    /// The share of space that is solid about a point; null where no law is known.
+    std::function<double(dvec3)> volume_fraction;
+};
+
+/// The foam, cells filling at least the region.
+BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings);
+
+/// A kind of foam: its keys, and how it is made.
+struct FoamBuilder {
+    Kind kind;
+    std::string member;  ///< the key that says how thick its members are: "beam" or "wall"
+    void (*make)(const FoamRecipe&, const Box& region, BuiltFoam&);
+};
+std::span<const FoamBuilder> foam_builders();
+
+}  // namespace lamella

@@ -1,0 +1,70 @@
+// From the recipe's [[grading]] entries and graded numbers to gradings.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include "app/recipe.h"
+#include "app/recipe_kinds.h"
+#include "engine/error.h"
+#include "engine/formula.h"
+#include "engine/grading.h"
+
+namespace lamella {
+
+/// A message that says already which key of the recipe it is about.
+struct PlacedError : InputError {
+    using InputError::InputError;
+};
+
+/// A formula with the gradings that feed its inputs after x, y, z.
+struct GradedFormula {
+    Formula formula;
+    std::vector<GradingPtr> others;
+};
+
+/// A number of the recipe that may vary in space, as it is asked for and as it is made.
+struct GradedUse {
+    std::string key;   ///< "foam.cell"
+    GradingPtr asked;  ///< mm
+    GradingPtr made;   ///< kept within limits
+    Interval limits;   ///< mm
+};
+
+/// The gradings of a recipe. Each is made, and its file read, when it is first asked for.
+class Gradings {
+  public:
+    explicit Gradings(const Recipe& recipe) : recipe_(recipe) {}
+
+    /// From here on there is a body to measure depths from.
+    void set_body(FieldPtr body) { body_ = std::move(body); }
+
+    /// A number or formula of the recipe. Names in `more` come before the recipe's. Throws InputError for
+    /// what it needs and cannot be had: a file, or a part to measure depths from.
+    GradingPtr of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
+    /// A formula with what it needs.
+    GradedFormula formula_of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
+
+    const Recipe& recipe() const { return recipe_; }
+
+  private:
+    GradingPtr named(const std::string& name);
+
+    const Recipe& recipe_;
+    FieldPtr body_;
+    std::map<std::string, GradingPtr> made_;
+};
+
+/// A graded number within its limits; constants have been checked with the recipe.
+GradedUse graded(const char* key, const GradedNumber& number, Interval limits, Gradings& gradings,
+                 const std::map<std::string, GradingPtr>& more = {});
+
+/// A kind of [[grading]]: its keys, and how it is made.
+struct GradingBuilder {
+    Kind kind;
+    GradingPtr (*make)(const GradingRecipe&, Gradings&);
+};
+std::span<const GradingBuilder> grading_builders();
+
+}  // namespace lamella
