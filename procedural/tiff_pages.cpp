@@ -1,6 +1,7 @@
 // The chain of a TIFF file's directories.
 #include "procedural/tiff_pages.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 
@@ -25,9 +26,82 @@ class OrderedBytes {
         return value;
     }
 
+    std::uint64_t size() {
+        in_.clear();
+        in_.seekg(0, std::ios::end);
+        return static_cast<std::uint64_t>(in_.tellg());
+    }
+
   private:
     std::istream& in_;
     bool big_endian_;
+};
+
+/// One number a strip or tile: where it begins, or how many bytes it has.
+struct Column {
+    std::uint64_t at = 0;     ///< offset of the first number
+    std::uint64_t count = 0;  ///< 0 when the directory has no such column
+    std::size_t bytes = 0;    ///< of a number
+};
+
+/// The directories of one file.
+class Directories {
+  public:
+    Directories(OrderedBytes bytes, bool wide) : bytes_(bytes), wide_(wide), file_size_(bytes_.size()) {}
+
+    std::optional<std::uint64_t> first() { return bytes_.number(wide_ ? 8 : 4, offset_bytes()); }
+    /// The offset of the next directory, 0 at the end; nothing where this one is cut off.
+    std::optional<std::uint64_t> next(std::uint64_t at) {
+        const auto entries = bytes_.number(at, count_bytes());
+        if (!entries || *entries > 0xffffU) return std::nullopt;
+        return bytes_.number(at + count_bytes() + *entries * entry_bytes(), offset_bytes());
+    }
+    /// Whether all strips and tiles of a directory lie within the file.
+    bool holds_its_samples(std::uint64_t at) {
+        constexpr std::uint64_t strip_offsets = 273, strip_sizes = 279, tile_offsets = 324, tile_sizes = 325;
+        return inside(column(at, strip_offsets), column(at, strip_sizes)) &&
+               inside(column(at, tile_offsets), column(at, tile_sizes));
+    }
+
+  private:
+    std::size_t offset_bytes() const { return wide_ ? 8 : 4; }
+    std::size_t count_bytes() const { return wide_ ? 8 : 2; }
+    std::size_t entry_bytes() const { return wide_ ? 20 : 12; }
+
+    Column column(std::uint64_t at, std::uint64_t tag) {
+        constexpr std::uint64_t short_number = 3, long_number = 4, long8_number = 16;
+        const std::uint64_t entries = bytes_.number(at, count_bytes()).value_or(0);
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const std::uint64_t entry = at + count_bytes() + i * entry_bytes();
+            if (bytes_.number(entry, 2) != tag) continue;
+            const std::uint64_t type = bytes_.number(entry + 2, 2).value_or(0);
+            Column found;
+            found.bytes = type == short_number ? 2 : type == long_number ? 4 : type == long8_number ? 8 : 0;
+            found.count = found.bytes > 0 ? bytes_.number(entry + 4, offset_bytes()).value_or(0) : 0;
+            found.at = entry + 4 + offset_bytes();
+            // What does not fit the entry stands elsewhere.
+            if (found.count > offset_bytes() / std::max<std::size_t>(found.bytes, 1)) {
+                found.at = bytes_.number(found.at, offset_bytes()).value_or(file_size_);
+            }
+            return found;
+        }
+        return {};
+    }
+
+    bool inside(const Column& offsets, const Column& sizes) {
+        const std::uint64_t count = std::min(offsets.count, sizes.count);
+        if (count > file_size_) return false;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const auto offset = bytes_.number(offsets.at + i * offsets.bytes, offsets.bytes);
+            const auto size = bytes_.number(sizes.at + i * sizes.bytes, sizes.bytes);
+            if (!offset || !size || *offset > file_size_ || *size > file_size_ - *offset) return false;
+        }
+        return true;
+    }
+
+    OrderedBytes bytes_;
+    bool wide_;
+    std::uint64_t file_size_;
 };
 
 }  // namespace
@@ -42,14 +116,17 @@ std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string&
     const auto magic = bytes.number(2, 2);
     const bool wide = magic == big;
     if (!wide && magic != classic) return std::nullopt;
-    const std::size_t offset_bytes = wide ? 8 : 4, count_bytes = wide ? 8 : 2, entry_bytes = wide ? 20 : 12;
-    auto at = bytes.number(wide ? 8 : 4, offset_bytes);
+    Directories directories(bytes, wide);
+    auto at = directories.first();
     std::size_t pages = 0;
     for (; at && *at != 0; ++pages) {
         if (pages == most_pages) throw InputError(name + ": its chain of TIFF pages has no end");
-        const auto entries = bytes.number(*at, count_bytes);
-        if (!entries || *entries > 0xffffU) at.reset();
-        if (at) at = bytes.number(*at + count_bytes + *entries * entry_bytes, offset_bytes);
+        const auto next = directories.next(*at);
+        if (next && !directories.holds_its_samples(*at)) {
+            throw InputError(name + ": the file is cut off: samples of its page " + std::to_string(pages) +
+                             " lie beyond its end");
+        }
+        at = next;
     }
     if (!at) throw InputError(name + ": the file is cut off: its chain of TIFF pages leads beyond its end");
     return pages;
