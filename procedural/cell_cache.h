@@ -33,15 +33,21 @@ std::size_t hash_value(const PlaceKey& key);
 /// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves,
 /// mm).
 ///
-/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. When it does,
-/// the values farthest in z from the last request, and among those the least recently used, go first, until
-/// three quarters are left. Values still held by callers live on until released.
+/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below that,
+/// what is kept beyond `idle` bytes is at most four times what lies near the last request in z, so that a job
+/// that goes upwards needs no more memory the higher it gets. When a limit is reached, the values farthest in
+/// z from the last request, and among those the least recently used, go first, until three quarters are left.
+/// Values still held by callers live on until released.
 template <typename Value>
 class CellCache {
   public:
     using Pointer = std::shared_ptr<const Value>;
 
-    explicit CellCache(std::size_t capacity) : shard_capacity_(capacity / shard_count) {}
+    explicit CellCache(std::size_t capacity) : CellCache(capacity, capacity) {}
+    CellCache(std::size_t capacity, std::size_t idle)
+        : shard_capacity_(capacity / shard_count), shard_idle_(std::min(idle, capacity) / shard_count) {
+        for (Shard& shard : shards_) shard.limit = shard_idle_;
+    }
 
     /// The value at the key, or null when it is not held. `z` is the height for which it is wanted.
     Pointer find(const PlaceKey& key, double z) {
@@ -63,8 +69,8 @@ class CellCache {
         entry->second.used = ++shard.clock;
         if (!fresh) return entry->second.value;
         entry->second.value = value;
-        shard.bytes += value->bytes();
-        if (shard.bytes > shard_capacity_) evict(shard);
+        shard.bytes += cost(*value);
+        if (shard.bytes > shard.limit) evict(shard);
         return value;
     }
 
@@ -99,8 +105,12 @@ class CellCache {
         std::size_t bytes = 0;
         std::uint64_t clock = 0;
         double wanted_z = 0;
+        std::size_t limit = 0;  ///< of bytes
     };
     static constexpr std::size_t shard_count = 16;
+    static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;  // and its node
+
+    static std::size_t cost(const Value& value) { return value.bytes() + entry_bytes; }
 
     Shard& shard_of(const PlaceKey& key) const { return shards_[(hash_value(key) >> 32) % shard_count]; }
 
@@ -112,23 +122,27 @@ class CellCache {
         };
         std::vector<Candidate> candidates;
         candidates.reserve(shard.entries.size());
+        std::size_t near = 0;
         for (const auto& [key, entry] : shard.entries) {
             const Interval z = entry.value->z_extent();
             const double distance = std::max({z.lo - shard.wanted_z, shard.wanted_z - z.hi, 0.0});
+            if (distance <= z.width()) near += cost(*entry.value);
             candidates.push_back({distance, entry.used, key});
         }
+        shard.limit = std::min(shard_capacity_, std::max(shard_idle_, 4 * near));
+        if (shard.bytes <= shard.limit) return;
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
             return a.z_distance != b.z_distance ? a.z_distance > b.z_distance : a.used < b.used;
         });
         for (const Candidate& candidate : candidates) {
-            if (shard.bytes <= shard_capacity_ / 4 * 3) break;
+            if (shard.bytes <= shard.limit / 4 * 3) break;
             const auto entry = shard.entries.find(candidate.key);
-            shard.bytes -= entry->second.value->bytes();
+            shard.bytes -= cost(*entry->second.value);
             shard.entries.erase(entry);
         }
     }
 
-    std::size_t shard_capacity_;
+    std::size_t shard_capacity_, shard_idle_;
     mutable std::array<Shard, shard_count> shards_;
 };
 

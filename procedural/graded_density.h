@@ -7,7 +7,7 @@
 namespace lamella {
 
 /// One seed per cell^3, the cell's size being a grading, mm. Where the size changes within a box, the
-/// integral is taken over parts in which it changes by at most 5 %, or that are an eighth of the box wide.
+/// integral is taken over parts in which it changes by at most 5 %, or that are half the box wide.
 class GradedDensity : public Density {
   public:
     /// The sizes must be positive everywhere.

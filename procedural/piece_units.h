@@ -34,7 +34,10 @@ class PieceUnits {
 
     /// `cache_bytes` bounds the memory of the cached units (CellCache says how).
     PieceUnits(std::shared_ptr<const SeedTree> tree, Source source, std::size_t cache_bytes)
-        : tree_(std::move(tree)), source_(std::move(source)), units_(cache_bytes), reaches_(reach_bytes) {}
+        : tree_(std::move(tree)),
+          source_(std::move(source)),
+          units_(cache_bytes, idle_unit_bytes),
+          reaches_(reach_bytes, idle_reach_bytes) {}
 
     /// Every piece whose solid touches the box, once, in the order of units (coarse cells by z, y, x; nodes
     /// depth first; slabs upwards) and within a unit in the order of keys.
@@ -44,7 +47,9 @@ class PieceUnits {
     static constexpr std::uint32_t unit_seeds = 64;      // a node with more is no unit but its children
     static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
     static constexpr int slabs = 8;
-    static constexpr std::size_t reach_bytes = std::size_t{8} << 20;
+    static constexpr std::size_t reach_bytes = std::size_t{32} << 20;
+    static constexpr std::size_t idle_unit_bytes = std::size_t{4} << 20;
+    static constexpr std::size_t idle_reach_bytes = std::size_t{1} << 19;
     static constexpr double safe_side = 1 + 1e-9;
 
     struct Unit {

@@ -18,7 +18,8 @@ constexpr double bcc_leaf_seeds = 5.656854249492381;  // between the 2 of a leaf
 constexpr double rounding = 1 + 1e-9;  // a share of exactly eight seeds must not split by a rounding error
 constexpr std::size_t most_nodes = std::size_t{1} << 22;
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
-constexpr std::size_t block_cache_bytes = std::size_t{64} << 20;
+constexpr std::size_t block_cache_bytes = std::size_t{256} << 20;
+constexpr std::size_t idle_block_bytes = std::size_t{2} << 20;
 
 enum Draw : std::uint64_t { draw_count, draw_order, draw_offset, draw_first_seed };
 
@@ -80,7 +81,7 @@ SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, s
       side_(coarse_side),
       recipe_seed_(recipe_seed),
       pattern_(pattern),
-      blocks_(block_cache_bytes) {
+      blocks_(block_cache_bytes, idle_block_bytes) {
     if (!(coarse_side > 0) || !std::isfinite(coarse_side)) {
         throw InputError("the coarse cell's side is " + std::to_string(coarse_side) +
                          " mm; it must be positive and finite");

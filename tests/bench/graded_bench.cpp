@@ -70,4 +70,39 @@ void foam_height(benchmark::State& state) {
 }
 BENCHMARK(foam_height)->Arg(100)->Arg(10000)->Unit(benchmark::kMillisecond);
 
+/// From nothing to the runs of the first layer of a part of 100 x 100 x 10,000 cells of 2 mm.
+void first_layer_100x100x10000(benchmark::State& state) {
+    FoamSettings settings;
+    settings.cell = 2.0;
+    settings.region = {{0, 0, 0}, {200, 200, 20000}};
+    for (auto _ : state) {
+        const auto foam = make_voronoi_foam(settings);
+        SliceContext context;
+        Scratch scratch;
+        SpanRows rows;
+        RowBand band{.along_pitch = 0.05, .across_pitch = 0.05, .count = 4000, .hi = 4000};
+        context.slice(*foam, 0.025).spans(band, scratch, rows);
+        benchmark::DoNotOptimize(rows.runs().data());
+    }
+}
+BENCHMARK(first_layer_100x100x10000)->Unit(benchmark::kMillisecond);
+
+/// From nothing to the runs of the first band of a cube of 464^3 cells of 2 mm, uniform or graded.
+void first_band_464(benchmark::State& state) {
+    FoamSettings settings;
+    settings.cell = 2.0;
+    if (state.range(0)) settings.cell = std::make_shared<const Ramp>(0, 1.9, 928, 2.1);
+    settings.region = {dvec3(0), dvec3(928)};
+    for (auto _ : state) {
+        const auto foam = make_voronoi_foam(settings);
+        SliceContext context;
+        Scratch scratch;
+        SpanRows rows;
+        RowBand band{.along_pitch = 0.125, .across_pitch = 0.125, .count = 64, .hi = 7424};
+        context.slice(*foam, 0.025).spans(band, scratch, rows);
+        benchmark::DoNotOptimize(rows.runs().data());
+    }
+}
+BENCHMARK(first_band_464)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
 }  // namespace
