@@ -34,10 +34,10 @@ std::size_t hash_value(const PlaceKey& key);
 /// mm).
 ///
 /// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below that,
-/// what is kept beyond `idle` bytes is at most four times what lies near the last request in z, so that a job
-/// that goes upwards needs no more memory the higher it gets. When a limit is reached, the values farthest in
-/// z from the last request, and among those the least recently used, go first, until three quarters are left.
-/// Values still held by callers live on until released.
+/// what is kept beyond `idle` bytes is at most four times what lay near the request in z that last met a
+/// limit, so that a job that goes upwards needs no more memory the higher it gets. When a limit is reached,
+/// the values farthest in z from the last request, and among those the least recently used, go first, until
+/// three quarters are left. Values still held by callers live on until released.
 template <typename Value>
 class CellCache {
   public:
