@@ -7,6 +7,7 @@
 #include "engine/formula_batch.h"
 #include "engine/formula_builder.h"
 #include "engine/formula_inputs.h"
+#include "engine/formula_slope.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 
@@ -29,14 +30,23 @@ struct Others {
 class WalkedFormula : public WalkedSolid {
   public:
     WalkedFormula(const Formula& formula, const Others& others, double z, FormulaKeeps keeps)
-        : stack_(formula, keeps), others_(others), z_(z) {}
+        : stack_(formula, keeps), keeps_(keeps), others_(others), z_(z) {}
 
     Interval enter(const Rect& tile) override {
         fill_ranges({{tile.lo, z_}, {tile.hi, z_}}, others_.gradings, others_.read, ranges_);
+        tile_ = tile;
         return field_range(stack_.enter(ranges_));
     }
 
     void leave() override { stack_.leave(); }
+
+    SlopeBound slope(Axis lines) override {
+        const std::uint32_t along = lines == Axis::x ? 0 : 1;
+        const double length = lines == Axis::x ? tile_.hi.x - tile_.lo.x : tile_.hi.y - tile_.lo.y;
+        return slopes_.bound(stack_.tape(), stack_.ranges(), along, length);
+    }
+
+    bool signs_only() const override { return keeps_ == FormulaKeeps::signs; }
 
     void values(const WalkPoints& points, std::span<double> out) override {
         if (prepared_ != stack_.version()) batch_.prepare(stack_.tape());
@@ -90,7 +100,10 @@ class WalkedFormula : public WalkedSolid {
     }
 
     FormulaStack stack_;
+    FormulaKeeps keeps_;
+    FormulaSlopes slopes_;
     FormulaBatch batch_;
+    Rect tile_;
     const Others& others_;
     double z_;
     std::uint64_t prepared_ = ~std::uint64_t{0};  ///< version of the program in the batch
