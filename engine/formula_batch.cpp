@@ -45,78 +45,81 @@ void FormulaBatch::prepare(const FormulaTape& tape) {
         if (step.op == FormulaOp::constant)
             leaves_.insert(leaves_.end(), batch_group, tape.constants[step.a]);
     }
-    lines_ = padded_ = 0;
+    list_.lines = lattice_.lines = 0;
 }
 
-bool FormulaBatch::laid_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded) const {
-    const bool roomy = lines == lines_ && (lines == 1 ? padded <= padded_ : padded == padded_);
-    return roomy && std::all_of(loads_.begin(), loads_.end(), [&](const Load& load) {
-               const BatchInput& input = inputs[load.input];
-               const int varies =
-                   (input.by_point ? varies_by_point : 0) | (input.by_line ? varies_by_line : 0);
-               return varies_[load.input] == varies;
+bool FormulaBatch::Layout::fits(std::span<const BatchInput> inputs, std::size_t line_count,
+                                std::size_t width) const {
+    const bool roomy = line_count == lines && (lines == 1 ? width <= padded : width == padded);
+    return roomy && std::all_of(loads.begin(), loads.end(), [&](const Load& l) {
+               const BatchInput& input = inputs[l.input];
+               const int how = (input.by_point ? varies_by_point : 0) | (input.by_line ? varies_by_line : 0);
+               return varies[l.input] == how;
            });
 }
 
-FormulaBatch::Place FormulaBatch::place_of(std::size_t instruction, int varies) {
-    const bool by_point = (varies & varies_by_point) != 0, by_line = (varies & varies_by_line) != 0;
-    const std::size_t stride = by_point ? padded_ : batch_group;
-    double* const at = registers_.data() + slot_[instruction] * (lines_ * padded_);
-    return {{at, by_line ? stride : 0, by_point ? ~std::size_t{0} : 0}, static_cast<std::uint8_t>(varies)};
+FormulaBatch::Place FormulaBatch::Layout::place(std::uint32_t slot, int varies_how) const {
+    const bool by_point = (varies_how & varies_by_point) != 0, by_line = (varies_how & varies_by_line) != 0;
+    const std::size_t stride = by_point ? padded : batch_group;
+    const double* const at = registers.data() + slot * (lines * padded);
+    return {{at, by_line ? stride : 0, by_point ? ~std::size_t{0} : 0},
+            static_cast<std::uint8_t>(varies_how)};
 }
 
-void FormulaBatch::lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded) {
-    lines_ = lines;
+void FormulaBatch::lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded,
+                           Layout& out) const {
+    out.lines = lines;
     // Lists of points come in many lengths.
-    padded_ = lines == 1 ? std::max(padded, std::size_t{good_grid}) : padded;
-    const std::size_t room = slots_ * lines_ * padded_, count = tape_.instructions.size();
-    if (registers_.size() < room) registers_.resize(room);
-    places_.resize(count);
-    steps_.clear();
-    loads_.clear();
-    varies_.resize(std::max(varies_.size(), inputs.size()));
+    out.padded = lines == 1 ? std::max(padded, std::size_t{good_grid}) : padded;
+    const std::size_t room = slots_ * out.lines * out.padded, count = tape_.instructions.size();
+    if (out.registers.size() < room) out.registers.resize(room);
+    out.places.resize(count);
+    out.steps.clear();
+    out.loads.clear();
+    out.varies.resize(std::max(out.varies.size(), inputs.size()));
+    auto& places = out.places;
     const double* leaf = leaves_.data();
     for (std::size_t i = 0; i < count; ++i) {
         const FormulaInstruction& step = tape_.instructions[i];
         if (step.op == FormulaOp::constant) {
-            places_[i] = {{leaf, 0, 0}, 0};
+            places[i] = {{leaf, 0, 0}, 0};
             leaf += batch_group;
             continue;
         }
         if (step.op == FormulaOp::input) {
             const BatchInput& input = inputs[step.a];
-            places_[i] =
-                place_of(i, (input.by_point ? varies_by_point : 0) | (input.by_line ? varies_by_line : 0));
-            varies_[step.a] = places_[i].varies;
-            loads_.push_back({step.a, const_cast<double*>(places_[i].operand.at)});
+            places[i] = out.place(
+                slot_[i], (input.by_point ? varies_by_point : 0) | (input.by_line ? varies_by_line : 0));
+            out.varies[step.a] = places[i].varies;
+            out.loads.push_back({step.a, const_cast<double*>(places[i].operand.at)});
             continue;
         }
         const int arguments = arity(step.op);
-        const Place& a = places_[step.a];
-        const Place& b = arguments > 1 ? places_[step.b] : a;
-        const Place& c = arguments > 2 ? places_[step.c] : a;
-        places_[i] = place_of(i, a.varies | b.varies | c.varies);
-        const Place& own = places_[i];
+        const Place& a = places[step.a];
+        const Place& b = arguments > 1 ? places[step.b] : a;
+        const Place& c = arguments > 2 ? places[step.c] : a;
+        places[i] = out.place(slot_[i], a.varies | b.varies | c.varies);
+        const Place& own = places[i];
         const auto alike = [&](const Place& place) {
             return place.varies == own.varies || place.varies == 0;
         };
         const bool contiguous =
             own.varies == (varies_by_line | varies_by_point) && alike(a) && alike(b) && alike(c);
-        steps_.push_back({step.op, (own.varies & varies_by_line) != 0, (own.varies & varies_by_point) != 0,
-                          contiguous, const_cast<double*>(own.operand.at), own.operand.line_stride, a.operand,
-                          b.operand, c.operand});
+        out.steps.push_back({step.op, (own.varies & varies_by_line) != 0, (own.varies & varies_by_point) != 0,
+                             contiguous, const_cast<double*>(own.operand.at), own.operand.line_stride,
+                             a.operand, b.operand, c.operand});
     }
 }
 
 /// Brings an input into groups: padded along the line, or repeated over a group.
-void FormulaBatch::load(const BatchInput& input, double* to, std::size_t lines, std::size_t points,
-                        std::size_t padded) const {
+void FormulaBatch::Layout::load(const BatchInput& input, double* to, std::size_t points,
+                                std::size_t width) const {
     for (std::size_t l = 0; l < (input.by_line ? lines : 1); ++l) {
         if (input.by_point) {
             const double* const from = input.numbers + l * points;
             std::copy_n(from, points, to);
-            std::fill(to + points, to + padded, from[points - 1]);
-            to += padded_;
+            std::fill(to + points, to + width, from[points - 1]);
+            to += padded;
         } else {
             std::fill_n(to, batch_group, input.numbers[l]);
             to += batch_group;
@@ -128,10 +131,11 @@ void FormulaBatch::run(std::span<const BatchInput> inputs, int line_count, int p
                        std::span<double> out) {
     const auto lines = static_cast<std::size_t>(line_count), points = static_cast<std::size_t>(point_count);
     const std::size_t padded = (points + batch_group - 1) / batch_group * batch_group;
-    if (!laid_out(inputs, lines, padded)) lay_out(inputs, lines, padded);
-    for (const Load& l : loads_) load(inputs[l.input], l.to, lines, points, padded);
-    run_batch_steps(steps_, lines, padded);
-    const BatchStep::Operand& result = places_[tape_.instructions.size() - 1].operand;
+    Layout& layout = lines == 1 ? list_ : lattice_;
+    if (!layout.fits(inputs, lines, padded)) lay_out(inputs, lines, padded, layout);
+    for (const Load& l : layout.loads) layout.load(inputs[l.input], l.to, points, padded);
+    run_batch_steps(layout.steps, lines, padded);
+    const BatchStep::Operand& result = layout.places[tape_.instructions.size() - 1].operand;
     for (std::size_t l = 0; l < lines; ++l) {
         const double* const line = result.at + l * result.line_stride;
         double* const to = out.data() + l * points;

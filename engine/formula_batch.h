@@ -59,25 +59,29 @@ class FormulaBatch {
         std::uint32_t input;
         double* to;
     };
-    bool laid_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded) const;
-    void lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded);
-    void load(const BatchInput& input, double* to, std::size_t lines, std::size_t points,
-              std::size_t padded) const;
-    Place place_of(std::size_t instruction, int varies);
+    /// Registers and steps for grids of one layout; lists of points, whatever their length, share one.
+    struct Layout {
+        std::size_t lines = 0, padded = 0;  ///< that there is room for; none before the first run
+        std::vector<std::uint8_t> varies;   ///< of each input
+        std::vector<Place> places;
+        std::vector<Load> loads;
+        std::vector<BatchStep> steps;
+        std::vector<double> registers;
+
+        bool fits(std::span<const BatchInput> inputs, std::size_t line_count, std::size_t width) const;
+        Place place(std::uint32_t slot, int varies_how) const;
+        void load(const BatchInput& input, double* to, std::size_t points, std::size_t width) const;
+    };
+    void lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded,
+                 Layout& out) const;
 
     FormulaTape tape_;
     std::vector<std::uint32_t> slot_;      ///< register of each instruction
     std::vector<std::uint32_t> last_use_;  ///< scratch of `prepare`
     std::vector<std::uint32_t> free_;
     std::size_t slots_ = 0;
-    std::vector<double> registers_;
     std::vector<double> leaves_;  ///< constants, each repeated over a group
-    // The steps stay as they are for grids of the same layout: of one line, whatever its length.
-    std::size_t lines_ = 0, padded_ = 0;  ///< that there is room for; none before the first run
-    std::vector<std::uint8_t> varies_;    ///< of each input, as laid out
-    std::vector<Place> places_;
-    std::vector<Load> loads_;
-    std::vector<BatchStep> steps_;
+    Layout list_, lattice_;       ///< of the last grids of one line, and of more
 };
 
 /// Runs the steps in order over lines x points, points a multiple of batch_group (formula_batch_kernel.cpp).

@@ -7,6 +7,7 @@
 #include "engine/formula_batch.h"
 #include "engine/formula_builder.h"
 #include "engine/formula_inputs.h"
+#include "engine/formula_slope.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 
@@ -28,23 +29,28 @@ struct Others {
 /// The formula in one plane, as the tile walk sees it.
 class WalkedFormula : public WalkedSolid {
   public:
-    WalkedFormula(const Formula& formula, const Others& others, double z)
-        : stack_(formula), others_(others), z_(z) {}
+    WalkedFormula(const Formula& formula, const Others& others, double z, FormulaKeeps keeps)
+        : stack_(formula, keeps), keeps_(keeps), others_(others), z_(z) {}
 
     Interval enter(const Rect& tile) override {
         fill_ranges({{tile.lo, z_}, {tile.hi, z_}}, others_.gradings, others_.read, ranges_);
-        prepared_ = false;
+        tile_ = tile;
         return field_range(stack_.enter(ranges_));
     }
 
-    void leave() override {
-        stack_.leave();
-        prepared_ = false;
+    void leave() override { stack_.leave(); }
+
+    SlopeBound slope(Axis lines) override {
+        const std::uint32_t along = lines == Axis::x ? 0 : 1;
+        const double length = lines == Axis::x ? tile_.hi.x - tile_.lo.x : tile_.hi.y - tile_.lo.y;
+        return slopes_.bound(stack_.tape(), stack_.ranges(), along, length);
     }
 
+    bool signs_only() const override { return keeps_ == FormulaKeeps::signs; }
+
     void values(const WalkPoints& points, std::span<double> out) override {
-        if (!prepared_) batch_.prepare(stack_.tape());
-        prepared_ = true;
+        if (prepared_ != stack_.version()) batch_.prepare(stack_.tape());
+        prepared_ = stack_.version();
         const std::size_t width = points.along.size();
         const std::size_t lines = points.lattice ? points.across.size() : 1;
         // Pieces whose registers fit the first-level cache; long lists of points are cut along, lattices
@@ -94,10 +100,13 @@ class WalkedFormula : public WalkedSolid {
     }
 
     FormulaStack stack_;
+    FormulaKeeps keeps_;
+    FormulaSlopes slopes_;
     FormulaBatch batch_;
+    Rect tile_;
     const Others& others_;
     double z_;
-    bool prepared_ = false;
+    std::uint64_t prepared_ = ~std::uint64_t{0};  ///< version of the program in the batch
     std::vector<FormulaRange> ranges_;
     std::vector<BatchInput> inputs_;
     std::vector<double> graded_, piece_;
@@ -120,7 +129,8 @@ class FormulaSlice : public SliceField {
           bounds_(bounds.lo.z < z && z < bounds.hi.z ? bounds.rect() : Rect{}) {}
 
     void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
-        WalkedFormula solid(fixed_, others_, z_);
+        WalkedFormula solid(fixed_, others_, z_,
+                            metric_ == Metric::sign ? FormulaKeeps::signs : FormulaKeeps::numbers);
         sampled_spans(solid, metric_, band, out);
     }
 
@@ -136,7 +146,7 @@ class FormulaSlice : public SliceField {
             values(static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny));
         for (int i = 0; i < tile.nx; ++i) along.push_back(tile.origin.x + i * tile.step.x);
         for (int j = 0; j < tile.ny; ++j) across.push_back(tile.origin.y + j * tile.step.y);
-        WalkedFormula solid(fixed_, others_, z_);
+        WalkedFormula solid(fixed_, others_, z_, FormulaKeeps::numbers);
         const dvec2 a(along.front(), across.front()), b(along.back(), across.back());
         solid.enter({glm::min(a, b), glm::max(a, b)});
         solid.values({Axis::x, along, across, true}, values);

@@ -2,7 +2,6 @@
 // constants.
 #include "engine/formula_prune.h"
 
-#include <algorithm>
 namespace lamella {
 namespace {
 
@@ -15,10 +14,16 @@ std::uint32_t chosen(const FormulaInstruction& step, FormulaChoice choice) {
 
 }  // namespace
 
-FormulaStack::FormulaStack(const Formula& formula)
-    : instructions_(formula.instructions().begin(), formula.instructions().end()),
-      constants_(formula.constants().begin(), formula.constants().end()) {
-    levels_.push_back({0, instructions_.size(), constants_.size(), true});
+FormulaStack::FormulaStack(const Formula& formula, FormulaKeeps keeps) : keeps_(keeps) {
+    const auto instructions = formula.instructions();
+    const auto constants = formula.constants();
+    // Every copy is shorter by a quarter, so that all nested ones have less than four times the length:
+    // nothing moves while a program is in use.
+    instructions_.reserve(4 * instructions.size());
+    constants_.reserve(constants.size() + 4 * instructions.size());
+    instructions_.assign(instructions.begin(), instructions.end());
+    constants_.assign(constants.begin(), constants.end());
+    levels_.push_back({0, instructions_.size(), constants_.size(), versions_, true});
 }
 
 FormulaTape FormulaStack::tape() const {
@@ -40,11 +45,12 @@ FormulaRange FormulaStack::enter(std::span<const FormulaRange> inputs) {
     const FormulaRange result = ranges_[count - 1];
     const bool settled = result.values.lo > 0 || (result.values.hi < 0 && !result.maybe_nan);
     // A copy that is hardly shorter is not worth making.
-    const std::size_t kept = decided && !settled ? mark_live(tape.instructions) : count;
+    const bool shrinks = (decided || keeps_ == FormulaKeeps::signs) && !settled;
+    const std::size_t kept = shrinks ? mark_live(tape.instructions) : count;
     if (kept < count - count / 4) {
         shorten(parent, kept);
     } else {
-        levels_.push_back({parent.begin, parent.end, parent.constants, false});
+        levels_.push_back({parent.begin, parent.end, parent.constants, parent.version, false});
     }
     return result;
 }
@@ -57,22 +63,41 @@ void FormulaStack::leave() {
     constants_.resize(levels_.back().constants);
 }
 
+void FormulaStack::choose_by_sign(const FormulaInstruction& step, FormulaChoice& choice) const {
+    if (step.op != FormulaOp::min && step.op != FormulaOp::max) return;
+    const auto never_decides = [&](std::uint32_t i) {
+        const FormulaRange& r = ranges_[i];
+        return !r.maybe_nan && (step.op == FormulaOp::min ? r.values.lo > 0 : r.values.hi < 0);
+    };
+    if (never_decides(step.a)) {
+        choice = FormulaChoice::right;
+    } else if (never_decides(step.b)) {
+        choice = FormulaChoice::left;
+    }
+}
+
 std::size_t FormulaStack::mark_live(std::span<const FormulaInstruction> parent) {
-    std::fill_n(live_.begin(), parent.size(), static_cast<char>(0));
-    live_[parent.size() - 1] = 1;
+    std::fill_n(live_.begin(), parent.size(), static_cast<char>(dead));
+    live_[parent.size() - 1] = keeps_ == FormulaKeeps::signs ? sign_matters : number_matters;
     std::size_t kept = 0;
     for (std::size_t i = parent.size(); i-- > 0;) {
-        if (live_[i] == 0) continue;
+        const char what = live_[i];
+        if (what == dead) continue;
         const FormulaInstruction& step = parent[i];
-        if (choices_[i] != FormulaChoice::both) {
-            live_[chosen(step, choices_[i])] = 1;
+        FormulaChoice& choice = choices_[i];
+        if (what == sign_matters && choice == FormulaChoice::both) choose_by_sign(step, choice);
+        if (choice != FormulaChoice::both) {
+            need(chosen(step, choice), what);
             continue;
         }
         ++kept;
         const int arguments = arity(step.op);
-        if (arguments > 0) live_[step.a] = 1;
-        if (arguments > 1) live_[step.b] = 1;
-        if (arguments > 2) live_[step.c] = 1;
+        const bool passes =
+            step.op == FormulaOp::min || step.op == FormulaOp::max || step.op == FormulaOp::neg;
+        const char of_them = passes ? what : static_cast<char>(number_matters);
+        if (arguments > 0) need(step.a, of_them);
+        if (arguments > 1) need(step.b, arguments > 2 ? what : of_them);
+        if (arguments > 2) need(step.c, what);
     }
     return kept;
 }
@@ -94,7 +119,7 @@ void FormulaStack::shorten(const Level& parent, std::size_t kept) {
     const std::span<FormulaInstruction> made{instructions_.data() + begin, kept};
     std::uint32_t result = 0, count = 0;
     for (std::size_t i = 0; i < old.size(); ++i) {
-        if (live_[i] == 0) continue;
+        if (live_[i] == dead) continue;
         FormulaInstruction step = old[i];
         if (choices_[i] != FormulaChoice::both) {
             result = place_[i] = place_[chosen(step, choices_[i])];
@@ -110,11 +135,12 @@ void FormulaStack::shorten(const Level& parent, std::size_t kept) {
             if (constant) step = fold(step, made);
         }
         made[count] = step;
+        ranges_[count] = ranges_[i];
         result = place_[i] = count++;
     }
     // The result stands last; what follows it was made for choices that fell away.
     instructions_.resize(begin + result + 1);
-    levels_.push_back({begin, instructions_.size(), constants_.size(), true});
+    levels_.push_back({begin, instructions_.size(), constants_.size(), ++versions_, true});
 }
 
 }  // namespace lamella

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/crossing_bracket.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -12,9 +13,10 @@ namespace {
 constexpr int leaf_lines = 8;
 constexpr int leaf_pixels = 8;
 constexpr int quarter = run_unit / 4;
-constexpr int cells_per_unit = 16;                    // a crossing is found to 1/16 of a run unit
-constexpr int pair_cells = quarter * cells_per_unit;  // of a pair a quarter pitch apart
-constexpr int guesses = 3;                            // rounds of interpolation before plain halving
+constexpr int cells_per_unit = 16;  // a crossing is found to 1/16 of a run unit
+constexpr int guesses = 3;          // rounds of interpolation before plain halving
+constexpr int guesses_of_one = 6;   // where there is one crossing only
+constexpr int one_way_pixels = 16;  // tiles up to this size are asked whether values rise or fall all along
 
 /// Two neighbouring samples of a line, at run coordinates u0 < u1.
 struct Pair {
@@ -25,35 +27,15 @@ struct Pair {
     bool crosses() const { return (v0 < 0) != (v1 < 0); }
 };
 
-/// Cells lo to hi of a pair, between which the surface passes, and the values there.
-struct Bracket {
-    int lo, hi;
-    double v_lo, v_hi;
-
-    /// The border to try next.
-    int next(bool interpolate) const {
-        const double share = v_lo / (v_lo - v_hi);
-        if (!interpolate || !(0 <= share && share <= 1)) return lo + (hi - lo) / 2;
-        return std::min(std::max(lo + static_cast<int>((hi - lo) * share), lo + 1), hi - 1);
-    }
-
-    void take(int border, double value, bool begins_inside) {
-        if (border <= lo || hi <= border) return;
-        if ((value < 0) == begins_inside) {
-            lo = border;
-            v_lo = value;
-        } else {
-            hi = border;
-            v_hi = value;
-        }
-    }
-};
-
 /// Walks the tiles of a band and collects the runs of each line from left to right.
 class TileWalk {
   public:
     TileWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
-        : solid_(solid), metric_(metric), band_(band), lines_(static_cast<std::size_t>(band.lines())) {
+        : solid_(solid),
+          metric_(metric),
+          band_(band),
+          cell_(std::abs(band.along_pitch) / (run_unit * cells_per_unit)),
+          lines_(static_cast<std::size_t>(band.lines())) {
         for (int l = 0; l < band.lines(); ++l) positions_.push_back(band.line(l));
     }
 
@@ -101,6 +83,11 @@ class TileWalk {
 
     void descend(const Place& p) {
         const int across = p.width / leaf_pixels, down = p.height / leaf_lines;
+        if (metric_ == Metric::sign && std::max(p.width, p.height) <= one_way_pixels) {
+            // Half a cell, for positions are rounded.
+            one_way_ = solid_.slope(band_.axis).one_way(0.5 * cell_);
+            if (one_way_) return sample_ends(p);
+        }
         if (across == 1 && down == 1) return sample(p);
         // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
         const bool wide = across >= down, high = down >= across;
@@ -122,6 +109,27 @@ class TileWalk {
         } else {
             runs.push_back({begin, end});
         }
+    }
+
+    /// Samples the ends of a tile's lines, each of which has one crossing at most.
+    void sample_ends(const Place& p) {
+        const int begin = p.lo * run_unit, end = end_pixel(p) * run_unit;
+        along_.clear();
+        across_.clear();
+        for (int l = p.first; l < end_line(p); ++l) {
+            along_.insert(along_.end(), {band_.along(begin), band_.along(end)});
+            across_.insert(across_.end(), 2, position(l));
+        }
+        samples_.resize(along_.size());
+        solid_.values({band_.axis, along_, across_, false}, samples_);
+        pairs_.clear();
+        for (int l = p.first; l < end_line(p); ++l) {
+            const double* const v = samples_.data() + 2 * static_cast<std::size_t>(l - p.first);
+            const Pair pair{static_cast<double>(begin), static_cast<double>(end), v[0], v[1], l};
+            if (pair.crosses()) pairs_.push_back(pair);
+        }
+        find_crossings();
+        turn(p, begin, end);
     }
 
     void sample(const Place& p) {
@@ -209,18 +217,22 @@ class TileWalk {
         pairs_.swap(halves_);
     }
 
-    /// Narrows all pairs, each of which has a crossing, to the cell where it lies: the two borders of the
-    /// cell where a straight line through the ends crosses are tried first, then borders halfway.
+    /// Narrows all pairs, each of which has a crossing, to the cell where it lies.
     void find_crossings() {
         brackets_.clear();
-        for (const Pair& pair : pairs_) brackets_.push_back({0, pair_cells, pair.v0, pair.v1});
-        for (int round = 0; ask_borders(round < guesses); ++round) {
+        for (const Pair& pair : pairs_) {
+            const int cells = static_cast<int>(pair.u1 - pair.u0) * cells_per_unit;
+            brackets_.push_back({0, cells, pair.v0, pair.v1});
+        }
+        const Search last = solid_.signs_only() && !one_way_ ? Search::signs : Search::halves;
+        const int chords = one_way_ ? guesses_of_one : last == Search::signs ? 0 : guesses;
+        for (int round = 0; ask_borders(round < chords ? Search::chord : last); ++round) {
             solid_.values({band_.axis, along_, across_, false}, middles_);
             std::size_t k = 0;
             for (std::size_t i = 0; i < pairs_.size(); ++i) {
                 if (brackets_[i].hi - brackets_[i].lo == 1) continue;
-                for (const int border : {borders_[k], borders_[k + 1]})
-                    brackets_[i].take(border, middles_[k++], pairs_[i].v0 < 0);
+                for (std::size_t n = 0; n < tried_; ++n, ++k)
+                    brackets_[i].take(borders_[k], middles_[k], pairs_[i].v0 < 0);
             }
         }
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -230,18 +242,20 @@ class TileWalk {
         }
     }
 
-    /// Lists two cell borders of every pair whose cell is not found yet; tells whether there are any.
-    bool ask_borders(bool interpolate) {
+    /// Lists cell borders of every pair whose cell is not found yet; tells whether there are any.
+    bool ask_borders(Search search) {
         along_.clear();
         across_.clear();
         borders_.clear();
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             const Bracket& bracket = brackets_[i];
             if (bracket.hi - bracket.lo == 1) continue;
-            const int first = bracket.next(interpolate), second = std::min(first + 1, bracket.hi - 1);
-            for (const int border : {first, second}) {
-                borders_.push_back(border);
-                along_.push_back(band_.along(pairs_[i].u0 + static_cast<double>(border) / cells_per_unit));
+            const Bracket::Borders borders = bracket.next(search);
+            tried_ = borders.count;
+            for (std::size_t n = 0; n < tried_; ++n) {
+                const double u = pairs_[i].u0 + static_cast<double>(borders.at[n]) / cells_per_unit;
+                borders_.push_back(borders.at[n]);
+                along_.push_back(band_.along(u));
                 across_.push_back(position(pairs_[i].line));
             }
         }
@@ -269,12 +283,15 @@ class TileWalk {
     WalkedSolid& solid_;
     Metric metric_;
     const RowBand& band_;
+    double cell_;           ///< mm
+    bool one_way_ = false;  ///< every line of the tile has one crossing at most
     std::vector<std::vector<Run>> lines_;
     std::vector<double> positions_;  ///< of the lines, mm across
     std::vector<double> along_, across_, samples_, middles_;
     std::vector<Pair> pairs_, halves_;
     std::vector<Bracket> brackets_;
     std::vector<int> borders_;
+    std::size_t tried_ = 0;  ///< borders of each bracket
     std::vector<std::uint8_t> inside_;
 };
 

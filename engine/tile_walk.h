@@ -1,6 +1,8 @@
 // The tile walk: runs of a solid that has no closed form, read off samples where the surface may pass.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/field.h"
 
 namespace lamella {
@@ -18,6 +20,18 @@ struct WalkPoints {
     dvec2 at(double a, double c) const { return axis == Axis::x ? dvec2(a, c) : dvec2(c, a); }
 };
 
+/// How a value may change along a line: f(q) - f(p) lies within slope * (q - p) +- noise for any two points
+/// of the line. Unknown unless told.
+struct SlopeBound {
+    Interval slope{-infinity, infinity};  ///< per mm
+    double noise = infinity;              ///< of the values as computed
+
+    bool known() const { return -infinity < slope.lo && slope.hi < infinity && noise < infinity; }
+    bool flat() const { return slope.lo == 0 && slope.hi == 0 && noise == 0; }
+    /// The values surely rise, or surely fall, from any point to one that lies `distance` on.
+    bool one_way(double distance) const { return noise < std::max(slope.lo, -slope.hi) * distance; }
+};
+
 /// A solid in a plane as the walk sees it: it is told which tile the walk is in, so that it may narrow what
 /// it works with.
 class WalkedSolid {
@@ -28,15 +42,21 @@ class WalkedSolid {
     virtual Interval enter(const Rect& tile) = 0;
     /// The walk leaves the innermost tile.
     virtual void leave() = 0;
+    /// How values change along lines within the innermost tile; asked for right after `enter`.
+    virtual SlopeBound slope(Axis /*lines*/) { return {}; }
+    /// Only the signs of values are the same whatever the tile.
+    virtual bool signs_only() const { return false; }
     /// The values at the points; a lattice's line by line: out[line * along.size() + i].
     virtual void values(const WalkPoints& points, std::span<double> out) = 0;
 };
 
 /// Solid runs of a band from ranges and values alone. Tiles whose range proves them empty or full are not
-/// sampled; elsewhere neighbouring samples are compared, split down to a quarter pitch unless their values
-/// prove that no surface passes between them (metric exact or bound), and crossings are narrowed to 1/16 of a
-/// run unit. A value that is NaN counts as outside. Samples lie at quarter pitches counted from the band's
-/// origin, so a line's runs do not depend on how it is cut into tiles and bands.
+/// sampled. Where the slope proves that values rise or fall all along a tile's lines, so that each has one
+/// crossing at most, their ends are. Elsewhere neighbouring samples are compared, split down to a quarter
+/// pitch unless their values prove that no surface passes between them (metric exact or bound). Crossings are
+/// narrowed to 1/16 of a run unit. A value that is NaN counts as outside. Samples lie at quarter pitches
+/// counted from the band's origin, and what is proven is what they would tell, so a line's runs do not depend
+/// on how it is cut into tiles and bands.
 void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
 
 /// The same for a slice that answers from range and sample.

@@ -64,6 +64,25 @@ inline Formula random_formula(std::mt19937& random, int inputs, int size) {
     return f.finish(nodes.back());
 }
 
+/// A program of about `size` operations over three inputs that is seldom NaN, infinite or a jump.
+inline Formula tame_formula(std::mt19937& random, int size) {
+    using enum FormulaOp;
+    static constexpr FormulaOp unary[] = {neg, abs, square, FormulaOp::sqrt, recip, sin, cos, exp, ln, atan};
+    static constexpr FormulaOp binary[] = {add, add, sub, sub, mul, mul, div, min, max};
+    FormulaBuilder f;
+    std::vector<FormulaBuilder::Node> nodes{f.input(0), f.input(1), f.input(2), f.input(0)};
+    const auto node = [&] {
+        return nodes[nodes.size() - 1 - random() % std::min<std::size_t>(nodes.size(), 5)];
+    };
+    for (int i = 0; i < size; ++i) {
+        nodes.push_back(f.constant(std::uniform_real_distribution<double>(-3, 3)(random)));
+        const auto a = node(), b = node();
+        nodes.push_back(random() % 3 == 0 ? f.unary(unary[random() % std::size(unary)], a)
+                                          : f.binary(binary[random() % std::size(binary)], a, b));
+    }
+    return f.finish(nodes.back());
+}
+
 /// Equal bit for bit, where all NaN are alike.
 inline bool same_number(double a, double b) {
     return (std::isnan(a) && std::isnan(b)) ||

@@ -208,6 +208,65 @@ TEST_CASE("a shortened program gives the bits of the whole one") {
     REQUIRE(shorter > 500);
 }
 
+TEST_CASE("a program shortened for its sign keeps the sign") {
+    std::mt19937 random(37);
+    std::uniform_real_distribution<double> at(-3, 3);
+    const auto sign = [](double v) { return std::isnan(v) ? 2 : v < 0 ? -1 : v > 0 ? 1 : 0; };
+    const auto part_of = [](std::mt19937& r) {
+        return r() % 4 == 0 ? random_formula(r, 3, 4) : samples::tame_formula(r, 2);
+    };
+    std::size_t shorter = 0;
+    for (int k = 0; k < 3000; ++k) {
+        INFO("formula " << k);
+        // Random parts, joined by choices and turned about.
+        FormulaBuilder f;
+        auto node = f.include(part_of(random));
+        for (int part = 0; part < 6; ++part) {
+            const auto other = f.include(part_of(random));
+            const std::uint32_t kind = static_cast<std::uint32_t>(random() % 5);
+            if (kind < 4) node = f.binary(kind % 2 == 0 ? FormulaOp::min : FormulaOp::max, node, other);
+            if (kind == 4) node = f.select(other, node, f.unary(FormulaOp::neg, node));
+            if (random() % 3 == 0) node = f.unary(FormulaOp::neg, node);
+        }
+        const Formula formula = f.finish(node);
+        FormulaStack by_sign(formula, FormulaKeeps::signs), by_number(formula);
+        std::array<FormulaRange, 3> inputs;
+        for (FormulaRange& input : inputs) {
+            const double lo = at(random);
+            input = {{lo, lo + 0.5}, false};
+        }
+        by_sign.enter(inputs);
+        by_number.enter(inputs);
+        const FormulaTape tape = by_sign.tape();
+        shorter += tape.instructions.size() < by_number.tape().instructions.size();
+        FormulaBatch batch;
+        batch.prepare(tape);
+        for (int i = 0; i < 20; ++i) {
+            double p[3];
+            for (std::size_t j = 0; j < 3; ++j) p[j] = random_within(inputs[j], random);
+            const BatchInput points[3] = {{&p[0], false, true}, {&p[1], false, true}, {&p[2], false, true}};
+            double got = 0;
+            batch.run(points, 1, 1, {&got, 1});
+            REQUIRE(sign(got) == sign(formula.at(p)));
+        }
+    }
+    REQUIRE(shorter > 100);
+}
+
+TEST_CASE("a union's sign needs no parts that are near but do not touch") {
+    FormulaBuilder f;
+    const auto x = f.input(0);
+    auto nearest = f.binary(FormulaOp::sub, f.unary(FormulaOp::abs, x), f.constant(0.1));
+    for (int i = 1; i < 100; ++i) {
+        const auto off = f.unary(FormulaOp::abs, f.binary(FormulaOp::sub, x, f.constant(0.3 * i)));
+        nearest = f.binary(FormulaOp::min, nearest, f.binary(FormulaOp::sub, off, f.constant(0.1)));
+    }
+    FormulaStack stack(f.finish(nearest), FormulaKeeps::signs);
+    const FormulaRange inputs[1] = {{{2.85, 3.15}, false}};
+    stack.enter(inputs);
+    REQUIRE(stack.tape().instructions.size() == 6);
+}
+
 TEST_CASE("a program of choices shrinks to the one that is near") {
     FormulaBuilder f;
     const auto x = f.input(0);
