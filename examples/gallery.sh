@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Makes docs/gallery.png: a picture of every recipe in this folder, cut open as its header says, in one sheet.
-# Pictures that are newer than their recipe are kept in out/gallery. Needs ImageMagick (apt install imagemagick).
+# Pictures that are newer than their recipe are kept in out/gallery. Needs imagemagick and
+# fonts-dejavu-core (or FONT=file.ttf).
 # Usage: bash examples/gallery.sh [lamella command, default build/quickstart/lamella]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lamella=${1:-build/quickstart/lamella}
 pictures=out/gallery
 sheet=docs/gallery.png
-tile=300  # px
+tile=270  # px
+font=${FONT:-/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf}
 
 mkdir -p "$pictures"
 files=()
@@ -17,11 +19,11 @@ for recipe in examples/*.toml; do
     # The header's preview command says how the recipe is best seen.
     cut=$(sed -n 's/^#.*lamella preview.* --cut \([a-z]*\).*/\1/p' "$recipe" | head -n 1)
     if [ ! "$picture" -nt "$recipe" ]; then
-        "$lamella" preview "$recipe" --cut "${cut:-x}" --size 640 -o "$picture"
+        "$lamella" preview "$recipe" --cut "${cut:-x}" --size 320 -o "$picture"
     fi
     files+=(-label "${name//_/ }" "$picture")
 done
-# 256 colours without dithering: a third of the bytes, and no difference to be seen at this size.
-montage "${files[@]}" -resize "${tile}x$tile" -geometry +6+6 -tile 5x -background white -fill '#333333' \
-    -pointsize 17 -strip miff:- | convert miff:- +dither -colors 256 -strip "png8:$sheet"
+# 128 colours without dithering: a third of the bytes, and no difference to be seen at this size.
+montage "${files[@]}" -geometry "${tile}x$tile+5+5" -tile 5x -background white -fill '#333333' \
+    -font "$font" -pointsize 16 -strip miff:- | convert miff:- +dither -colors 128 -strip "png8:$sheet"
 echo "$sheet: $((${#files[@]} / 3)) recipes, $(stat -c %s "$sheet") bytes"
