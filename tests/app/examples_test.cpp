@@ -1,4 +1,5 @@
 // Every recipe in examples/ builds, has a size and gives a first layer with something in it.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
