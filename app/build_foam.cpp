@@ -3,6 +3,8 @@
 
 #include "app/recipe_formulas.h"
 #include "engine/error.h"
+#include "procedural/closed_foam.h"
+#include "procedural/nearest_foam.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
@@ -11,16 +13,27 @@ namespace lamella {
 
 namespace {
 
-/// A Voronoi foam of seeds in a pattern.
-void seeded(const FoamRecipe& foam, const Box& region, SeedPattern pattern, BuiltFoam& built) {
+/// Cells about seeds in a pattern, the same stretch everywhere.
+FoamSettings seeded(const FoamMaking& making, SeedPattern pattern) {
+    const FoamRecipe& foam = making.recipe;
     FoamSettings settings;
-    settings.cell = built.cell.made;
-    settings.beam_radius = built.member.made;
+    settings.cell = making.built.cell.made;
+    settings.beam_radius = making.built.member.made;
     settings.seed = static_cast<std::uint64_t>(foam.seed);
     settings.pattern = pattern;
     settings.jitter = foam.jitter;
-    if (foam.stretch != dvec3(1)) settings.stretch = Stretch(turned_axes(foam.turn), foam.stretch);
-    settings.region = region;
+    settings.region = making.region;
+    const dvec3 stretch = constant(foam.stretch).value_or(dvec3(1));
+    if (stretch != dvec3(1)) {
+        settings.stretch = Stretch(turned_axes(constant(foam.turn).value_or(dvec3(0))), stretch);
+    }
+    return settings;
+}
+
+/// Beams along the edges of the seeds' cells.
+void edges(FoamMaking& making, SeedPattern pattern) {
+    const FoamSettings settings = seeded(making, pattern);
+    BuiltFoam& built = making.built;
     const auto made = make_voronoi_foam(settings);
     built.field = made;
     built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
@@ -30,36 +43,79 @@ void seeded(const FoamRecipe& foam, const Box& region, SeedPattern pattern, Buil
     built.volume_fraction = [made](dvec3 p) { return made->expected_volume_fraction(p); };
 }
 
-void voronoi(const FoamRecipe& foam, const Box& region, BuiltFoam& built) {
-    seeded(foam, region, SeedPattern::jittered, built);
+void voronoi(FoamMaking& making) { edges(making, SeedPattern::jittered); }
+
+void kelvin(FoamMaking& making) { edges(making, SeedPattern::bcc); }
+
+/// Keeps a further graded number with the foam and gives what is made of it.
+GradingPtr further(FoamMaking& making, const char* key, const GradedNumber& number, Interval limits) {
+    making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
+    return making.built.others.back().made;
 }
 
-void kelvin(const FoamRecipe& foam, const Box& region, BuiltFoam& built) {
-    seeded(foam, region, SeedPattern::bcc, built);
+void closed(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
+    ClosedFoamSettings settings;
+    settings.foam = seeded(making, SeedPattern::jittered);
+    settings.wall = further(making, "foam.wall", foam.wall, {foam.wall_min, foam.wall_max});
+    settings.window = further(making, "foam.window", foam.window, {0, 1});
+    const auto made = make_closed_foam(settings);
+    making.built.field = made;
+    making.built.beams_touching = [made](const Box& box) {
+        std::vector<Beam> beams;
+        for (const FoamPiece& piece : made->pieces_touching(box)) {
+            if (const auto* beam = std::get_if<Beam>(&piece)) beams.push_back(*beam);
+        }
+        return beams;
+    };
+    making.built.seeds_in = [ground = prepare_foam(settings.foam)](const Box& box) {
+        return ground.seeds_in(box);
+    };
+}
+
+void nearest_seeds(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
+    NearestFoamSettings settings;
+    settings.foam.cell = making.built.cell.made;
+    settings.foam.beam_radius = making.built.member.made;
+    settings.foam.seed = static_cast<std::uint64_t>(foam.seed);
+    settings.foam.region = making.region;
+    settings.neighbours = static_cast<int>(foam.neighbours);
+    for (std::size_t i = 0; i < 3; ++i) {
+        settings.stretch[i] = further(making, "foam.stretch", foam.stretch[i], nearest_factors);
+        settings.turn[i] = making.gradings.of(foam.turn[i], making.names);
+    }
+    const auto made = std::make_shared<const NearestFoam>(settings);
+    making.built.field = made;
+    making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
+    making.built.seeds_in = [made](const Box& box) { return made->seeds_in(box); };
 }
 
 template <TpmsKind surface>
-void periodic(const FoamRecipe& foam, const Box& region, BuiltFoam& built) {
-    built.field = make_tpms({surface, foam.network, built.cell.made, built.member.made, region});
+void periodic(FoamMaking& making) {
+    BuiltFoam& built = making.built;
+    built.field =
+        make_tpms({surface, making.recipe.network, built.cell.made, built.member.made, making.region});
 }
 
-void lattice(const FoamRecipe& foam, const Box& region, BuiltFoam& built) {
+void lattice(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
     LatticeSettings settings;
     for (const auto& row : foam.struts) {
         settings.struts.push_back({{row[0], row[1], row[2]}, {row[3], row[4], row[5]}});
     }
     if (foam.struts.empty()) settings.struts = unit_cell(foam.unit_cell);
-    settings.cell = built.cell.made;
-    settings.beam = built.member.made;
-    settings.region = region;
+    settings.cell = making.built.cell.made;
+    settings.beam = making.built.member.made;
+    settings.region = making.region;
     const auto made = make_strut_lattice(settings);
-    built.field = made;
-    built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
+    making.built.field = made;
+    making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
 }
 
 /// A kind with the range of its cells and members among what it takes.
 FoamBuilder kind(std::string word, std::string member, std::vector<std::string> needs,
-                 std::vector<std::string> takes, void (*make)(const FoamRecipe&, const Box&, BuiltFoam&)) {
+                 std::vector<std::string> takes, void (*make)(FoamMaking&)) {
     needs.insert(needs.begin(), {"cell", member});
     takes.insert(takes.end(), {"cell_min", "cell_max", member + "_min", member + "_max"});
     return {{std::move(word), std::move(needs), std::move(takes)}, std::move(member), make};
@@ -71,6 +127,9 @@ std::span<const FoamBuilder> foam_builders() {
     static const std::vector<FoamBuilder> list{
         kind("voronoi", "beam", {}, {"seed", "stretch", "turn"}, voronoi),
         kind("kelvin", "beam", {}, {"seed", "jitter", "stretch", "turn"}, kelvin),
+        kind("closed", "beam", {"wall"}, {"wall_min", "wall_max", "window", "seed", "stretch", "turn"},
+             closed),
+        kind("k-nearest", "beam", {}, {"neighbours", "seed", "stretch", "turn"}, nearest_seeds),
         kind("gyroid", "wall", {}, {"network"}, periodic<TpmsKind::gyroid>),
         kind("schwarz-p", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_p>),
         kind("schwarz-d", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_d>),
@@ -89,7 +148,10 @@ BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradin
                            ? graded("foam.wall", foam.wall, {foam.wall_min, foam.wall_max}, gradings, cell)
                            : graded("foam.beam", foam.beam, {foam.beam_min, foam.beam_max}, gradings, cell);
         try {
-            builder.make(foam, region, built);
+            FoamMaking making{foam, region, gradings, cell, built};
+            builder.make(making);
+        } catch (const PlacedError&) {
+            throw;
         } catch (const InputError& error) {
             throw InputError("foam (" + foam.kind + "): " + error.what());
         }

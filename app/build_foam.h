@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ namespace lamella {
 struct BuiltFoam {
     FieldPtr field;
     GradedUse cell;
-    GradedUse member;  ///< radius of the beams or thickness of the walls
+    GradedUse member;               ///< radius of the beams; of foams without them, thickness of the walls
+    std::vector<GradedUse> others;  ///< further numbers of the kind: walls, windows, stretches
     /// The beams whose solid touches a box, and the seeds in it; null for foams that have none.
     std::function<std::vector<Beam>(const Box&)> beams_touching;
     std::function<std::vector<Seed>(const Box&)> seeds_in;
@@ -26,11 +28,20 @@ struct BuiltFoam {
 /// The foam, cells filling at least the region.
 BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings);
 
+/// A foam in the making: what its cells and members have become of already, and what its kind adds.
+struct FoamMaking {
+    const FoamRecipe& recipe;
+    const Box& region;
+    Gradings& gradings;
+    const std::map<std::string, GradingPtr>& names;  ///< that formulas may use besides the recipe's
+    BuiltFoam& built;
+};
+
 /// A kind of foam: its keys, and how it is made.
 struct FoamBuilder {
     Kind kind;
     std::string member;  ///< the key that says how thick its members are: "beam" or "wall"
-    void (*make)(const FoamRecipe&, const Box& region, BuiltFoam&);
+    void (*make)(FoamMaking&);
 };
 std::span<const FoamBuilder> foam_builders();
 

@@ -1,11 +1,14 @@
 // The kinds of gradings, a line each, and the order in which they are made.
 #include "app/build_gradings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <vector>
 
 #include "app/recipe_formulas.h"
+#include "app/settings.h"
 #include "engine/error.h"
 #include "engine/formula_grading.h"
 #include "engine/formula_parser.h"
@@ -130,10 +133,42 @@ GradingPtr Gradings::of(const GradedNumber& number, const std::map<std::string, 
     return make_formula_grading(std::move(graded.formula), std::move(graded.others));
 }
 
-GradedUse graded(const char* key, const GradedNumber& number, Interval limits, Gradings& gradings,
+namespace {
+
+/// The key of the recipe that limits another one from above; null where there is none.
+const Setting* upper_limit(const std::string& key) {
+    const std::size_t dot = key.find('.');
+    return find_setting(key.substr(0, dot), key.substr(dot + 1) + "_max");
+}
+
+/// What holds where a formula has no number, for a body that it should have numbers in.
+double greatest_of(const GradedUse& use, const std::string& where, const Field& body) {
+    const Setting* key = upper_limit(use.key);
+    const bool stated = key && use.limits.hi < key->limits.hi;
+    if (stated || use.asked->range(body.bounds()).hi < infinity) return use.limits.hi;
+    const GradingSurvey found = survey_grading(*use.asked, body, use.limits);
+    if (found.undefined == 0) {
+        const double twice = 2 * found.asked.hi;
+        return twice > use.limits.lo ? std::min(use.limits.hi, twice) : use.limits.hi;
+    }
+    const std::string remedy =
+        key ? fmt::format(", or {} / {}, which holds where there is none", key->name(), key->flag) : "";
+    throw PlacedError(
+        fmt::format("{}: {:.3g} % of the part has no number; accepted: a formula with a number "
+                    "at every point of it{}",
+                    where, 100.0 * found.undefined / found.points, remedy));
+}
+
+}  // namespace
+
+GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more) {
-    GradedUse use{key, gradings.of(number, more), nullptr, limits};
-    use.made = number.is_formula() ? make_clamped_grading(use.asked, limits) : use.asked;
+    const Setting* setting = find_setting(key.substr(0, key.find('.')), key.substr(key.find('.') + 1));
+    GradedUse use{key, gradings.of(number, more), nullptr, limits, setting ? setting->unit : ""};
+    use.made = use.asked;
+    if (!number.is_formula()) return use;
+    if (gradings.body()) use.limits.hi = greatest_of(use, number.where, *gradings.body());
+    use.made = make_clamped_grading(use.asked, use.limits);
     return use;
 }
 

@@ -26,10 +26,11 @@ struct GradedFormula {
 
 /// A number of the recipe that may vary in space, as it is asked for and as it is made.
 struct GradedUse {
-    std::string key;   ///< "foam.cell"
-    GradingPtr asked;  ///< mm
-    GradingPtr made;   ///< kept within limits
-    Interval limits;   ///< mm
+    std::string key;  ///< "foam.cell"
+    GradingPtr asked;
+    GradingPtr made;  ///< kept within limits
+    Interval limits;
+    std::string unit;  ///< of the numbers and limits: "mm", or empty for what has none
 };
 
 /// The gradings of a recipe. Each is made, and its file read, when it is first asked for.
@@ -47,6 +48,8 @@ class Gradings {
     GradedFormula formula_of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
 
     const Recipe& recipe() const { return recipe_; }
+    /// Null as long as there is no body.
+    const FieldPtr& body() const { return body_; }
 
   private:
     GradingPtr named(const std::string& name);
@@ -56,8 +59,11 @@ class Gradings {
     std::map<std::string, GradingPtr> made_;
 };
 
-/// A graded number within its limits; constants have been checked with the recipe.
-GradedUse graded(const char* key, const GradedNumber& number, Interval limits, Gradings& gradings,
+/// A graded number within its limits; constants have been checked with the recipe. Where it has no number, it
+/// gets the upper limit, if the recipe states one (below that of the settings table for `key`_max). If not, a
+/// formula that has no number somewhere in the body is an InputError; and one that may lack it between the
+/// points looked at gets twice the greatest number found there.
+GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more = {});
 
 /// A kind of [[grading]]: its keys, and how it is made.

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/identity.h"
-#include "app/settings.h"
 #include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/shell.h"
@@ -23,8 +24,8 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     const GradedNumber& thickness = recipe.skin->thickness;
     try {
         if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number());
-        const Limits limits = find_setting("skin", "thickness")->limits;
-        built.skin = graded("skin.thickness", thickness, {limits.lo, limits.hi}, gradings);
+        built.skin = graded("skin.thickness", thickness,
+                            {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
         return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits);
     } catch (const PlacedError&) {
         throw;
@@ -43,6 +44,22 @@ int layers_of(const Box& bounds, double layer_height) {
                         layer_height, height, most_layers, height / most_layers));
     }
     return count_layers(height, layer_height);
+}
+
+/// The least that a graded number of the foam becomes in the part's box.
+double least_of(const GradedUse& use, const Box& bounds) { return tight_range(*use.made, bounds).lo; }
+
+double survey_pitch(const BuiltJob& built, Interval suited) {
+    constexpr double without_foam = 0.1;
+    double pitch = without_foam;
+    if (built.foam) {
+        const bool beams = built.foam->member.key == "foam.beam";
+        pitch = least_of(built.foam->member, built.job.bounds) / (beams ? 3 : 6);
+        for (const GradedUse& other : built.foam->others) {
+            if (other.key == "foam.wall") pitch = std::min(pitch, least_of(other, built.job.bounds) / 6);
+        }
+    }
+    return std::min(std::max(pitch, suited.lo), suited.hi);
 }
 
 }  // namespace
@@ -65,7 +82,16 @@ BuiltJob build_job(const Recipe& recipe) {
     return built;
 }
 
-void drop_islands(BuiltJob& built, const IslandSurveyOptions& options) {
+void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options) {
+    const bool given = recipe.foam && recipe.foam->islands_pitch > 0;
+    const Interval suited = island_pitches(built.job);
+    options.pitch = given ? recipe.foam->islands_pitch : survey_pitch(built, suited);
+    if (!suited.contains(options.pitch)) {
+        throw InputError(
+            fmt::format("foam.islands_pitch / --islands-pitch: {} mm does not suit the part; "
+                        "accepted: {:.4g} to {:.4g} mm, the latter being 16 layers",
+                        options.pitch, suited.lo, suited.hi));
+    }
     IslandSurvey survey = survey_islands(built.job, built.body, options);
     built.islands = std::move(survey.report);
     if (!survey.dropped->empty()) built.job.part = make_without_islands(built.job.part, survey.dropped);

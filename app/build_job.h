@@ -23,9 +23,10 @@ struct BuiltJob {
 /// Throws InputError when a file is unreadable or the part is empty.
 BuiltJob build_job(const Recipe& recipe);
 
-/// Surveys the job's layers and leaves out of the part what floats free of it. Throws Interrupted when
-/// cancelled.
-void drop_islands(BuiltJob& built, const IslandSurveyOptions& options);
+/// Surveys the job's layers and leaves out of the part what floats free of it. The pitch is the recipe's, or
+/// else a third of the thinnest beam's radius (of half the thinnest wall), as near as the survey takes it.
+/// Throws InputError when a pitch of the recipe does not suit the part, Interrupted when cancelled.
+void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options);
 
 /// The foam of a recipe without its part, cells filling at least the region.
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region);

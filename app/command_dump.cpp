@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/beam_output.h"
 #include "app/build_job.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
 #include "app/settings.h"
 #include "app/text_output.h"
 #include "engine/error.h"
-#include "printers/beam_lattice.h"
 
 namespace lamella {
 
@@ -62,14 +62,12 @@ void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& opt
         throw InputError("--output: missing; accepted: the file that 3mf is written to");
     }
     const BeamLatticeReport report = write_beam_lattice(options.output, foam.beams_touching(box), name);
-    std::fputs(fmt::format("{}: {} beams between {} nodes, {} too short to be written\n", options.output,
-                           report.beams, report.vertices, report.dropped)
-                   .c_str(),
-               stderr);
+    std::fputs((lattice_text(options.output, report) + "\n").c_str(), stderr);
 }
 
 void run(const DumpOptions& options) {
     const Recipe recipe = options.recipe.read(false);
+    note_unused(options.recipe, recipe);
     if (!recipe.foam)
         throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
     const bool has_body =

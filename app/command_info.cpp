@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/foam_statistics.h"
 #include "app/grading_report.h"
+#include "app/island_report.h"
 #include "app/memory_bound.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
@@ -45,10 +46,11 @@ Json graded_json(const GradedNumber& number) {
 
 Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bounds) {
     const FoamStatistics sums = foam_statistics(foam, bounds);
-    const bool walls = foam.member.key == "foam.wall";
-    Json json{{"kind", recipe.kind},
-              {"cell_mm", graded_json(recipe.cell)},
-              {walls ? "wall_mm" : "beam_mm", graded_json(walls ? recipe.wall : recipe.beam)}};
+    Json json{{"kind", recipe.kind}, {"cell_mm", graded_json(recipe.cell)}};
+    if (foam.member.key == "foam.beam") json["beam_mm"] = graded_json(recipe.beam);
+    if (foam.member.key == "foam.wall" || recipe.kind == "closed") json["wall_mm"] = graded_json(recipe.wall);
+    if (recipe.kind == "closed") json["window"] = graded_json(recipe.window);
+    if (recipe.kind == "k-nearest") json["neighbours"] = recipe.neighbours;
     if (foam.seeds_in) {
         json["seed"] = recipe.seed;
         json["expected_seeds_in_bounds"] = std::floor(sums.seeds + 0.5);
@@ -58,23 +60,15 @@ Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bound
 }
 
 Json grading_json(const GradingReport& report) {
+    const std::string unit = report.unit.empty() ? "" : "_" + report.unit;
     Json json{{"key", report.key},
-              {"limits_mm", {report.limits.lo, report.limits.hi}},
+              {"limits" + unit, {report.limits.lo, report.limits.hi}},
               {"clamped_share", report.clamped},
               {"undefined_share", report.undefined},
               {"steepest_cell_ratio", report.steepest},
               {"warnings", warnings(report)}};
-    if (!report.asked.empty()) json["asked_mm"] = {report.asked.lo, report.asked.hi};
+    if (!report.asked.empty()) json["asked" + unit] = {report.asked.lo, report.asked.hi};
     return json;
-}
-
-Json islands_json(const IslandReport& islands) {
-    return {{"components", islands.components},
-            {"bodies", islands.bodies},
-            {"islands", islands.count},
-            {"too_large_to_drop", islands.too_large},
-            {"island_volume_mm3", islands.volume},
-            {"part_volume_mm3", islands.part_volume}};
 }
 
 Json memory_json(const MemoryBound& bound) {
@@ -133,10 +127,14 @@ std::string graded_text(const Json& number) {
 }
 
 std::string foam_text(const Json& foam) {
-    const bool walls = foam.contains("wall_mm");
-    std::string text = fmt::format("foam      {}: cells of {} mm, {} {} mm", foam["kind"].get<std::string>(),
-                                   graded_text(foam["cell_mm"]), walls ? "walls of" : "beams of radius",
-                                   graded_text(foam[walls ? "wall_mm" : "beam_mm"]));
+    std::string text = fmt::format("foam      {}: cells of {} mm", foam["kind"].get<std::string>(),
+                                   graded_text(foam["cell_mm"]));
+    if (foam.contains("beam_mm")) text += ", beams of radius " + graded_text(foam["beam_mm"]) + " mm";
+    if (foam.contains("wall_mm")) text += ", walls of " + graded_text(foam["wall_mm"]) + " mm";
+    if (foam.contains("window")) text += ", windows " + graded_text(foam["window"]);
+    if (foam.contains("neighbours")) {
+        text += fmt::format(", {} neighbours", foam["neighbours"].get<std::int64_t>());
+    }
     if (foam.contains("seed")) {
         text += fmt::format(", seed {}: about {:.0f} seeds in the bounds", foam["seed"].get<std::int64_t>(),
                             foam["expected_seeds_in_bounds"].get<double>());
@@ -147,19 +145,14 @@ std::string foam_text(const Json& foam) {
     return text + "\n";
 }
 
-std::string islands_text(const Json& islands) {
-    return fmt::format(
-        "islands   {} of {:.3f} mm3 float free, {} of them too large to be dropped; the part has "
-        "{:.1f} mm3\n",
-        islands["islands"].get<std::size_t>(), islands["island_volume_mm3"].get<double>(),
-        islands["too_large_to_drop"].get<std::size_t>(), islands["part_volume_mm3"].get<double>());
-}
-
 std::string grading_text(const Json& grading) {
     std::string text;
-    if (grading.contains("asked_mm")) {
-        text = fmt::format("graded    {} from {:.4g} to {:.4g} mm\n", grading["key"].get<std::string>(),
-                           grading["asked_mm"][0].get<double>(), grading["asked_mm"][1].get<double>());
+    for (const std::string unit : {"", "mm"}) {
+        const std::string asked = unit.empty() ? "asked" : "asked_" + unit;
+        if (!grading.contains(asked)) continue;
+        text += fmt::format("graded    {} from {:.4g} to {:.4g}{}\n", grading["key"].get<std::string>(),
+                            grading[asked][0].get<double>(), grading[asked][1].get<double>(),
+                            unit.empty() ? "" : " " + unit);
     }
     for (const auto& warning : grading["warnings"]) text += "          " + warning.get<std::string>() + "\n";
     return text;
@@ -177,7 +170,7 @@ std::string memory_text(const Json& m) {
         m["beams_per_layer"].get<double>());
 }
 
-std::string as_text(const Json& info) {
+std::string as_text(const Json& info, const std::optional<IslandReport>& islands) {
     std::string text =
         fmt::format("part      {}, {}\n", info["name"].get<std::string>(), size_text(info["size_mm"]));
     text += fmt::format("bounds    {} to {}\n", point_text(info["bounds_mm"]["lo"]),
@@ -191,7 +184,9 @@ std::string as_text(const Json& info) {
     if (info.contains("graded")) {
         for (const Json& grading : info["graded"]) text += grading_text(grading);
     }
-    if (info.contains("islands")) text += islands_text(info["islands"]);
+    if (islands)
+        text += fmt::format("islands   {}; the part has {:.1f} mm3\n", islands_text(*islands),
+                            islands->part_volume);
     text += fmt::format("printer   {} ({})\n", info["printer"]["profile"].get<std::string>(),
                         info["printer"]["kind"].get<std::string>());
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
@@ -199,15 +194,16 @@ std::string as_text(const Json& info) {
 
 void run(const InfoOptions& options) {
     const Recipe recipe = options.recipe.read();
+    note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (options.islands) {
         IslandSurveyOptions survey;
         survey.threads = options.threads;
-        drop_islands(built, survey);
+        drop_islands(recipe, built, survey);
     }
     const Json info = describe(recipe, built, options.threads);
     TextOutput out("");
-    out.write(options.json ? info.dump(2) + "\n" : as_text(info));
+    out.write(options.json ? info.dump(2) + "\n" : as_text(info, built.islands));
     out.close();
 }
 

@@ -54,8 +54,9 @@ void save(const Image& image, const std::string& path) {
 void run(PreviewCommand& options) {
     const auto start = std::chrono::steady_clock::now();
     const Recipe recipe = options.recipe.read();
+    if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    if (recipe.foam && recipe.foam->drop_islands) drop_islands(built, {});
+    if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();

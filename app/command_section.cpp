@@ -34,8 +34,9 @@ std::string chosen_format(const SectionOptions& options) {
 
 std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
+    note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    if (recipe.foam && recipe.foam->drop_islands) drop_islands(built, {});
+    if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
         throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",

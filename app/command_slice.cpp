@@ -6,11 +6,14 @@
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "app/beam_output.h"
 #include "app/build_job.h"
 #include "app/commands.h"
 #include "app/grading_report.h"
 #include "app/interrupt.h"
+#include "app/island_report.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
@@ -84,18 +87,26 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-void summarise(const SliceOptions& options, const Job& job, const StreamReport& report,
-               const ProgressDisplay& display) {
+void summarise(const SliceOptions& options, const BuiltJob& built, const StreamReport& report,
+               const ProgressDisplay& display, const std::optional<BeamLatticeReport>& beams,
+               const Recipe& recipe) {
     const double seconds = display.seconds();
     if (options.json) {
-        const nlohmann::ordered_json summary{{"output", options.output},
-                                             {"identity", job.identity},
-                                             {"layers", report.layers_written},
-                                             {"layers_kept", report.layers_kept},
-                                             {"seconds", seconds},
-                                             {"first_layer_seconds", display.first_layer_seconds()},
-                                             {"peak_memory_bytes", peak_memory_bytes()},
-                                             {"volume_mm3", report.volume}};
+        nlohmann::ordered_json summary{{"output", options.output},
+                                       {"identity", built.job.identity},
+                                       {"layers", report.layers_written},
+                                       {"layers_kept", report.layers_kept},
+                                       {"seconds", seconds},
+                                       {"first_layer_seconds", display.first_layer_seconds()},
+                                       {"peak_memory_bytes", peak_memory_bytes()},
+                                       {"volume_mm3", report.volume}};
+        if (built.islands) summary["islands"] = islands_json(*built.islands);
+        if (beams) {
+            summary["beams"] = {{"output", recipe.output.beams},
+                                {"beams", beams->beams},
+                                {"nodes", beams->vertices},
+                                {"too_short", beams->dropped}};
+        }
         TextOutput out("");
         out.write(summary.dump(2) + "\n");
         out.close();
@@ -107,21 +118,23 @@ void summarise(const SliceOptions& options, const Job& job, const StreamReport& 
                     report.layers_written, kept, seconds, report.volume, peak_memory_bytes() >> 20)
             .c_str(),
         stderr);
+    if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
 }
 
-void survey(BuiltJob& built, const SliceOptions& options, const CancelToken& cancel) {
+void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, const CancelToken& cancel) {
+    ProgressDisplay display(options.quiet, "survey for islands: ");
     IslandSurveyOptions survey;
     survey.threads = options.threads;
     survey.cancel = &cancel;
-    drop_islands(built, survey);
-    if (options.quiet) return;
-    const IslandReport& found = *built.islands;
-    const std::string left =
-        found.too_large > 0 ? fmt::format("; {} too large to be debris are left", found.too_large) : "";
-    std::fputs(fmt::format("islands: {} with {:.3f} mm3 in all float free and are left out{}\n",
-                           found.count - found.too_large, found.volume, left)
-                   .c_str(),
-               stderr);
+    survey.on_progress = [&](const Progress& progress) { display.show(progress); };
+    try {
+        drop_islands(recipe, built, survey);
+    } catch (...) {
+        display.finish();
+        throw;
+    }
+    display.finish();
+    if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
 }
 
 void run(SliceOptions options) {
@@ -131,6 +144,7 @@ void run(SliceOptions options) {
     const Recipe recipe = options.recipe.read();
     if (options.output.empty()) options.output = default_output(recipe.printer, recipe.part.name);
     BuiltJob built = build_job(recipe);
+    if (!options.quiet) note_unused(options.recipe, recipe);
     if (built.mesh && !options.quiet) {
         for (const std::string& note : built.mesh->notes) {
             std::fputs((built.mesh->path + ": " + note + "\n").c_str(), stderr);
@@ -141,9 +155,12 @@ void run(SliceOptions options) {
             for (const std::string& line : warnings(graded)) std::fputs((line + "\n").c_str(), stderr);
         }
     }
-    if (recipe.foam && recipe.foam->drop_islands) survey(built, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
+    // Of several runs for ranges of layers, the first writes the beams.
+    const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
+    if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
+    if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
     stream.threads = options.threads;
     stream.look_ahead = options.look_ahead;
     stream.resume = options.resume;
@@ -158,7 +175,9 @@ void run(SliceOptions options) {
         throw Interrupted("interrupted; what is finished is kept. To go on: " + options.repeat);
     }
     display.finish();
-    summarise(options, built.job, report, display);
+    std::optional<BeamLatticeReport> beams;
+    if (with_beams) beams = write_beam_output(recipe, built);
+    summarise(options, built, report, display, beams, recipe);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void find_steepest(const Grading& cell, const Field& body, GradingReport& report
 
 GradingReport report_on(const GradedUse& use, const Field& body) {
     const GradingSurvey survey = survey_grading(*use.asked, body, use.limits);
-    GradingReport report{use.key, survey.asked, use.limits};
+    GradingReport report{use.key, use.unit, survey.asked, use.limits};
     const double points = std::max(survey.points, 1);
     report.clamped = (survey.below + survey.above) / points;
     report.undefined = survey.undefined / points;
@@ -60,22 +60,28 @@ std::vector<GradingReport> grading_reports(const BuiltJob& built) {
     if (built.foam && !built.foam->member.asked->constant()) {
         reports.push_back(report_on(built.foam->member, *built.body));
     }
+    if (built.foam) {
+        for (const GradedUse& use : built.foam->others) {
+            if (!use.asked->constant()) reports.push_back(report_on(use, *built.body));
+        }
+    }
     if (built.skin) reports.push_back(report_on(*built.skin, *built.body));
     return reports;
 }
 
 std::vector<std::string> warnings(const GradingReport& report) {
     std::vector<std::string> lines;
+    const std::string unit = report.unit.empty() ? "" : " " + report.unit;
     if (report.clamped > 0) {
         lines.push_back(
-            fmt::format("{}: {:.3g} % of the part asks for less than {} mm or more than {} mm "
-                        "({:.4g} to {:.4g} mm) and is kept there",
-                        report.key, 100 * report.clamped, report.limits.lo, report.limits.hi, report.asked.lo,
-                        report.asked.hi));
+            fmt::format("{}: {:.3g} % of the part asks for less than {}{} or more than {}{} "
+                        "({:.4g} to {:.4g}{}) and is kept there",
+                        report.key, 100 * report.clamped, report.limits.lo, unit, report.limits.hi, unit,
+                        report.asked.lo, report.asked.hi, unit));
     }
     if (report.undefined > 0) {
-        lines.push_back(fmt::format("{}: {:.3g} % of the part has no number and gets {} mm", report.key,
-                                    100 * report.undefined, report.limits.hi));
+        lines.push_back(fmt::format("{}: {:.3g} % of the part has no number and gets {}{}", report.key,
+                                    100 * report.undefined, report.limits.hi, unit));
     }
     if (report.steepest > steep) {
         const dvec3 p = report.steepest_at;

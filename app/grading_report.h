@@ -10,9 +10,10 @@ namespace lamella {
 
 /// One graded number over the part's inside, by a lattice of points.
 struct GradingReport {
-    std::string key;       ///< "foam.cell"
-    Interval asked;        ///< mm; empty where the number is nowhere defined
-    Interval limits;       ///< mm
+    std::string key;   ///< "foam.cell"
+    std::string unit;  ///< of the numbers and limits; empty where there is none
+    Interval asked;    ///< empty where the number is nowhere defined
+    Interval limits;
     double clamped = 0;    ///< share of the volume that asks for less or more than the limits
     double undefined = 0;  ///< share of the volume without a number, where the upper limit holds
     double steepest = 1;   ///< of cells: the greatest ratio of two cells that lie one cell apart

@@ -86,6 +86,7 @@ std::string job_identity(const Recipe& recipe) {
     Fnv128 hash;
     hash.add("lamella " LAMELLA_VERSION "\n");
     for (const Section& section : sections()) {
+        if (!section.decides_layers) continue;
         if (section.name == "foam" && !recipe.foam) continue;
         if (section.name == "skin" && !recipe.skin) continue;
         const std::size_t entries = section.is_list() ? section.entries(recipe) : 1;

@@ -33,8 +33,11 @@ std::string progress_text(const Progress& progress, double seconds) {
     return text;
 }
 
-ProgressDisplay::ProgressDisplay(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
+ProgressDisplay::ProgressDisplay(bool quiet, std::string what)
+    : quiet_(quiet),
+      what_(std::move(what)),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()) {}
 
 double ProgressDisplay::seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -47,7 +50,7 @@ void ProgressDisplay::show(const Progress& progress) {
     const bool last = progress.done == progress.total;
     if (!last && now - last_shown_ < (terminal_ ? bar_interval : line_interval)) return;
     last_shown_ = now;
-    const std::string text = progress_text(progress, now);
+    const std::string text = what_ + progress_text(progress, now);
     if (terminal_) {
         const int full =
             progress.total > 0 ? static_cast<int>(1LL * progress.done * bar_width / progress.total) : 0;

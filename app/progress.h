@@ -11,8 +11,8 @@ namespace lamella {
 /// Writes to standard error. Call from one thread.
 class ProgressDisplay {
   public:
-    /// Shows nothing when quiet.
-    explicit ProgressDisplay(bool quiet);
+    /// Shows nothing when quiet; `what` is being done, for the front of every line.
+    explicit ProgressDisplay(bool quiet, std::string what = "");
 
     void show(const Progress& progress);
     /// Ends the bar's line.
@@ -23,6 +23,7 @@ class ProgressDisplay {
 
   private:
     bool quiet_;
+    std::string what_;
     bool terminal_;
     bool line_open_ = false;
     std::chrono::steady_clock::time_point start_;

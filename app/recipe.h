@@ -2,6 +2,7 @@
 // allowed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,8 +34,17 @@ struct GradedNumber {
     friend bool operator==(const GradedNumber& a, const GradedNumber& b) { return a.value == b.value; }
 };
 
+/// Three numbers, each of which may be a formula.
+using GradedTriple = std::array<GradedNumber, 3>;
+
+/// The numbers of a triple; nothing when one is a formula.
+std::optional<dvec3> constant(const GradedTriple& triple);
+
 /// Rows of numbers, all of one length: points, corners, ends of segments, rows of a table.
 using NumberRows = std::vector<std::vector<double>>;
+
+/// The box between two corners, mm; empty where the first is not the lower one.
+Box box_of(const NumberRows& corners);
 
 struct PartRecipe {
     std::string mesh;   ///< path of the mesh file; empty when the body is something else
@@ -95,21 +105,33 @@ struct FoamRecipe {
     double cell_max = 1000;
     double beam_min = 0.005;
     double beam_max = 500;
-    GradedNumber wall;  ///< thickness of walls, of a network's struts, mm
+    GradedNumber wall;    ///< thickness of walls, of a network's struts, mm
+    GradedNumber window;  ///< closed: share of the walls that is open, 0 to 1
     double wall_min = 0.01;
     double wall_max = 500;
-    bool network = false;   ///< struts along one side of a periodic surface instead of a wall on it
-    std::int64_t seed = 1;  ///< of the random draws
-    double jitter = 0.05;   ///< kelvin: share of the spacing by which seeds are moved
-    dvec3 stretch{1};       ///< factors on the cells along three axes at right angles
-    dvec3 turn{0};          ///< of these axes about x, then y, then z, degrees
+    bool network = false;         ///< struts along one side of a periodic surface instead of a wall on it
+    std::int64_t seed = 1;        ///< of the random draws
+    double jitter = 0.05;         ///< kelvin: share of the spacing by which seeds are moved
+    std::int64_t neighbours = 5;  ///< k-nearest: beams of each seed, about
+    /// Factors on the cells along three axes at right angles; formulas for k-nearest alone.
+    GradedTriple stretch{GradedNumber{1.0, ""}, GradedNumber{1.0, ""}, GradedNumber{1.0, ""}};
+    GradedTriple turn{};    ///< of these axes about x, then y, then z, degrees
     std::string unit_cell;  ///< lattice: the name of a cell
     NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
     bool drop_islands = false;
+    double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
 };
 
 struct SkinRecipe {
-    GradedNumber thickness;  ///< mm, inward from the surface
+    GradedNumber thickness;    ///< mm, inward from the surface
+    double thickness_min = 0;  ///< the range of a graded thickness, mm
+    double thickness_max = 1000;
+};
+
+/// What is written besides the layers.
+struct OutputRecipe {
+    std::string beams;     ///< path of a 3MF beam lattice; empty for none
+    NumberRows beams_box;  ///< two corners, mm; empty: the part's bounds
 };
 
 /// Without foam and skin the part is solid; with foam alone it is bare foam cut by the body; with a skin
@@ -121,6 +143,7 @@ struct Recipe {
     std::optional<FoamRecipe> foam;
     std::optional<SkinRecipe> skin;
     double layer_height = 0.05;  ///< mm
+    OutputRecipe output;
     PrinterProfile printer;
 };
 

@@ -10,6 +10,8 @@
 #include "app/printer_choice.h"
 #include "app/recipe_formulas.h"
 #include "engine/error.h"
+#include "procedural/nearest_foam.h"
+#include "procedural/tpms.h"
 
 namespace lamella {
 
@@ -47,6 +49,9 @@ std::set<std::string> keys_of(const KindSection& section) {
 void RecipeDraft::set(const Setting& setting, std::size_t number, Value value, const std::string& where,
                       bool from_flag) {
     if (auto* graded = std::get_if<GradedNumber>(&value)) graded->where = where;
+    if (auto* triple = std::get_if<GradedTriple>(&value)) {
+        for (std::size_t i = 0; i < 3; ++i) (*triple)[i].where = fmt::format("{} ({})", where, "xyz"[i]);
+    }
     entries_[{setting.section, number, setting.key}] = {std::move(value), where, from_flag};
 }
 
@@ -240,27 +245,54 @@ Recipe RecipeDraft::assemble() const {
     return recipe;
 }
 
-/// Rules between the numbers of a foam.
-void RecipeDraft::check_foam(const FoamRecipe& foam) {
-    if (entry("foam", "turn") && foam.stretch == dvec3(1)) {
+/// Rules between what stretches a foam and its kind.
+void RecipeDraft::check_stretch(const FoamRecipe& foam) {
+    const auto stretch = constant(foam.stretch);
+    if (entry("foam", "turn") && stretch == dvec3(1)) {
         refuse(0,
                fmt::format("{}: turns nothing where nothing is stretched; accepted: foam.stretch / --stretch "
                            "with it",
                            where("foam", "turn")));
     }
-    const auto limits = [&](const char* key, const GradedNumber& number, double least, double most) {
-        const std::string low = std::string(key) + "_min", high = std::string(key) + "_max";
-        if (least > most) {
-            refuse(0, fmt::format("{}: {} mm is more than {}, {} mm; accepted: the least first",
-                                  where("foam", low), least, where("foam", high), most));
-        } else if (!number.is_formula() && (number.number() < least || number.number() > most)) {
-            refuse(0, fmt::format("{}: {} mm lies outside foam.{} and foam.{}; accepted: {} to {} mm",
-                                  where("foam", key), number.number(), low, high, least, most));
+    if (foam.kind == "k-nearest") {
+        for (const GradedNumber& factor : foam.stretch) {
+            if (factor.is_formula() || nearest_factors.contains(factor.number())) continue;
+            refuse(0, fmt::format("{}: {} is too {} for kind k-nearest; accepted: {} to {}",
+                                  where("foam", "stretch"), factor.number(),
+                                  factor.number() < nearest_factors.lo ? "small" : "large",
+                                  nearest_factors.lo, nearest_factors.hi));
         }
-    };
-    limits("cell", foam.cell, foam.cell_min, foam.cell_max);
-    if (!entry("foam", "beam")) return limits("wall", foam.wall, foam.wall_min, foam.wall_max);
-    limits("beam", foam.beam, foam.beam_min, foam.beam_max);
+        return;
+    }
+    for (const auto& [key, given] : {std::pair("stretch", stretch), std::pair("turn", constant(foam.turn))}) {
+        if (given) continue;
+        refuse(0, fmt::format("{}: kind {} has the same everywhere; accepted: three numbers, or formulas "
+                              "for kind k-nearest",
+                              where("foam", key), foam.kind));
+    }
+}
+
+/// Rules between a number that may vary and its limits.
+void RecipeDraft::check_limits(const std::string& section, const std::string& key, const GradedNumber& number,
+                               double least, double most) {
+    const std::string low = key + "_min", high = key + "_max";
+    if (least > most) {
+        refuse(0, fmt::format("{}: {} mm is more than {}, {} mm; accepted: the least first",
+                              where(section, low), least, where(section, high), most));
+    } else if (!number.is_formula() && (number.number() < least || number.number() > most)) {
+        refuse(0,
+               fmt::format("{}: {} mm lies outside {}.{} and {}.{}; accepted: {} to {} mm",
+                           where(section, key), number.number(), section, low, section, high, least, most));
+    }
+}
+
+/// Rules between the numbers of a foam.
+void RecipeDraft::check_foam(const FoamRecipe& foam) {
+    check_stretch(foam);
+    check_limits("foam", "cell", foam.cell, foam.cell_min, foam.cell_max);
+    if (entry("foam", "wall")) check_limits("foam", "wall", foam.wall, foam.wall_min, foam.wall_max);
+    if (!entry("foam", "beam")) return;
+    check_limits("foam", "beam", foam.beam, foam.beam_min, foam.beam_max);
     if (foam.cell.is_formula() || foam.beam.is_formula()) return;
     if (foam.beam.number() >= foam.cell.number() / 2) {
         refuse(0, fmt::format("{}: {} mm fills cells of {} mm; accepted: less than half the cell, {} mm",
@@ -269,10 +301,31 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
     }
 }
 
+void RecipeDraft::check_output(const OutputRecipe& output) {
+    if (output.beams.empty()) {
+        if (output.beams_box.empty()) return;
+        return refuse(0, fmt::format("{}: there is no file for the beams in it; accepted: output.beams / "
+                                     "--output-beams with it",
+                                     where("output", "beams_box")));
+    }
+    if (!output.beams.ends_with(".3mf")) {
+        refuse(0, fmt::format("{}: \"{}\" is no 3MF file's name; accepted: a path that ends in .3mf",
+                              where("output", "beams"), output.beams));
+    }
+    if (!output.beams_box.empty() && box_of(output.beams_box).empty()) {
+        refuse(0, fmt::format("{}: a lower corner lies above the upper one; accepted: the lower corner first",
+                              where("output", "beams_box")));
+    }
+}
+
 /// Rules between numbers that are each fine on their own.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam) check_foam(*recipe.foam);
+    check_output(recipe.output);
+    if (const auto& skin = recipe.skin) {
+        check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
+    }
     if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
         refuse(0, fmt::format(
                       "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
@@ -283,9 +336,10 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
                       "{}: {} mm closes the hole of a torus of radius {} mm; accepted: less than the radius",
                       where("part", "tube"), part.tube, part.radius));
     }
-    if (part.shape == Shape::gyroid && part.thickness >= part.period / 2) {
-        refuse(0, fmt::format("{}: {} mm fills a gyroid of period {} mm; accepted: less than half the period",
-                              where("part", "thickness"), part.thickness, part.period));
+    const double thickest = greatest_tpms_thickness(TpmsKind::gyroid, false) * part.period;
+    if (part.shape == Shape::gyroid && part.thickness >= thickest) {
+        refuse(0, fmt::format("{}: {} mm fills a gyroid of period {} mm; accepted: less than {:.4g} mm",
+                              where("part", "thickness"), part.thickness, part.period, thickest));
     }
     if (part.name.find_first_of("/\\") != std::string::npos || part.name == "." || part.name == "..") {
         refuse(0, fmt::format("{}: \"{}\" cannot name a file; accepted: a text without / and \\",

@@ -45,6 +45,15 @@ struct Use {
     bool cell = false;
 };
 
+/// All numbers of a foam that may be formulas.
+std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
+    std::vector<const GradedNumber*> numbers{&foam.cell, &foam.beam, &foam.wall, &foam.window};
+    for (const GradedTriple* triple : {&foam.stretch, &foam.turn}) {
+        for (const GradedNumber& number : *triple) numbers.push_back(&number);
+    }
+    return numbers;
+}
+
 /// Checks one recipe.
 class FormulaCheck {
   public:
@@ -106,9 +115,9 @@ class FormulaCheck {
             check_formula({&grading.along});
         }
         if (recipe_.foam) {
-            check_formula({&recipe_.foam->cell});
-            check_formula({&recipe_.foam->beam, true, true});
-            check_formula({&recipe_.foam->wall, true, true});
+            for (const GradedNumber* number : numbers_of(*recipe_.foam)) {
+                check_formula({number, true, number != &recipe_.foam->cell});
+            }
         }
         if (recipe_.skin) check_formula({&recipe_.skin->thickness});
     }
@@ -230,6 +239,41 @@ std::vector<std::string> names_beyond_place(std::string_view formula) {
         return std::find(place_names.begin(), place_names.end(), name) != place_names.end();
     });
     return names;
+}
+
+std::string unused_entries(const Recipe& recipe) {
+    std::set<std::string> used;
+    std::vector<const GradedNumber*> open;
+    std::string unused;
+    const auto add = [&](const char* section, const std::string& name) {
+        unused += fmt::format("{}[[{}]] `{}`", unused.empty() ? "" : ", ", section, name);
+    };
+    for (const FieldRecipe& field : recipe.fields) {
+        if (field.name == recipe.part.field) {
+            open.push_back(&field.formula);
+        } else {
+            add("field", field.name);
+        }
+    }
+    if (recipe.foam) {
+        for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
+    }
+    if (recipe.skin) open.push_back(&recipe.skin->thickness);
+    while (!open.empty()) {
+        const GradedNumber* number = open.back();
+        open.pop_back();
+        if (!number->is_formula()) continue;
+        for (const std::string& name : names_beyond_place(number->formula())) {
+            if (!used.insert(name).second) continue;
+            for (const GradingRecipe& grading : recipe.gradings) {
+                if (grading.name == name) open.insert(open.end(), {&grading.formula, &grading.along});
+            }
+        }
+    }
+    for (const GradingRecipe& grading : recipe.gradings) {
+        if (!used.contains(grading.name)) add("grading", grading.name);
+    }
+    return unused.empty() ? "" : "nothing uses " + unused;
 }
 
 std::vector<std::string> formula_mistakes(const Recipe& recipe) { return FormulaCheck(recipe).run(); }

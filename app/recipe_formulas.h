@@ -26,4 +26,8 @@ inline constexpr int deepest_grading = 16;
 /// there is no surface yet.
 std::vector<std::string> formula_mistakes(const Recipe& recipe);
 
+/// The [[grading]] and [[field]] entries that the part is made without, as one sentence; empty when there are
+/// none.
+std::string unused_entries(const Recipe& recipe);
+
 }  // namespace lamella

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "app/recipe_draft.h"
+#include "app/recipe_formulas.h"
 #include "app/settings.h"
 
 namespace lamella {
@@ -30,6 +32,8 @@ std::string value_hint(const Setting& setting) {
             return setting.unit == "mm" ? "MM" : "X";
         case ValueType::graded:
             return setting.unit == "mm" ? "MM|FORMULA" : "X|FORMULA";
+        case ValueType::graded_triple:
+            return "X,Y,Z";
         case ValueType::formula:
             return "FORMULA";
         case ValueType::path:
@@ -85,6 +89,11 @@ Recipe RecipeOptions::read(bool needs_body) const {
         if (options_[i] && options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
     }
     return draft.finish();
+}
+
+void note_unused(const RecipeOptions& options, const Recipe& recipe) {
+    const std::string unused = unused_entries(recipe);
+    if (!unused.empty()) std::fputs(fmt::format("{}: {}\n", options.input(), unused).c_str(), stderr);
 }
 
 void finish_command(CLI::App& command, const std::string& examples) {

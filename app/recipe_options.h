@@ -29,6 +29,9 @@ class RecipeOptions {
     std::vector<CLI::Option*> options_;  ///< by row of the table; null for rows without a flag
 };
 
+/// Says in a line on standard error which entries of the recipe nothing uses, if there are any.
+void note_unused(const RecipeOptions& options, const Recipe& recipe);
+
 /// Makes --version and the examples of a subcommand's help.
 void finish_command(CLI::App& command, const std::string& examples);
 

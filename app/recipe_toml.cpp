@@ -71,6 +71,24 @@ std::optional<Value> triple(const toml::node& node) {
     return v;
 }
 
+std::optional<Value> graded(const toml::node& node) {
+    if (const auto v = number(node)) return GradedNumber{*v, ""};
+    if (const auto* v = node.as_string()) return GradedNumber{v->get(), ""};
+    return std::nullopt;
+}
+
+std::optional<Value> graded_triple(const toml::node& node) {
+    const auto* array = node.as_array();
+    GradedTriple triple;
+    if (!array || array->size() != triple.size()) return std::nullopt;
+    for (std::size_t i = 0; i < triple.size(); ++i) {
+        const auto part = graded((*array)[i]);
+        if (!part) return std::nullopt;
+        triple[i] = std::get<GradedNumber>(*part);
+    }
+    return triple;
+}
+
 /// Appends the numbers of an array, also of arrays in it; whether there was nothing else.
 bool flatten(const toml::node& node, std::vector<double>& out, int depth = 0) {
     if (const auto one = number(node)) {
@@ -113,8 +131,9 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
         case ValueType::triple:
             return triple(node);
         case ValueType::graded:
-            if (const auto v = number(node)) return GradedNumber{*v, ""};
-            [[fallthrough]];
+            return graded(node);
+        case ValueType::graded_triple:
+            return graded_triple(node);
         case ValueType::formula:
             if (const auto* v = node.as_string()) return GradedNumber{v->get(), ""};
             break;

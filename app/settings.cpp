@@ -51,6 +51,11 @@ std::optional<std::string> formula_objection(std::string text) {
     return text_objection(text, longest_formula);
 }
 
+std::optional<std::string> graded_objection(const Setting& setting, const GradedNumber& graded) {
+    return graded.is_formula() ? formula_objection(graded.formula())
+                               : range_objection(setting, graded.number());
+}
+
 std::optional<std::string> rows_objection(const Setting& setting, const NumberRows& rows) {
     const RowShape& shape = setting.shape;
     if (rows.empty()) return "it is empty";
@@ -82,6 +87,32 @@ std::optional<T> entire(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return number;
+}
+
+/// A number where the text is one, otherwise a formula.
+GradedNumber parse_graded(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(' ');
+    const std::size_t end = text.find_last_not_of(' ');
+    if (begin != std::string_view::npos) {
+        if (const auto number = entire<double>(text.substr(begin, end - begin + 1))) return {*number, ""};
+    }
+    return {std::string(text), ""};
+}
+
+/// Three with commas between them; commas within brackets belong to a formula.
+std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
+    GradedTriple triple;
+    std::size_t count = 0, begin = 0;
+    int depth = 0;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size()) depth += (text[i] == '(') - (text[i] == ')');
+        if (i < text.size() && !(text[i] == ',' && depth <= 0)) continue;
+        if (count == triple.size()) return std::nullopt;
+        triple[count++] = parse_graded(text.substr(begin, i - begin));
+        begin = i + 1;
+    }
+    if (count != triple.size()) return std::nullopt;
+    return triple;
 }
 
 /// Rows with semicolons between them.
@@ -155,6 +186,8 @@ std::string accepted(const Setting& setting) {
             return "three numbers" + range_text(setting) + with_unit(setting);
         case ValueType::graded:
             return "a number" + range_text(setting) + with_unit(setting) + " or a formula";
+        case ValueType::graded_triple:
+            return "three numbers" + range_text(setting) + with_unit(setting) + " or formulas";
         case ValueType::formula:
             return "a formula";
         case ValueType::rows:
@@ -194,10 +227,13 @@ std::optional<std::string> objection(const Setting& setting, const Value& value)
             return std::nullopt;
         }
         case ValueType::graded:
-        case ValueType::formula: {
-            const auto& graded = std::get<GradedNumber>(value);
-            return graded.is_formula() ? formula_objection(graded.formula())
-                                       : range_objection(setting, graded.number());
+        case ValueType::formula:
+            return graded_objection(setting, std::get<GradedNumber>(value));
+        case ValueType::graded_triple: {
+            for (const GradedNumber& graded : std::get<GradedTriple>(value)) {
+                if (auto wrong = graded_objection(setting, graded)) return wrong;
+            }
+            return std::nullopt;
         }
         case ValueType::rows:
             return rows_objection(setting, std::get<NumberRows>(value));
@@ -223,12 +259,10 @@ std::optional<Value> parse_value(const Setting& setting, const std::string& text
             value = text;
             break;
         case ValueType::graded:
-            value = GradedNumber{};
-            if (const auto number = entire<double>(text)) {
-                std::get<GradedNumber>(*value).value = *number;
-            } else {
-                std::get<GradedNumber>(*value).value = text;
-            }
+            value = parse_graded(text);
+            break;
+        case ValueType::graded_triple:
+            if (const auto triple = parse_graded_triple(text)) value = *triple;
             break;
         case ValueType::formula:
             value = GradedNumber{text, ""};
@@ -261,6 +295,9 @@ std::string format_value(const Value& value) {
         std::string operator()(const dvec3& v) const { return fmt::format("{},{},{}", v.x, v.y, v.z); }
         std::string operator()(const GradedNumber& v) const {
             return v.is_formula() ? v.formula() : fmt::format("{}", v.number());
+        }
+        std::string operator()(const GradedTriple& v) const {
+            return (*this)(v[0]) + "," + (*this)(v[1]) + "," + (*this)(v[2]);
         }
         std::string operator()(const NumberRows& v) const { return rows_text(v); }
     };

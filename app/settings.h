@@ -15,19 +15,21 @@
 namespace lamella {
 
 /// A setting's value as it stands in a recipe or on the command line. Choices and paths are text.
-using Value = std::variant<bool, std::int64_t, double, std::string, dvec3, GradedNumber, NumberRows>;
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, dvec3, GradedNumber, GradedTriple, NumberRows>;
 
 enum class ValueType : unsigned char {
     boolean,
     integer,
     number,
     text,
-    path,  ///< of an input: in a recipe it starts at the recipe's folder, and its bytes count
+    path,  ///< of a file: in a recipe it starts at the recipe's folder; an input's bytes count
     choice,
     triple,
-    graded,   ///< a number, or a formula over place, depth and gradings
-    formula,  ///< a formula only
-    rows      ///< rows of numbers; see RowShape
+    graded,         ///< a number, or a formula over place, depth and gradings
+    graded_triple,  ///< three of them
+    formula,        ///< a formula only
+    rows            ///< rows of numbers; see RowShape
 };
 
 /// How many numbers a row holds and how many rows there are, for settings that are rows.
@@ -73,6 +75,7 @@ struct Section {
     std::string help;
     /// How many entries a list section ([[name]], as often as wanted) has; null for plain sections.
     std::size_t (*entries)(const Recipe&) = nullptr;
+    bool decides_layers = true;  ///< whether its keys are part of the job's identity
 
     bool is_list() const { return entries != nullptr; }
     /// "[foam]" or "[[grading]]".

@@ -39,6 +39,7 @@ ValueType type_of(const Facts& facts) {
     if constexpr (std::is_same_v<T, double>) return ValueType::number;
     if constexpr (std::is_same_v<T, dvec3>) return ValueType::triple;
     if constexpr (std::is_same_v<T, NumberRows>) return ValueType::rows;
+    if constexpr (std::is_same_v<T, GradedTriple>) return ValueType::graded_triple;
     if constexpr (std::is_same_v<T, GradedNumber>)
         return facts.is_formula ? ValueType::formula : ValueType::graded;
     if constexpr (std::is_same_v<T, std::string>) {
@@ -120,7 +121,8 @@ Setting optional_row(std::string section, std::string key, std::string flag, Fac
         (whole ? *whole : whole.emplace()).*member = from_value<Held>(value);
     };
     s.load = [](const Recipe& r, std::size_t) {
-        return to_value<Held>(r.*optional ? (*(r.*optional)).*member : Whole{}.*member);
+        const Whole absent;
+        return to_value<Held>(r.*optional ? (*(r.*optional)).*member : absent.*member);
     };
     return s;
 }

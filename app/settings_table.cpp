@@ -250,12 +250,17 @@ void add_foam(std::vector<Setting>& t) {
     add_foam_row<&F::wall>(t, "wall", "--wall",
                            {.unit = "mm",
                             .limits = walls,
-                            .fallback = "required by periodic surfaces",
+                            .fallback = "required by periodic surfaces, closed",
                             .help = "Thickness of the walls, at least; of a network, of its struts."});
     bound.operator()<&F::wall_min>("wall_min", "--wall-min", walls, walls.lo,
                                    "Least thickness that is made: graded walls are kept above it.");
     bound.operator()<&F::wall_max>("wall_max", "--wall-max", walls, walls.hi,
                                    "Greatest thickness that is made: graded walls are kept below it.");
+    add_foam_row<&F::window>(
+        t, "window", "--window",
+        {.limits = {0, 1},
+         .fallback = "0",
+         .help = "Share of a closed foam's walls that is a window: 0 is closed, 1 has no walls."});
     add_foam_row<&F::network>(
         t, "network", "--network",
         {.fallback = "false", .help = "Struts on one side of a periodic surface instead of a wall on it."});
@@ -277,19 +282,32 @@ void add_foam(std::vector<Setting>& t) {
         {.limits = {0, 1},
          .fallback = format_value(F{}.jitter),
          .help = "Disorder of Kelvin's foam: share of the spacing that seeds are moved by."});
+    add_foam_row<&F::neighbours>(t, "neighbours", "--neighbours",
+                                 {.limits = {1, 26},
+                                  .fallback = format_value(F{}.neighbours),
+                                  .help = "Nearest seeds that a beam goes to from each seed (k-nearest)."});
     add_foam_row<&F::stretch>(t, "stretch", "--stretch",
                               {.limits = {0.05, 20},
                                .fallback = "1, 1, 1",
-                               .help = "Factors on the cells along x, y and z, or along these axes turned."});
+                               .help = "Factors on the cells along x, y and z, or along these axes turned; "
+                                       "formulas for k-nearest alone."});
     add_foam_row<&F::turn>(t, "turn", "--turn",
                            {.unit = "degrees",
                             .limits = {-360, 360},
                             .fallback = "0, 0, 0",
-                            .help = "Turns the axes of stretch about x, then y, then z."});
+                            .help = "Turns the axes of stretch about x, then y, then z; formulas for "
+                                    "k-nearest alone."});
     add_foam_row<&F::drop_islands>(
         t, "drop_islands", "--drop-islands",
         {.fallback = "false",
          .help = "Leave out what floats free of the part; the layers are surveyed first."});
+    add_foam_row<&F::islands_pitch>(
+        t, "islands_pitch", "--islands-pitch",
+        {.unit = "mm",
+         .limits = {0.001, 100},
+         .fallback = "a third of the thinnest beam's radius, at most 16 layers",
+         .help = "Distance of the rows in which that survey looks; what lies within two counts as "
+                 "connected."});
 }
 
 void add_skin_and_layers(std::vector<Setting>& t) {
@@ -299,9 +317,38 @@ void add_skin_and_layers(std::vector<Setting>& t) {
          .limits = {0, 1000},
          .fallback = "required in [skin]",
          .help = "Thickness of the closed skin, inward from the surface; 0 for none."}));
+    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_min>(
+        "skin", "thickness_min", "--skin-min",
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .fallback = format_value(SkinRecipe{}.thickness_min),
+         .help = "Least thickness that is made: a graded skin is kept above it."}));
+    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_max>(
+        "skin", "thickness_max", "--skin-max",
+        {.unit = "mm",
+         .limits = {0.001, SkinRecipe{}.thickness_max},
+         .fallback = format_value(SkinRecipe{}.thickness_max),
+         .help = "Greatest thickness that is made: a graded skin is kept below it, and has it where the "
+                 "formula has no number."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
         "layers", "height", "--layer-height",
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
+}
+
+void add_output(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.output.beams; }>(
+        "output", "beams", "--output-beams",
+        {.fallback = "none",
+         .help = "File for the foam's beams as a 3MF beam lattice, written by `slice`; in a recipe, relative "
+                 "to the recipe's folder.",
+         .is_path = true}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.output.beams_box; }>(
+        "output", "beams_box", "--output-beams-box",
+        {.unit = "mm",
+         .limits = place,
+         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+         .fallback = "the part's bounds",
+         .help = "Box whose beams are written: all that touch it, uncut."}));
 }
 
 std::vector<Setting> make_table() {
@@ -311,6 +358,7 @@ std::vector<Setting> make_table() {
     add_gradings(table);
     add_foam(table);
     add_skin_and_layers(table);
+    add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
         if (setting.fallback.empty()) setting.fallback = "the profile's";
@@ -334,6 +382,20 @@ double millimetres(LengthUnit unit) {
     return 1;
 }
 
+Box box_of(const NumberRows& corners) {
+    const auto corner = [&](std::size_t i) { return dvec3(corners[i][0], corners[i][1], corners[i][2]); };
+    return {corner(0), corner(1)};
+}
+
+std::optional<dvec3> constant(const GradedTriple& triple) {
+    dvec3 numbers{0};
+    for (std::size_t i = 0; i < triple.size(); ++i) {
+        if (triple[i].is_formula()) return std::nullopt;
+        numbers[static_cast<glm::length_t>(i)] = triple[i].number();
+    }
+    return numbers;
+}
+
 std::span<const Setting> settings() {
     static const std::vector<Setting> table = make_table();
     return table;
@@ -349,6 +411,7 @@ std::span<const Section> sections() {
         {"foam", "foam inside the body; without this section the part has none"},
         {"skin", "closed skin under the body's surface; without this section the part has none"},
         {"layers", "how the part is cut"},
+        {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};
     return list;
 }

@@ -136,10 +136,12 @@ GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval
     const dvec3 size = box.size();
     const double step = std::max({size.x, size.y, size.z}) / per_side;
     if (!(step > 0) || !std::isfinite(step)) return survey;
-    for (double z = box.lo.z + step / 2; z < box.hi.z; z += step) {
-        for (double y = box.lo.y + step / 2; y < box.hi.y; y += step) {
-            for (double x = box.lo.x + step / 2; x < box.hi.x; x += step) {
-                const dvec3 p(x, y, z);
+    // At least one point along every side: flat bodies are bodies.
+    const glm::ivec3 n(glm::max(glm::ceil(size / step - 1e-9), dvec3(1)));
+    for (int k = 0; k < n.z; ++k) {
+        for (int j = 0; j < n.y; ++j) {
+            for (int i = 0; i < n.x; ++i) {
+                const dvec3 p = box.lo + size * (dvec3(i, j, k) + 0.5) / dvec3(n);
                 if (!(body.value(p) < 0)) continue;
                 const double number = grading.at(p);
                 ++survey.points;

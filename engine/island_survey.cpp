@@ -191,21 +191,24 @@ IslandSurvey Surveyor::result() {
 }
 
 void check(const Job& job, const IslandSurveyOptions& options) {
-    const dvec3 size = job.bounds.size();
-    if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
-        throw InputError("island survey: the part's bounds are empty or infinite");
-    const double least = std::max(size.x, size.y) / most_pitches;
-    const double most = most_layers_in_a_pitch * job.layer_height;
-    if (options.pitch > 0 && options.pitch >= least && options.pitch <= most) return;
+    const Interval suited = island_pitches(job);
+    if (options.pitch > 0 && suited.contains(options.pitch)) return;
     const bool printable = std::abs(options.pitch) < 1e9;
     throw InputError("island survey: the pitch" +
                      (printable ? " of " + format_number(options.pitch, 9) + " mm" : std::string()) +
-                     " does not suit the part; accepted: " + format_number(least, 9) + " to " +
-                     format_number(most, 9) +
+                     " does not suit the part; accepted: " + format_number(suited.lo, 9) + " to " +
+                     format_number(suited.hi, 9) +
                      " mm, that is at most 2^20 rows and columns, and 16 layers in a pitch");
 }
 
 }  // namespace
+
+Interval island_pitches(const Job& job) {
+    const dvec3 size = job.bounds.size();
+    if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
+        throw InputError("island survey: the part's bounds are empty or infinite");
+    return {std::max(size.x, size.y) / most_pitches, most_layers_in_a_pitch * job.layer_height};
+}
 
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options) {
     check(job, options);

@@ -39,6 +39,10 @@ struct IslandSurveyOptions {
     const CancelToken* cancel = nullptr;                 ///< may be null
 };
 
+/// The pitches that suit a job, mm: at most 2^20 rows and columns, and 16 layers in a pitch. Throws
+/// InputError when the job's bounds are empty or infinite.
+Interval island_pitches(const Job& job);
+
 struct IslandSurvey {
     IslandReport report;
     std::shared_ptr<const DroppedIslands> dropped;  ///< never null

@@ -73,6 +73,11 @@ double RoundTriangleTree::nearest(dvec3 p, double sign, double best) const {
             for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
                 RoundTriangle triangle = round_triangle(mesh_, radii_, order_[k]);
                 for (double& radius : triangle.radii) radius *= sign;
+                Box corners;
+                for (const dvec3& corner : triangle.corners) corners.include(corner);
+                const double largest =
+                    std::max(triangle.radii[0], std::max(triangle.radii[1], triangle.radii[2]));
+                if (lamella::distance(corners, p) - largest >= best) continue;
                 best = std::min(best, signed_distance(triangle, p));
             }
             continue;

@@ -48,6 +48,39 @@ class FilledBody : public Field {
     FieldPtr solid_;
 };
 
+/// The same under a skin of graded thickness, which is asked only where it may reach.
+class FilledUnderGradedSkin : public Field {
+  public:
+    FilledUnderGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
+        : body_(std::move(body)),
+          filling_(std::move(filling)),
+          shell_(std::move(shell)),
+          thickest_(thickest),
+          solid_(make_intersection({body_, make_union({filling_, shell_})})) {}
+
+    double value(dvec3 p) const override {
+        const double f = filling_->value(p);
+        // At depth d the shell's value is at least d - thickest.
+        const double enough = std::max(-f, f + thickest_);
+        const double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
+        if (-b >= enough) return f;
+        if (b >= enough) return solid_->value(p);
+        return std::max(b, std::min(f, shell_->value(p)));
+    }
+    Interval range(const Box& box) const override { return solid_->range(box); }
+    Metric metric() const override { return solid_->metric(); }
+    FieldPtr offset(double d) const override { return solid_->offset(d); }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.slice(*solid_, z);
+    }
+    Box bounds() const override { return solid_->bounds(); }
+
+  private:
+    FieldPtr body_, filling_, shell_;
+    double thickest_;
+    FieldPtr solid_;
+};
+
 /// What lies, inside a body with exact distances, no deeper than the thickness asked for there.
 class GradedShell : public Field {
   public:
@@ -121,8 +154,9 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thi
     const Interval asked = make_clamped_grading(thickness, limits)->range(body->bounds());
     if (asked.width() == 0 && (filling || asked.hi > 0))
         return make_filled_body(std::move(body), std::move(filling), asked.hi);
-    FieldPtr inside = filling ? make_union({std::move(filling), std::move(shell)}) : std::move(shell);
-    return make_intersection({std::move(body), std::move(inside)});
+    if (!filling) return make_intersection({std::move(body), std::move(shell)});
+    return std::make_shared<FilledUnderGradedSkin>(std::move(body), std::move(filling), std::move(shell),
+                                                   asked.hi);
 }
 
 }  // namespace lamella

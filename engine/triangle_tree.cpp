@@ -140,8 +140,10 @@ SurfacePoint TriangleTree::closest(dvec3 p) const {
         const Node& node = nodes_[entry.node];
         for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
             const auto& t = mesh_.triangles[order_[k]];
-            SurfacePoint found =
-                closest_point(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+            const dvec3 a = mesh_.vertices[t[0]], b = mesh_.vertices[t[1]], c = mesh_.vertices[t[2]];
+            const Box around{glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+            if (squared_distance(around, p) * slack > best.distance * best.distance) continue;
+            SurfacePoint found = closest_point(p, a, b, c);
             found.triangle = order_[k];
             const bool closer = found.distance < best.distance ||
                                 (found.distance == best.distance && found.triangle < best.triangle);

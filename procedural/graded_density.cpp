@@ -4,7 +4,7 @@
 namespace lamella {
 namespace {
 
-constexpr int most_halvings = 3;
+constexpr int most_halvings = 1;  // a leaf holds eight seeds at most: a reading for each will do
 constexpr double steady = 1.05;
 
 double per_cube(double side) { return 1 / (side * side * side); }
@@ -19,9 +19,12 @@ Interval GradedDensity::range(const Box& box) const {
 double GradedDensity::integral(const Box& box) const { return integral(box, most_halvings); }
 
 double GradedDensity::integral(const Box& box, int halvings) const {
-    const Interval cell = cell_->range(box);
     const dvec3 size = box.size(), center = box.center();
-    if (halvings == 0 || cell.hi <= steady * cell.lo) {
+    const auto is_steady = [&] {
+        const Interval cell = cell_->range(box);
+        return cell.hi <= steady * cell.lo;
+    };
+    if (halvings == 0 || is_steady()) {
         return size.x * size.y * size.z * per_cube(cell_->at(center));
     }
     double sum = 0;

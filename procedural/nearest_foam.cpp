@@ -7,13 +7,11 @@
 #include <cmath>
 
 #include "engine/error.h"
-#include "procedural/beam_box.h"
 
 namespace lamella {
 namespace {
 
 constexpr double safe_side = 1 + 1e-9;
-constexpr Interval factors{0.1, 10};
 
 double diagonal(const Box& box) {
     const dvec3 size = box.size();
@@ -41,16 +39,18 @@ double check_metric(const NearestFoamSettings& settings) {
     }
     if (!(all.lo > 0) || !std::isfinite(all.hi)) {
         throw InputError(fmt::format("the foam's stretch reaches {} in the part; accepted: {} to {}",
-                                     all.lo > 0 ? all.hi : all.lo, factors.lo, factors.hi));
+                                     all.lo > 0 ? all.hi : all.lo, nearest_factors.lo, nearest_factors.hi));
     }
-    return std::min(all.hi, factors.hi) / std::max(all.lo, factors.lo);
+    return std::min(all.hi, nearest_factors.hi) / std::max(all.lo, nearest_factors.lo);
 }
 
 NearestFoamSettings within_limits(NearestFoamSettings settings) {
     check_metric(settings);
     for (Graded& factor : settings.stretch) {
         const Interval range = tight_range(*factor, settings.foam.region);
-        const auto limited = [](double v) { return std::min(std::max(v, factors.lo), factors.hi); };
+        const auto limited = [](double v) {
+            return std::min(std::max(v, nearest_factors.lo), nearest_factors.hi);
+        };
         factor = make_clamped_grading(factor.pointer(), {limited(range.lo), limited(range.hi)});
     }
     return settings;

@@ -7,17 +7,21 @@
 #include <memory>
 #include <vector>
 
+#include "procedural/beam_box.h"
 #include "procedural/beam_foam.h"
 #include "procedural/foam_settings.h"
 #include "procedural/piece_units.h"
 
 namespace lamella {
 
+/// The factors that a k-nearest foam takes.
+inline constexpr Interval nearest_factors{0.1, 10};
+
 struct NearestFoamSettings {
     FoamSettings foam;   ///< without a stretch of its own
     int neighbours = 5;  ///< k, from 1 to 26
-    /// Factors along three axes at right angles, from 0.1 to 10: where one is larger, beams along its axis
-    /// are more and longer.
+    /// Factors along three axes at right angles, within nearest_factors: where one is larger, beams along its
+    /// axis are more and longer.
     std::array<Graded, 3> stretch = {1.0, 1.0, 1.0};
     std::array<Graded, 3> turn = {0.0, 0.0, 0.0};  ///< of the axes about x, then y, then z, degrees
 };

@@ -90,6 +90,30 @@ TEST_CASE("a volume lies in its box") {
     CHECK(at(keys, {15, 5, 5}) == Approx(3));
 }
 
+TEST_CASE("an attribute is what the mesh's nearest surface has, in the part's scale") {
+    // A cube of side 10 whose corners carry their own x.
+    std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float warmth\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n";
+    for (int i = 0; i < 8; ++i) {
+        const int x = i & 1 ? 10 : 0;
+        ply +=
+            std::to_string(x) + (i & 2 ? " 10" : " 0") + (i & 4 ? " 10 " : " 0 ") + std::to_string(x) + "\n";
+    }
+    ply += "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+    const File cube(".ply", ply);
+    RecipeDraft draft;
+    draft.read_text("[part]\nmesh = \"" + cube.path() + "\"\nscale = 2\n" +
+                        grading("kind = \"attribute\"\nattribute = \"warmth\"\n") +
+                        "[foam]\ncell = \"2 + 0.1*g\"\nbeam = 0.2\n[skin]\nthickness = \"0.5 + 0.1*g\"\n",
+                    "test.toml");
+    const BuiltJob built = build_job(draft.finish());
+    CHECK(built.body->bounds().hi.x == Approx(20));
+    CHECK(built.foam->cell.made->at({6, 10, 1}) == Approx(2.3));
+    CHECK(built.foam->cell.made->at({19, 10, 10}) == Approx(3));
+    CHECK(built.skin->made->at({12, 10, 19.5}) == Approx(1.1));
+}
+
 TEST_CASE("the depth is measured from the part's surface") {
     const Recipe recipe = read("");
     Gradings gradings(recipe);
@@ -175,6 +199,7 @@ TEST_CASE("every kind of foam fills a part with something that is neither empty 
         CAPTURE(kind);
         std::string keys = "[foam]\nkind = \"" + kind + "\"\ncell = \"3 + 0.05*z\"\n";
         keys += builder.member == "wall" ? "wall = 0.4\n" : "beam = 0.3\n";
+        if (kind == "closed") keys += "wall = 0.2\nwindow = 0.5\n";
         if (kind == "lattice") keys += "unit_cell = \"octet\"\n";
         const BuiltJob built = build_job(read(keys));
         int solid = 0, inside = 0;

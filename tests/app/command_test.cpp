@@ -352,3 +352,91 @@ TEST_CASE("a full disk is a fault, told once") {
     CHECK(outcome.code == 3);
     CHECK(count_lines(outcome.err) == 1);
 }
+
+TEST_CASE("dropped islands are surveyed, told and missing from the layers") {
+    const Folder folder;
+    const std::string job = "slice " + ball + small_plate + "--printer png --cell 0.9 --beam 0.1 --json ";
+    const Outcome plain = run_lamella(job + "-o " + folder / "plain");
+    const Outcome clean = run_lamella(job + "--drop-islands -o " + folder / "clean");
+    REQUIRE(plain.code == 0);
+    REQUIRE(clean.code == 0);
+    const auto with = nlohmann::json::parse(plain.out), without = nlohmann::json::parse(clean.out);
+    CHECK_FALSE(with.contains("islands"));
+    const auto& islands = without["islands"];
+    REQUIRE(islands["islands"].get<int>() > 0);
+    CHECK(islands["largest"][0]["volume_mm3"].get<double>() <= islands["island_volume_mm3"].get<double>());
+    CHECK(islands["largest"][0]["box_mm"]["lo"][2].get<double>() >= -3);
+    CHECK(with["volume_mm3"].get<double>() - without["volume_mm3"].get<double>() ==
+          Approx(islands["island_volume_mm3"].get<double>()).epsilon(0.1));
+    CHECK(mentions(clean.err, "survey for islands: "));
+    CHECK(mentions(clean.err, "islands: " + std::to_string(islands["islands"].get<int>()) + " of "));
+    CHECK(mentions(clean.err, "the largest, of "));
+    const Outcome info = run_lamella("info --islands --json " + ball + "--cell 0.9 --beam 0.1");
+    REQUIRE(info.code == 0);
+    CHECK(nlohmann::json::parse(info.out)["islands"] == islands);
+    CHECK(mentions(run_lamella("info --islands " + ball).out, "islands   nothing floats free"));
+}
+
+TEST_CASE("the beams of a foam are written beside the layers when the recipe asks") {
+    const Folder folder;
+    const std::string part = "[part]\nshape = \"sphere\"\nradius = 3\n[layers]\nheight = 0.5\n";
+    const std::string output = "[output]\nbeams = \"graph.3mf\"\nbeams_box = [[0, 0, 0], [2, 2, 2]]\n";
+    write(folder / "foam.toml", part + output + "[foam]\ncell = 1\nbeam = 0.1\n");
+    const std::string job = "slice " + folder / "foam.toml" + " " + small_plate + "--printer png --json -o ";
+    const Outcome run = run_lamella(job + folder / "layers");
+    REQUIRE(run.code == 0);
+    const auto beams = nlohmann::json::parse(run.out)["beams"];
+    CHECK(beams["output"] == folder / "graph.3mf");
+    CHECK(mentions(run.err, std::to_string(beams["beams"].get<int>()) + " beams between "));
+    const std::string dump = "dump beams --box 0,0,0,2,2,2 " + folder / "foam.toml";
+    CHECK(beams["beams"].get<std::size_t>() + beams["too_short"].get<std::size_t>() ==
+          count_lines(run_lamella(dump).out));
+    const Outcome dumped = run_lamella(dump + " --format 3mf -o " + folder / "dumped.3mf");
+    CHECK(dumped.code == 0);
+    CHECK(contents(folder / "dumped.3mf").starts_with("PK"));
+    CHECK(contents(folder / "dumped.3mf") == contents(folder / "graph.3mf"));
+
+    const Outcome again = run_lamella(job + folder / "more");
+    CHECK(again.code == 2);
+    CHECK(mentions(again.err, "graph.3mf: exists already"));
+    CHECK_FALSE(fs::exists(folder / "more"));
+    CHECK(run_lamella(job + folder / "layers --force").code == 0);
+    CHECK(run_lamella(job + folder / "shard --layers 4:6").code == 0);
+
+    write(folder / "walls.toml", part + output + "[foam]\nkind = \"gyroid\"\ncell = 2\nwall = 0.3\n");
+    const Outcome walls = run_lamella("slice --force " + folder / "walls.toml" + " -o " + folder / "walls");
+    CHECK(walls.code == 2);
+    CHECK(mentions(walls.err, "output.beams / --output-beams: foam.kind gyroid has no beams"));
+    CHECK(run_lamella("slice --force " + ball + "--output-beams " + folder / "b.3mf").code == 2);
+    CHECK(mentions(run_lamella("slice " + ball + "--output-beams b.txt").err, "a path that ends in .3mf"));
+    CHECK_FALSE(fs::exists(folder / "b.3mf"));
+}
+
+TEST_CASE("every kind of foam with beams can be dumped") {
+    const std::string box = " --cell 2 --beam 0.2 --box 0,0,0,6,6,6";
+    for (const std::string kind : {"voronoi", "kelvin", "closed --wall 0.1", "lattice --unit-cell bcc",
+                                   "k-nearest --neighbours 3 --stretch '1,1,max(1, 1 + z/3)'"}) {
+        const Outcome beams = run_lamella("dump beams --foam " + kind + box);
+        CHECK(beams.code == 0);
+        CHECK(count_lines(beams.out) > 50);
+        const bool seeds = !mentions(kind, "lattice");
+        CHECK(run_lamella("dump seeds --foam " + kind + box).code == (seeds ? 0 : 2));
+    }
+}
+
+TEST_CASE("entries that nothing uses are told in one line") {
+    const Folder folder;
+    const std::string path = folder / "unused.toml";
+    write(path,
+          "[[field]]\nname = \"spare\"\nformula = \"x\"\n"
+          "[[grading]]\nname = \"a\"\nkind = \"formula\"\nformula = \"1 + 0*b\"\n"
+          "[[grading]]\nname = \"b\"\nkind = \"constant\"\nvalue = 2\n"
+          "[[grading]]\nname = \"lost\"\nkind = \"formula\"\nformula = \"b + x\"\n"
+          "[part]\nshape = \"sphere\"\nradius = 3\n[foam]\ncell = \"a\"\nbeam = 0.1\n");
+    const std::string note = path + ": nothing uses [[field]] `spare`, [[grading]] `lost`\n";
+    CHECK(run_lamella("info " + path).err == note);
+    CHECK(run_lamella("dump seeds " + path).err == note);
+    const std::string slice = "slice " + path + " " + small_plate + "--layers 0:1 --printer png ";
+    CHECK(mentions(run_lamella(slice + "-o " + folder / "one").err, note));
+    CHECK(run_lamella(slice + "--quiet -o " + folder / "two").err.empty());
+}

@@ -8,6 +8,7 @@
 #include "app/recipe_draft.h"
 #include "app/settings.h"
 #include "engine/error.h"
+#include "procedural/tpms.h"
 
 using namespace lamella;
 
@@ -72,6 +73,8 @@ Value another_value(const Setting& setting) {
             return GradedNumber{"3 + x / 64", ""};
         case ValueType::formula:
             return GradedNumber{"x - 1.5", ""};
+        case ValueType::graded_triple:
+            return GradedTriple{GradedNumber{1.5, ""}, {"max(1, x) / 64", ""}, {3.0, ""}};
         case ValueType::rows:
             return NumberRows(
                 std::max<std::size_t>(setting.shape.rows, 1),
@@ -88,6 +91,14 @@ Value another_value(const Setting& setting) {
 std::string toml_text(const Setting& setting, const Value& value) {
     const std::string text = format_value(value);
     if (setting.type == ValueType::triple) return "[" + text + "]";
+    if (setting.type == ValueType::graded_triple) {
+        std::string parts;
+        for (const GradedNumber& part : std::get<GradedTriple>(value)) {
+            const std::string quote = part.is_formula() ? "\"" : "";
+            parts += (parts.empty() ? "" : ", ") + quote + format_value(part) + quote;
+        }
+        return "[" + parts + "]";
+    }
     if (setting.type == ValueType::rows) {
         std::string rows;
         for (const auto& row : std::get<NumberRows>(value)) {
@@ -311,6 +322,15 @@ TEST_CASE("contradictions are refused") {
     CHECK(mentions(complaint(sphere + "name = \"../up\"\n"), "test.toml:4: part.name"));
 }
 
+TEST_CASE("a gyroid may be as thick as leaves something open") {
+    const std::string gyroid = "[part]\nshape = \"gyroid\"\nsize = [20, 20, 20]\nperiod = 5\nthickness = ";
+    const double most = 5 * greatest_tpms_thickness(TpmsKind::gyroid, false);
+    CHECK(complaints(gyroid + std::to_string(0.99 * most) + "\n").empty());
+    const std::string wrong = complaint(gyroid + std::to_string(1.01 * most) + "\n");
+    CHECK(mentions(wrong, "test.toml:5: part.thickness: "));
+    CHECK(mentions(wrong, "fills a gyroid of period 5 mm; accepted: less than "));
+}
+
 TEST_CASE("all mistakes of a file are told at once, in the order of its lines") {
     const auto lines = complaints(
         "[part]\nshape = \"spere\"\nradius = 1e9\n[skin]\nthickness = true\n[layer]\nheight = 1\n"
@@ -379,6 +399,7 @@ TEST_CASE("every setting that holds decides the identity") {
         const Value value = another_value(setting);
         if (setting.load(changed, 0) == value) continue;
         setting.store(changed, 0, value);
-        CHECK(job_identity(changed) != job_identity(plain));
+        const bool decides = find_section(setting.section)->decides_layers;
+        CHECK((job_identity(changed) != job_identity(plain)) == decides);
     }
 }

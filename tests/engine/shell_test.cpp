@@ -249,6 +249,30 @@ TEST_CASE("a thickness of nothing makes no skin, and a filled body is its fillin
     CHECK(!(hollow->value({0.5, 0, 0}) < 0));
 }
 
+TEST_CASE("a body filled under a graded skin has the value of the union of both within it") {
+    std::mt19937 random(71);
+    std::uniform_real_distribution<double> place(-3.5, 3.5);
+    const FieldPtr filling = make_sphere({0.4, 0, 0.2}, 1.1);
+    int by_skin = 0, by_filling = 0;
+    for (const TriangleMesh& mesh : meshes()) {
+        const FieldPtr body = make_mesh_field(shapes::closed(mesh));
+        for (const GradingPtr& thickness : thicknesses()) {
+            const FieldPtr filled = make_filled_body(body, filling, thickness, wide);
+            const FieldPtr skin = make_shell(body, thickness, wide);
+            const FieldPtr reference = make_intersection({body, make_union({filling, skin})});
+            for (int i = 0; i < 200; ++i) {
+                const dvec3 p = dvec3(place(random), place(random), place(random)) * (i % 2 ? 1.0 : 0.4);
+                const double v = reference->value(p), f = filling->value(p);
+                CHECK(filled->value(p) == Approx(v).margin(1e-12));
+                by_skin += v < 0 && f > 0;
+                by_filling += v < 0 && v == f;
+            }
+        }
+    }
+    CHECK(by_skin > 500);
+    CHECK(by_filling > 100);
+}
+
 TEST_CASE("graded skins that cannot be are refused") {
     const FieldPtr body = make_sphere({0, 0, 0}, 2);
     const GradingPtr one = make_constant_grading(1);
