@@ -31,12 +31,10 @@ std::optional<Face> face_of(const RoundTriangle& t) {
     return face;
 }
 
-bool stands_on(const RoundTriangle& t, dvec3 normal, dvec3 p) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const dvec3 edge = t.corners[(i + 1) % 3] - t.corners[i];
-        if (glm::dot(glm::cross(edge, p - t.corners[i]), normal) < 0) return false;
-    }
-    return true;
+/// How far a point in the face lies inside the edge that leaves a corner, times the edge's length.
+double inside_edge(const RoundTriangle& t, const Face& face, std::size_t corner, dvec3 p) {
+    const dvec3 edge = t.corners[(corner + 1) % 3] - t.corners[corner];
+    return glm::dot(glm::cross(edge, p - t.corners[corner]), face.normal);
 }
 
 Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
@@ -57,16 +55,21 @@ dvec3 center(const RoundTriangle& t) { return (t.corners[0] + t.corners[1] + t.c
 }  // namespace
 
 double signed_distance(const RoundTriangle& t, dvec3 p) {
-    // The least of |p - x| - r(x) over the triangle's points x, a convex function. Off the edges it is least
-    // where p - x stands on a tangent plane.
+    // The least of |p - x| - r(x) over the triangle's points x, a convex function. In the face's plane it is
+    // least where p - x stands on a tangent plane; if that is no point of the triangle, then the least one is
+    // on an edge that it lies outside of.
     if (const auto face = face_of(t)) {
-        const dvec3 d = p - t.corners[0];
-        const double along = glm::dot(face->normal, d), height = std::abs(along);
-        const dvec3 foot = p - face->normal * along - face->tilt * (height / face->cosine);
-        if (stands_on(t, face->normal, foot)) {
-            const dvec3 in_face = d - face->normal * along;
-            return glm::dot(face->tilt, in_face) + face->cosine * height - t.radii[0];
+        const double along = glm::dot(face->normal, p - t.corners[0]), height = std::abs(along);
+        const dvec3 foot = p - face->normal * along, x = foot - face->tilt * (height / face->cosine);
+        const double inside[3] = {inside_edge(t, *face, 0, x), inside_edge(t, *face, 1, x),
+                                  inside_edge(t, *face, 2, x)};
+        if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0)
+            return glm::dot(face->tilt, foot - t.corners[0]) + face->cosine * height - t.radii[0];
+        double least = infinity;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (inside[i] < 0) least = std::min(least, signed_distance(edge_beam(t, i), p));
         }
+        return least;
     }
     return std::min(signed_distance(edge_beam(t, 0), p),
                     std::min(signed_distance(edge_beam(t, 1), p), signed_distance(edge_beam(t, 2), p)));
