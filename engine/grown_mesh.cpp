@@ -213,7 +213,7 @@ GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, doubl
     std::vector<Wedge> wedges;
     std::vector<Beam> beams;
     grown.near_plane(z, wedges, beams);
-    wedges_ = WedgeRows(std::move(wedges), z);
+    wedges_ = WedgeRows(wedges, z);
     beams_ = BeamRows(beams, z);
 }
 

@@ -99,6 +99,18 @@ class GradedShell : public Field {
     GradingPtr thickness_;
 };
 
+/// The thickness kept within limits; InputError when there is none, or limits that make no skin.
+GradingPtr thickness_within(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
+    if (!body || !thickness) throw InputError("a graded skin needs a body and a thickness");
+    if (!(0 <= limits.lo && limits.lo <= limits.hi && 0 < limits.hi && std::isfinite(limits.hi))) {
+        throw InputError(fmt::format(
+            "the thickness of a graded skin is limited to {} .. {} mm; the limits must be in order "
+            "and finite, the lower one at least 0, the upper one above 0",
+            limits.lo, limits.hi));
+    }
+    return make_clamped_grading(thickness, limits);
+}
+
 [[noreturn]] void refuse_skin() {
     throw InputError("this shape has no exact 3D offset, so it cannot be given a skin of a stated thickness");
 }
@@ -121,15 +133,7 @@ FieldPtr make_shell(const FieldPtr& body, double thickness) {
 }
 
 FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
-    if (!body || !thickness) throw InputError("a graded skin needs a body and a thickness");
-    if (!(0 <= limits.lo && limits.lo <= limits.hi && 0 < limits.hi && std::isfinite(limits.hi))) {
-        throw InputError(
-            fmt::format("the thickness of a graded skin is limited to {} .. {} mm; the limits must be in "
-                        "order and finite, "
-                        "the lower one at least 0, the upper one above 0",
-                        limits.lo, limits.hi));
-    }
-    const GradingPtr clamped = make_clamped_grading(thickness, limits);
+    const GradingPtr clamped = thickness_within(body, thickness, limits);
     const Interval asked = clamped->range(body->bounds());
     if (asked.hi == 0) return make_empty();
     if (asked.width() == 0) return make_shell(body, asked.hi);
@@ -150,10 +154,9 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
 }
 
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness, Interval limits) {
+    const Interval asked = thickness_within(body, thickness, limits)->range(body->bounds());
+    if (asked.width() == 0) return make_filled_body(std::move(body), std::move(filling), asked.hi);
     FieldPtr shell = make_shell(body, thickness, limits);
-    const Interval asked = make_clamped_grading(thickness, limits)->range(body->bounds());
-    if (asked.width() == 0 && (filling || asked.hi > 0))
-        return make_filled_body(std::move(body), std::move(filling), asked.hi);
     if (!filling) return make_intersection({std::move(body), std::move(shell)});
     return std::make_shared<FilledUnderGradedSkin>(std::move(body), std::move(filling), std::move(shell),
                                                    asked.hi);

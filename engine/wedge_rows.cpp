@@ -42,7 +42,7 @@ std::vector<Wedge> wedges_of(const std::vector<RoundTriangle>& triangles) {
 
 }  // namespace
 
-WedgeRows::WedgeRows(std::vector<Wedge> wedges, double z) : z_(z) {
+WedgeRows::WedgeRows(const std::vector<Wedge>& wedges, double z) : z_(z) {
     std::vector<Rect> sections;
     for (const Wedge& w : wedges) {
         const Interval heights = extent(w, 2);

@@ -16,7 +16,7 @@ class WedgeRows {
   public:
     WedgeRows() = default;
     /// Keeps the wedges that may meet the plane at height z, mm.
-    WedgeRows(std::vector<Wedge> wedges, double z);
+    WedgeRows(const std::vector<Wedge>& wedges, double z);
     /// The wedges of round triangles; their edges' beams are the caller's.
     WedgeRows(const std::vector<RoundTriangle>& triangles, double z);
 

@@ -21,7 +21,8 @@ const PlaneStrips::Rows& PlaneStrips::open(std::size_t strip) const {
         const Box box{{region_.lo.x, region_.lo.y + height_ * at, z_},
                       {region_.hi.x, last ? region_.hi.y : region_.lo.y + height_ * (at + 1), z_}};
         const PlanePieces pieces = touching_(box);
-        opened.rows = std::make_unique<const Rows>(BeamRows(pieces.beams, z_), WedgeRows(pieces.walls, z_));
+        opened.rows =
+            std::make_unique<const Rows>(Rows{BeamRows(pieces.beams, z_), WedgeRows(pieces.walls, z_)});
     });
     return *opened.rows;
 }

@@ -281,5 +281,6 @@ TEST_CASE("graded skins that cannot be are refused") {
     CHECK_THROWS_AS(make_shell(body, one, {0, 0}), InputError);
     CHECK_THROWS_AS(make_shell(body, one, {0, infinity}), InputError);
     CHECK_THROWS_AS(make_shell(body, nullptr, {0, 1}), InputError);
+    CHECK_THROWS_AS(make_filled_body(body, nullptr, make_constant_grading(0), wide), InputError);
     CHECK_THROWS_AS(make_shell(make_smooth_union(body, body, 0.5), thicknesses()[0], {0, 1}), InputError);
 }

@@ -41,7 +41,8 @@ Graded rising_window() {
 
 /// The foam on a cubic lattice of `n` points a side, read off the runs.
 std::vector<bool> voxels(const Field& foam, int n, double pitch) {
-    std::vector<bool> solid(static_cast<std::size_t>(n) * n * n);
+    const auto side = static_cast<std::size_t>(n);
+    std::vector<bool> solid(side * side * side);
     Scratch scratch;
     SpanRows rows;
     for (int z = 0; z < n; ++z) {
@@ -52,7 +53,8 @@ std::vector<bool> voxels(const Field& foam, int n, double pitch) {
             for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
                 // A voxel is solid where its row is over at least half of it.
                 for (int x = (run.begin + 128) / 256; x < (run.end + 128) / 256; ++x) {
-                    solid[(static_cast<std::size_t>(z) * n + y) * n + x] = true;
+                    solid[(static_cast<std::size_t>(z) * side + static_cast<std::size_t>(y)) * side +
+                          static_cast<std::size_t>(x)] = true;
                 }
             }
         }

@@ -152,7 +152,9 @@ TEST_CASE("walls with windows are solid where a face is, but for the face shrunk
         if (on.first == at.first && on.second == at.second) faces[{at.first, at.second}].push_back(foot);
     }
     int solid = 0, empty = 0;
-    for (const auto& [pair, points] : faces) {
+    for (const auto& face : faces) {
+        const auto pair = face.first;
+        const std::vector<dvec3>& points = face.second;
         if (points.size() < 1200) continue;
         dvec3 middle(0);
         for (const dvec3& p : points) middle += p / static_cast<double>(points.size());
