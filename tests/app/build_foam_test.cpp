@@ -105,15 +105,15 @@ TEST_CASE("windows open where the formula says so") {
 
 TEST_CASE("a k-nearest foam leans the way that its stretch says, place by place") {
     const BuiltJob built =
-        build_job(read("kind = \"k-nearest\"\nneighbours = 4\nstretch = [1, 1, \"z > 0 ? 4 : 0.25\"]\n"));
-    const double above = steepness(*built.foam, {{-6, -6, 3}, {6, 6, 7}});
-    const double below = steepness(*built.foam, {{-6, -6, -7}, {6, 6, -3}});
-    CHECK(above > 0.75);
-    CHECK(below < 0.35);
+        build_job(read("kind = \"k-nearest\"\nneighbours = 4\nstretch = [1, 1, \"z > 0 ? 2 : 0.5\"]\n"));
+    const double above = steepness(*built.foam, {{-3, -3, 2}, {3, 3, 5}});
+    const double below = steepness(*built.foam, {{-3, -3, -5}, {3, 3, -2}});
+    CHECK(above > 0.6);
+    CHECK(below < 0.4);
     const BuiltJob turned =
-        build_job(read("kind = \"k-nearest\"\nstretch = [4, 1, 1]\nturn = [0, \"z > 0 ? 90 : 0\", 0]\n"));
-    CHECK(steepness(*turned.foam, {{-6, -6, 3}, {6, 6, 7}}) > 0.7);
-    CHECK(steepness(*turned.foam, {{-6, -6, -7}, {6, 6, -3}}) < 0.4);
+        build_job(read("kind = \"k-nearest\"\nstretch = [3, 1, 1]\nturn = [0, \"z > 0 ? 90 : 0\", 0]\n"));
+    CHECK(steepness(*turned.foam, {{-3, -3, 2}, {3, 3, 5}}) > 0.6);
+    CHECK(steepness(*turned.foam, {{-3, -3, -5}, {3, 3, -2}}) < 0.4);
     // More neighbours, more beams.
     const Box box{dvec3(-5), dvec3(5)};
     const auto count = [&](const std::string& k) {

@@ -36,7 +36,8 @@ bool mentions(const std::string& text, const std::string& part) {
 }
 
 const std::string loose_foam =
-    "[layers]\nheight = 0.1\n[foam]\ncell = 1.2\nbeam = 0.12\nseed = 3\ndrop_islands = true\n";
+    "[layers]\nheight = 0.1\n[foam]\nkind = \"k-nearest\"\nneighbours = 2\ncell = 1.2\nbeam = "
+    "0.12\ndrop_islands = true\n";
 
 }  // namespace
 

@@ -355,7 +355,8 @@ TEST_CASE("a full disk is a fault, told once") {
 
 TEST_CASE("dropped islands are surveyed, told and missing from the layers") {
     const Folder folder;
-    const std::string job = "slice " + ball + small_plate + "--printer png --cell 0.9 --beam 0.1 --json ";
+    const std::string loose = "--foam k-nearest --neighbours 2 --cell 0.9 --beam 0.1 ";
+    const std::string job = "slice " + ball + small_plate + "--printer png --json " + loose;
     const Outcome plain = run_lamella(job + "-o " + folder / "plain");
     const Outcome clean = run_lamella(job + "--drop-islands -o " + folder / "clean");
     REQUIRE(plain.code == 0);
@@ -371,7 +372,7 @@ TEST_CASE("dropped islands are surveyed, told and missing from the layers") {
     CHECK(mentions(clean.err, "survey for islands: "));
     CHECK(mentions(clean.err, "islands: " + std::to_string(islands["islands"].get<int>()) + " of "));
     CHECK(mentions(clean.err, "the largest, of "));
-    const Outcome info = run_lamella("info --islands --json " + ball + "--cell 0.9 --beam 0.1");
+    const Outcome info = run_lamella("info --islands --json " + ball + loose);
     REQUIRE(info.code == 0);
     CHECK(nlohmann::json::parse(info.out)["islands"] == islands);
     CHECK(mentions(run_lamella("info --islands " + ball).out, "islands   nothing floats free"));
