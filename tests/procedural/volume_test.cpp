@@ -273,15 +273,22 @@ TEST_CASE("pages that do not belong together are refused by name") {
 }
 
 // As TIFF: OpenImageIO 2.4 leaks a string where libpng gives up.
-TEST_CASE("an image cut off is refused") {
+TEST_CASE("an image cut off is refused, or nothing of it is missing") {
     const ScratchFolder folder("cut");
     write_pages<std::uint16_t>(folder / "1.tif", 3, true);
     const auto whole = fs::file_size(folder / "1.tif");
     for (const auto length : {whole / 8, whole / 3, whole / 2, whole * 2 / 3, whole * 9 / 10, whole - 20}) {
         write_pages<std::uint16_t>(folder / "1.tif", 3, true);
         fs::resize_file(folder / "1.tif", length);
-        INFO(length << " of " << whole << " bytes: " << volume_message(folder.path()));
-        CHECK(volume_message(folder.path()).find((folder / "1.tif").string() + ": ") == 0);
+        // The writer leaves bytes at the end that no page needs: without them, all samples are still there.
+        const std::string message = volume_message(folder.path());
+        INFO(length << " of " << whole << " bytes: " << message);
+        if (message.empty()) {
+            CHECK(length > whole / 2);
+            check_samples<std::uint16_t>(read_volume(folder.path().string(), 0), 3);
+        } else {
+            CHECK(message.find((folder / "1.tif").string() + ": ") == 0);
+        }
     }
 }
 
