@@ -77,7 +77,7 @@ FieldPtr bounded(const FieldRecipe& field, GradedFormula formula) {
     Box bounds;
     for (const auto& corner : field.bounds) bounds.include({corner[0], corner[1], corner[2]});
     if (field.bounds.empty()) bounds = formula_bounds(formula.formula, formula.others);
-    return make_formula_field(std::move(formula.formula), std::move(formula.others), bounds);
+    return make_formula_field(formula.formula, std::move(formula.others), bounds);
 }
 
 FieldPtr formula_body(const FieldRecipe& field, Gradings& gradings) {

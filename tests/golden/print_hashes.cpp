@@ -6,12 +6,18 @@
 
 #include "engine/coverage.h"
 #include "engine/csg.h"
+#include "engine/formula_field.h"
+#include "engine/formula_grading.h"
+#include "engine/formula_parser.h"
 #include "engine/layer.h"
 #include "engine/mesh_field.h"
 #include "engine/mesh_reader.h"
 #include "engine/primitives.h"
 #include "engine/shell.h"
 #include "engine/simd_target.h"
+#include "procedural/closed_foam.h"
+#include "procedural/nearest_foam.h"
+#include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
 
@@ -50,17 +56,55 @@ FieldPtr gyroid(const Box& region) {
     return make_tpms(settings);
 }
 
+GradingPtr graded(const char* text, const FieldPtr& body) {
+    const std::vector<std::string> names{"x", "y", "z", "d"};
+    return make_formula_grading(parse_formula(text, names), {make_depth_grading(body)});
+}
+
+FoamSettings graded_settings(const FieldPtr& body) {
+    FoamSettings settings;
+    settings.cell = graded("clamp(1.5 + 0.1*x + 0.2*sin(y), 1, 4)", body);
+    settings.beam_radius = graded("0.1 + 0.02*max(d, 0) + 0.03*exp(-z^2/20)", body);
+    settings.seed = 11;
+    settings.region = body->bounds();
+    return settings;
+}
+
+FieldPtr turned_foam(const FieldPtr& body) {
+    NearestFoamSettings settings;
+    settings.foam = graded_settings(body);
+    settings.stretch[2] = graded("1 + 0.1*abs(x)", body);
+    settings.turn[1] = graded("5*z", body);
+    return std::make_shared<NearestFoam>(settings);
+}
+
 std::map<std::string, FieldPtr> solids() {
     const MeshFile koala = read_mesh(LAMELLA_SOURCE_DIR "/examples/models/koala_mm.obj", MeshReadOptions{});
     const FieldPtr ball = make_sphere({0.1, 0.2, 0.3}, 9);
+    const FieldPtr koala_body = make_mesh_field(close_mesh(koala.mesh));
+    const std::vector<std::string> xyz{"x", "y", "z"};
     return {
+        {"closed foam", make_intersection({ball, make_closed_foam({graded_settings(ball), 0.3, 0.4})})},
+        {"formula", make_formula_field(parse_formula("min(max(x^2 + y^2 + z^2 - 64, 2 - hypot(x, y)), "
+                                                     "atan2(sin(x)*cos(y), 1 + z^2) + ln(1 + y^2) - 0.2)",
+                                                     xyz),
+                                       {}, {dvec3(-9), dvec3(9)})},
+        {"graded foam", make_intersection({ball, make_voronoi_foam(graded_settings(ball))})},
+        {"graded gyroid",
+         make_intersection({ball, make_tpms({TpmsKind::gyroid, false, graded("4 + 0.1*z", ball),
+                                             graded("0.6 + 0.02*x", ball), ball->bounds()})})},
+        {"graded lattice",
+         make_intersection({ball, make_strut_lattice({unit_cell("octet"), graded("3 + 0.1*x", ball),
+                                                      graded("0.2 + 0.01*y", ball), ball->bounds()})})},
+        {"graded skin", make_filled_body(koala_body, nullptr, graded("0.6 + 0.02*y", koala_body), {0.1, 3})},
+        {"nearest foam", make_intersection({ball, turned_foam(ball)})},
         {"primitives",
          make_union({make_torus({0, 0, 0}, 7, 2), make_round_cone({{-6, -6, -3}, 2, {6, 5, 4}, 0.7}),
                      make_cylinder({-5, 4, -4}, {3, -6, 5}, 1.5), make_box({{-8, 3, -2}, {-3, 8, 3}}, 1)})},
         {"gyroid in a ball", make_intersection({ball, gyroid(ball->bounds())})},
         {"smooth union", make_smooth_union(ball, make_sphere({8, 3, 1}, 5), 2)},
         {"foam ball", foam_in(ball, 2, 0.25, 0.7)},
-        {"foam koala", foam_in(make_mesh_field(close_mesh(koala.mesh)), 4, 0.4, 0.8)},
+        {"foam koala", foam_in(koala_body, 4, 0.4, 0.8)},
     };
 }
 
