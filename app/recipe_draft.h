@@ -49,13 +49,13 @@ class RecipeDraft {
         std::string section;
         std::size_t entry = 0;
         std::string key;
-        auto operator<=>(const Place&) const = default;
+        auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): misread by the tool
     };
     /// A section or one entry of a list section.
     struct Part {
         std::string section;
         std::size_t entry = 0;
-        auto operator<=>(const Part&) const = default;
+        auto operator<=>(const Part&) const = default;  // NOLINT(modernize-use-nullptr): misread by the tool
     };
 
     void set(const Setting& setting, std::size_t entry, Value value, const std::string& where,
