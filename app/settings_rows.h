@@ -87,7 +87,7 @@ Setting described(std::string section, std::string key, std::string flag, Facts 
     s.unit = std::move(facts.unit);
     s.limits = facts.limits;
     s.choices = std::move(facts.choices);
-    s.shape = std::move(facts.shape);
+    s.shape = facts.shape;
     s.fallback = std::move(facts.fallback);
     s.help = std::move(facts.help);
     return s;
