@@ -57,6 +57,30 @@ void foam_cells_per_layer_50um(benchmark::State& state) {
 }
 BENCHMARK(foam_cells_per_layer_50um)->Unit(benchmark::kMillisecond)->Iterations(400);
 
+/// Runs of the left part of a uniform plate, its cells warm: the argument is its share of the width in
+/// quarters.
+void foam_area(benchmark::State& state) {
+    FoamSettings settings = bench::plate_foam();
+    const int width = bench::plate_width / 4 * static_cast<int>(state.range(0));
+    settings.region.hi.x = width * bench::plate_pixel;
+    const auto foam = make_voronoi_foam(settings);
+    SliceContext context;
+    const SliceField& slice = context.slice(*foam, bench::plate_z);
+    Scratch scratch;
+    SpanRows rows;
+    const auto all = [&] {
+        for (int first = 0; first < bench::plate_height; first += 64) {
+            RowBand band = bench::plate_band(first, 1);
+            band.hi = width;
+            slice.spans(band, scratch, rows);
+            benchmark::DoNotOptimize(rows.runs().data());
+        }
+    };
+    all();
+    for (auto _ : state) all();
+}
+BENCHMARK(foam_area)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
 /// From nothing to the runs of one layer, in parts that are 100 and 10,000 mm high.
 void foam_height(benchmark::State& state) {
     FoamSettings settings = graded_plate();
