@@ -54,8 +54,11 @@ class PieceUnits {
 
     struct Unit {
         std::vector<Piece> pieces;
-        Box extent;  ///< of the pieces' solids, mm
-        std::size_t bytes() const { return sizeof(Unit) + pieces.capacity() * sizeof(Piece); }
+        std::vector<Interval> heights;  ///< of each piece's solid: most pieces miss a layer's plane
+        Box extent;                     ///< of the pieces' solids, mm
+        std::size_t bytes() const {
+            return sizeof(Unit) + pieces.capacity() * (sizeof(Piece) + sizeof(Interval));
+        }
         Interval z_extent() const { return {extent.lo.z, extent.hi.z}; }
     };
     /// How far the pieces of a node's seeds can be from it, in the seeds' space.
@@ -189,8 +192,10 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
     }
     for (const auto& unit : units) {
         if (!unit || intersect(unit->extent, request.box).empty()) continue;
-        for (const Piece& piece : unit->pieces) {
-            if (touches(piece, request.box)) request.pieces.push_back(piece);
+        for (std::size_t i = 0; i < unit->pieces.size(); ++i) {
+            const Interval& z = unit->heights[i];
+            if (z.hi < request.box.lo.z || request.box.hi.z < z.lo) continue;
+            if (touches(unit->pieces[i], request.box)) request.pieces.push_back(unit->pieces[i]);
         }
     }
 }
@@ -207,7 +212,12 @@ typename PieceUnits<Source>::Unit PieceUnits<Source>::make(const SeedBlock& bloc
         request.source.append(own, unit.pieces);
     }
     unit.pieces.shrink_to_fit();
-    for (const Piece& piece : unit.pieces) unit.extent = unite(unit.extent, bounds(piece));
+    unit.heights.reserve(unit.pieces.size());
+    for (const Piece& piece : unit.pieces) {
+        const Box box = bounds(piece);
+        unit.heights.push_back({box.lo.z, box.hi.z});
+        unit.extent = unite(unit.extent, box);
+    }
     if (unit.pieces.empty()) unit.extent = {dvec3(infinity), dvec3(infinity)};
     return unit;
 }
