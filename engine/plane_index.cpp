@@ -1,27 +1,35 @@
-// Two interval indices, one for each direction of the lines.
+// Two interval indices, one for each direction of the lines, each made when first asked.
 #include "engine/plane_index.h"
 
 namespace lamella {
 
-PlaneIndex::PlaneIndex(std::vector<Rect> rects) : rects_(std::move(rects)) {
-    std::vector<Interval> x, y;
-    std::vector<double> lo_x, lo_y;
-    for (const Rect& rect : rects_) {
-        bounds_ = unite(bounds_, rect);
-        x.push_back({rect.lo.x, rect.hi.x});
-        y.push_back({rect.lo.y, rect.hi.y});
-        lo_x.push_back(rect.lo.x);
-        lo_y.push_back(rect.lo.y);
-    }
-    rows_ = IntervalIndex(y, lo_x);
-    columns_ = IntervalIndex(x, lo_y);
+PlaneIndex::PlaneIndex(std::vector<Rect> rects)
+    : rects_(std::move(rects)), directions_(std::make_unique<Direction[]>(2)) {
+    for (const Rect& rect : rects_) bounds_ = unite(bounds_, rect);
+}
+
+const IntervalIndex& PlaneIndex::direction(int across) const {
+    Direction& direction = directions_[static_cast<std::size_t>(across)];
+    std::call_once(direction.opened, [&] {
+        std::vector<Interval> extents;
+        std::vector<double> begins;
+        extents.reserve(rects_.size());
+        begins.reserve(rects_.size());
+        for (const Rect& rect : rects_) {
+            extents.push_back({rect.lo[across], rect.hi[across]});
+            begins.push_back(rect.lo[1 - across]);
+        }
+        direction.items = IntervalIndex(extents, begins);
+    });
+    return direction.items;
 }
 
 void PlaneIndex::query(const RowBand& band, std::vector<std::uint32_t>& items) const {
+    items.clear();
+    if (rects_.empty()) return;
     const Rect rect = band.rect();
-    const bool row = band.axis == Axis::x;
-    (row ? rows_ : columns_)
-        .query(row ? Interval{rect.lo.y, rect.hi.y} : Interval{rect.lo.x, rect.hi.x}, items);
+    const int across = band.axis == Axis::x ? 1 : 0;
+    direction(across).query({rect.lo[across], rect.hi[across]}, items);
 }
 
 }  // namespace lamella

@@ -1,6 +1,8 @@
 // An index of things in a layer's plane by the bands of lines they meet, rows and columns alike.
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "engine/interval_index.h"
@@ -23,8 +25,15 @@ class PlaneIndex {
     const Rect& bounds() const { return bounds_; }
 
   private:
+    /// The items by one coordinate; sorting them is worth putting off, as most layers are asked one way only.
+    struct Direction {
+        std::once_flag opened;
+        IntervalIndex items;
+    };
+    const IntervalIndex& direction(int across) const;
+
     std::vector<Rect> rects_;
-    IntervalIndex rows_, columns_;
+    std::unique_ptr<Direction[]> directions_;  ///< by the coordinate that differs between lines
     Rect bounds_;
 };
 

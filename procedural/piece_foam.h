@@ -8,7 +8,7 @@
 #include "engine/slice_context.h"
 #include "procedural/cell_cache.h"
 #include "procedural/distance_brick.h"
-#include "procedural/plane_strips.h"
+#include "procedural/piece_slabs.h"
 
 namespace lamella {
 
@@ -34,9 +34,16 @@ class PieceFoam : public Field {
     /// `cell`: about how far pieces are apart, mm, within `cells` everywhere. No piece is deeper than
     /// `deepest`, mm. `cache_bytes` bounds the memory for distances.
     PieceFoam(const Box& region, GradingPtr cell, Interval cells, double deepest, std::size_t cache_bytes)
-        : region_(region), cell_(std::move(cell)), cells_(cells), deepest_(deepest), bricks_(cache_bytes) {}
+        : region_(region),
+          cell_(std::move(cell)),
+          cells_(cells),
+          deepest_(deepest),
+          bricks_(cache_bytes),
+          slabs_(slab_height_in_cells * cells.lo, strips_of(region, cells.lo)) {}
 
   private:
+    static constexpr double slab_height_in_cells = 0.125;
+    static int strips_of(const Box& region, double cell);
     PlaceKey brick_about(dvec3 p) const;
     double side_of(int level) const { return std::ldexp(cells_.hi, -level); }
 
@@ -45,6 +52,7 @@ class PieceFoam : public Field {
     Interval cells_;
     double deepest_;
     mutable CellCache<PieceBrick<Piece>> bricks_;
+    PieceSlabs<Piece> slabs_;
 };
 
 template <typename Piece>
@@ -87,18 +95,20 @@ Interval PieceFoam<Piece>::range(const Box& box) const {
     return {std::max(center_value - radius, -deepest_), center_value + radius};
 }
 
+/// Strips of some thousand cells in a plane.
+template <typename Piece>
+int PieceFoam<Piece>::strips_of(const Box& region, double cell) {
+    constexpr double cells_per_strip = 8192, most_strips = 256;
+    const dvec2 cells = region.rect().size() / cell;
+    return std::max(static_cast<int>(std::min(cells.x * cells.y / cells_per_strip, most_strips)), 1);
+}
+
 template <typename Piece>
 const SliceField& PieceFoam<Piece>::slice(SliceContext& context, double z) const {
-    constexpr double cells_per_strip = 8192, most_strips = 256;
-    const dvec2 cells = region_.rect().size() / cells_.lo;
-    const double strips = std::floor(std::min(cells.x * cells.y / cells_per_strip, most_strips));
-    const auto touching = [this](const Box& box) {
-        PlanePieces pieces;
-        for (const Piece& piece : pieces_touching(box)) put_into(pieces, piece);
-        return pieces;
+    const auto meeting = [this, z](std::size_t strip, const Rect& rect) {
+        return slabs_.at(strip, rect, z, [this](const Box& box) { return pieces_touching(box); });
     };
-    return context.make<PlaneStrips>(*this, touching, region_.rect(), std::max(static_cast<int>(strips), 1),
-                                     z);
+    return context.make<PlaneStrips>(*this, meeting, region_.rect(), slabs_.strips(), z);
 }
 
 }  // namespace lamella

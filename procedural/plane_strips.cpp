@@ -5,9 +5,9 @@
 
 namespace lamella {
 
-PlaneStrips::PlaneStrips(const Field& field, Query touching, const Rect& region, int strips, double z)
+PlaneStrips::PlaneStrips(const Field& field, Query meeting, const Rect& region, int strips, double z)
     : SampledSlice(field, z),
-      touching_(std::move(touching)),
+      meeting_(std::move(meeting)),
       region_(region),
       z_(z),
       height_(region.size().y / strips),
@@ -18,9 +18,9 @@ const PlaneStrips::Rows& PlaneStrips::open(std::size_t strip) const {
     std::call_once(opened.opened, [&] {
         const auto at = static_cast<double>(strip);
         const bool last = strip + 1 == strips_.size();
-        const Box box{{region_.lo.x, region_.lo.y + height_ * at, z_},
-                      {region_.hi.x, last ? region_.hi.y : region_.lo.y + height_ * (at + 1), z_}};
-        const PlanePieces pieces = touching_(box);
+        const Rect rect{{region_.lo.x, region_.lo.y + height_ * at},
+                        {region_.hi.x, last ? region_.hi.y : region_.lo.y + height_ * (at + 1)}};
+        const PlanePieces pieces = meeting_(strip, rect);
         opened.rows =
             std::make_unique<const Rows>(Rows{BeamRows(pieces.beams, z_), WedgeRows(pieces.walls, z_)});
     });

@@ -23,9 +23,9 @@ inline void put_into(PlanePieces& pieces, const Beam& beam) { pieces.beams.push_
 /// strips of equal height, so that its first band waits for its own pieces only. Thread-safe.
 class PlaneStrips : public SampledSlice {
   public:
-    /// All pieces that touch a box.
-    using Query = std::function<PlanePieces(const Box&)>;
-    PlaneStrips(const Field& field, Query touching, const Rect& region, int strips, double z);
+    /// At least what of a strip, given with its number, meets the plane.
+    using Query = std::function<PlanePieces(std::size_t strip, const Rect&)>;
+    PlaneStrips(const Field& field, Query meeting, const Rect& region, int strips, double z);
 
     void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
     /// The region.
@@ -43,7 +43,7 @@ class PlaneStrips : public SampledSlice {
     const Rows& open(std::size_t strip) const;
     std::size_t strip_of(double y) const;
 
-    Query touching_;
+    Query meeting_;
     Rect region_;
     double z_, height_;
     mutable std::vector<Strip> strips_;

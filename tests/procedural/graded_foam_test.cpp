@@ -247,7 +247,9 @@ TEST_CASE("beams leave an opening in cells too small for them", "[graded_foam]")
 TEST_CASE("strips give the runs of the undivided plane", "[graded_foam]") {
     const auto cell = std::make_shared<const Ramp>(0, 0.8, 12, 2.5);
     const VoronoiFoam foam(settings(cell, 0.15, {dvec3(0), dvec3(12)}));
-    const auto query = [&](const Box& box) { return PlanePieces{foam.beams_touching(box), {}}; };
+    const auto query = [&](std::size_t, const Rect& rect) {
+        return PlanePieces{foam.beams_touching({dvec3(rect.lo, 4.3), dvec3(rect.hi, 4.3)}), {}};
+    };
     const PlaneStrips whole(foam, query, foam.bounds().rect(), 1, 4.3),
         cut(foam, query, foam.bounds().rect(), 7, 4.3);
     Scratch scratch;
