@@ -58,10 +58,19 @@ inline Box intersect(const Box& a, const Box& b) { return {glm::max(a.lo, b.lo),
 inline Box grown(const Box& b, double by) { return {b.lo - by, b.hi + by}; }
 inline Rect grown(const Rect& r, double by) { return {r.lo - by, r.hi + by}; }
 
-/// Distance from a point to a box, 0 inside.
-inline double distance(const Box& b, dvec3 p) {
-    const dvec3 d = glm::max(glm::max(b.lo - p, p - b.hi), dvec3(0.0));
+/// Distance between two boxes, 0 where they touch.
+inline double distance(const Box& a, const Box& b) {
+    const dvec3 d = glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), dvec3(0.0));
     return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+/// Distance from a point to a box, 0 inside.
+inline double distance(const Box& b, dvec3 p) { return distance(b, Box{p, p}); }
+
+/// Distance between opposite corners.
+inline double diagonal(const Box& b) {
+    const dvec3 size = b.size();
+    return std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
 }
 
 }  // namespace lamella

@@ -3,12 +3,11 @@
 
 #include <numeric>
 
+#include "engine/halving_tree.h"
 #include "engine/triangle_distance.h"
 
 namespace lamella {
 namespace {
-
-constexpr std::uint32_t leaf_size = 4;
 
 double squared_distance(const Box& box, dvec3 p) {
     const dvec3 d = glm::max(glm::max(box.lo - p, p - box.hi), dvec3(0.0));
@@ -71,17 +70,8 @@ Box TriangleTree::box_of(std::uint32_t first, std::uint32_t last) const {
 void TriangleTree::build(std::uint32_t first, std::uint32_t last, std::vector<dvec3>& centers) {
     const std::size_t node = nodes_.size();
     nodes_.push_back({box_of(first, last), first, last - first});
-    if (last - first <= leaf_size) return;
-    Box spread;
-    for (std::uint32_t k = first; k < last; ++k) spread.include(centers[order_[k]]);
-    const dvec3 size = spread.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::uint32_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return centers[a][axis] != centers[b][axis] ? centers[a][axis] < centers[b][axis]
-                                                                     : a < b;
-                     });
+    if (last - first <= halving_leaf_size) return;
+    const std::uint32_t middle = halve(order_, first, last, centers);
     build(first, middle, centers);
     const auto second = static_cast<std::uint32_t>(nodes_.size());
     build(middle, last, centers);
@@ -90,34 +80,18 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t last, std::vector<dv
 }
 
 double TriangleTree::distance(dvec3 p, double limit) const {
-    if (nodes_.empty()) return limit;
     double best = limit * limit;
-    struct Entry {
-        std::uint32_t node;
-        double bound;
-    };
-    // Halving bounds the depth: 64 levels hold any mesh that fits in memory.
-    Entry stack[64];
-    int top = 0;
-    stack[top++] = {0, squared_distance(nodes_[0].box, p)};
-    while (top > 0) {
-        const Entry entry = stack[--top];
-        if (entry.bound >= best) continue;
-        const Node& node = nodes_[entry.node];
-        if (node.count > 0) {
+    visit_nearest_first(
+        nodes_, [&](const Node& node) { return squared_distance(node.box, p); },
+        [&](double bound) { return bound < best; },
+        [&](const Node& node) {
             for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
                 const auto& t = mesh_.triangles[order_[k]];
                 const double d =
                     squared_distance(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
                 best = std::min(best, d);
             }
-            continue;
-        }
-        const Entry left{entry.node + 1, squared_distance(nodes_[entry.node + 1].box, p)};
-        const Entry right{node.first, squared_distance(nodes_[node.first].box, p)};
-        stack[top++] = left.bound < right.bound ? right : left;
-        stack[top++] = left.bound < right.bound ? left : right;
-    }
+        });
     return std::sqrt(best);
 }
 
@@ -126,35 +100,22 @@ SurfacePoint TriangleTree::closest(dvec3 p) const {
     // equally close triangles is found would depend on the tree.
     constexpr double slack = 1 - 1e-12;
     SurfacePoint best;
-    if (nodes_.empty()) return best;
-    struct Entry {
-        std::uint32_t node;
-        double bound;
-    };
-    Entry stack[64];
-    int top = 0;
-    stack[top++] = {0, squared_distance(nodes_[0].box, p)};
-    while (top > 0) {
-        const Entry entry = stack[--top];
-        if (entry.bound * slack > best.distance * best.distance) continue;
-        const Node& node = nodes_[entry.node];
-        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-            const auto& t = mesh_.triangles[order_[k]];
-            const dvec3 a = mesh_.vertices[t[0]], b = mesh_.vertices[t[1]], c = mesh_.vertices[t[2]];
-            const Box around{glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
-            if (squared_distance(around, p) * slack > best.distance * best.distance) continue;
-            SurfacePoint found = closest_point(p, a, b, c);
-            found.triangle = order_[k];
-            const bool closer = found.distance < best.distance ||
-                                (found.distance == best.distance && found.triangle < best.triangle);
-            if (closer) best = found;
-        }
-        if (node.count > 0) continue;
-        const Entry left{entry.node + 1, squared_distance(nodes_[entry.node + 1].box, p)};
-        const Entry right{node.first, squared_distance(nodes_[node.first].box, p)};
-        stack[top++] = left.bound < right.bound ? right : left;
-        stack[top++] = left.bound < right.bound ? left : right;
-    }
+    const auto matters = [&](double bound) { return bound * slack <= best.distance * best.distance; };
+    visit_nearest_first(
+        nodes_, [&](const Node& node) { return squared_distance(node.box, p); }, matters,
+        [&](const Node& node) {
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+                const auto& t = mesh_.triangles[order_[k]];
+                const dvec3 a = mesh_.vertices[t[0]], b = mesh_.vertices[t[1]], c = mesh_.vertices[t[2]];
+                const Box around{glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+                if (!matters(squared_distance(around, p))) continue;
+                SurfacePoint found = closest_point(p, a, b, c);
+                found.triangle = order_[k];
+                const bool closer = found.distance < best.distance ||
+                                    (found.distance == best.distance && found.triangle < best.triangle);
+                if (closer) best = found;
+            }
+        });
     return best;
 }
 

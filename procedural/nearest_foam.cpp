@@ -13,11 +13,6 @@ namespace {
 
 constexpr double safe_side = 1 + 1e-9;
 
-double diagonal(const Box& box) {
-    const dvec3 size = box.size();
-    return std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z) * safe_side;
-}
-
 /// The number of the octant about the center that holds the point.
 std::size_t octant_about(dvec3 center, dvec3 p) {
     return (p.x >= center.x ? 1U : 0U) | (p.y >= center.y ? 2U : 0U) | (p.z >= center.z ? 4U : 0U);
@@ -112,7 +107,7 @@ double NearestSource::sure_radius(dvec3 p, int deepest_level) const {
     double radius = farthest() / farthest_ratio_;
     const SeedNode* node = &block->nodes[0];
     while (node->seed_count > neighbours_) {
-        radius = diagonal(node->box);
+        radius = diagonal(node->box) * safe_side;
         if (node->first_child < 0 || node->level == deepest_level) break;
         const dvec3 center = node->box.center();
         node = &block->nodes[static_cast<std::size_t>(node->first_child) + octant_about(center, p)];

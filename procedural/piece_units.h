@@ -77,10 +77,6 @@ class PieceUnits {
         std::vector<Piece> pieces;
     };
 
-    static double gap(const Box& a, const Box& b) {
-        const dvec3 d = glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), dvec3(0.0));
-        return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-    }
     static int parts_of(const SeedNode& node) { return node.seed_count > slabless_seeds ? slabs : 1; }
     static Box part_box(const SeedNode& node, int part);
 
@@ -131,7 +127,7 @@ std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box)
     for (std::int64_t z = lo.z; z <= hi.z; ++z) {
         for (std::int64_t y = lo.y; y <= hi.y; ++y) {
             for (std::int64_t x = lo.x; x <= hi.x; ++x) {
-                if (gap(tree_->block_box({x, y, z}), seed_box) > farthest) continue;
+                if (distance(tree_->block_box({x, y, z}), seed_box) > farthest) continue;
                 const auto block = tree_->block({x, y, z});
                 visit(*block, 0, farthest, request);
             }
@@ -146,7 +142,7 @@ void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double 
                                Request& request) const {
     const SeedNode& here = block.nodes[node];
     if (here.seed_count == 0) return;
-    const double away = gap(here.box, request.seed_box);
+    const double away = distance(here.box, request.seed_box);
     if (away > within) return;
     // Where all leaves have one level, so has the reach; elsewhere it is worth knowing at every node.
     if (node == 0 || block.leaf_level < 0) {
@@ -175,7 +171,7 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
     };
     for (int part = 0; part < parts_of(here); ++part) {
         const Box box = part_box(here, part);
-        if (gap(box, request.seed_box) > within) continue;
+        if (distance(box, request.seed_box) > within) continue;
         const auto at = static_cast<std::size_t>(part);
         units[at] = units_.find(key(part), request.z);
         missing[at] = !units[at];

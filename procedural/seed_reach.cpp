@@ -8,31 +8,21 @@ namespace {
 
 constexpr double safe_side = 1 + 1e-9;
 
-double diagonal(const Box& box) {
-    const dvec3 size = box.size();
-    return std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z) * safe_side;
-}
-
-double gap(const Box& a, const Box& b) {
-    const dvec3 d = glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), dvec3(0.0));
-    return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-}
-
 void visit(const SeedBlock& block, std::size_t node, const Box& box, double& reach) {
     const SeedNode& here = block.nodes[node];
-    const double here_diagonal = diagonal(here.box);
-    if (here_diagonal <= reach || gap(here.box, box) > here_diagonal) return;
+    const double here_diagonal = diagonal(here.box) * safe_side;
+    if (here_diagonal <= reach || distance(here.box, box) > here_diagonal) return;
     if (here.first_child < 0) {
         // A full leaf has a seed in every octant.
         const double sure = here.seed_count >= 8 ? here_diagonal / 2 : here_diagonal;
-        if (gap(here.box, box) <= sure) reach = std::max(reach, sure);
+        if (distance(here.box, box) <= sure) reach = std::max(reach, sure);
         return;
     }
     for (std::size_t octant = 0; octant < 8; ++octant) {
         const std::size_t child = static_cast<std::size_t>(here.first_child) + octant;
         if (block.nodes[child].seed_count > 0) {
             visit(block, child, box, reach);
-        } else if (gap(block.nodes[child].box, box) <= here_diagonal) {
+        } else if (distance(block.nodes[child].box, box) <= here_diagonal) {
             reach = std::max(reach, here_diagonal);
         }
     }
