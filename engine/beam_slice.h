@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/beam.h"
-#include "engine/line_frame.h"
 #include "engine/plane_index.h"
 #include "engine/run_collector.h"
 #include "engine/tile_walk.h"

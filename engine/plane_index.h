@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/interval_index.h"
+#include "engine/line_frame.h"
 #include "engine/runs.h"
 
 namespace lamella {
@@ -20,7 +21,10 @@ class PlaneIndex {
 
     /// Replaces `items` by the numbers of the items whose extent across the lines meets the band's.
     void query(const RowBand& band, std::vector<std::uint32_t>& items) const;
-    const Rect& rect(std::uint32_t item) const { return rects_[item]; }
+    /// Calls visit(item, lines) for each item whose rectangle meets the band, with those of the lines that it
+    /// meets.
+    template <typename Visit>
+    void visit(const RowBand& band, const LineRange& lines, const Visit& visit) const;
     /// Encloses all rectangles.
     const Rect& bounds() const { return bounds_; }
 
@@ -36,5 +40,20 @@ class PlaneIndex {
     std::unique_ptr<Direction[]> directions_;  ///< by the coordinate that differs between lines
     Rect bounds_;
 };
+
+template <typename Visit>
+void PlaneIndex::visit(const RowBand& band, const LineRange& lines, const Visit& visit) const {
+    const Rect rect = band.rect();
+    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
+    std::vector<std::uint32_t> items;
+    query(band, items);
+    for (const std::uint32_t item : items) {
+        const Rect& met = rects_[item];
+        if (met.hi[along] < rect.lo[along] || rect.hi[along] < met.lo[along]) continue;
+        LineRange range = lines_across(band, {met.lo[across], met.hi[across]});
+        range = {std::max(range.first, lines.first), std::min(range.last, lines.last)};
+        if (range.first < range.last) visit(item, range);
+    }
+}
 
 }  // namespace lamella

@@ -59,17 +59,9 @@ WedgeRows::WedgeRows(const std::vector<RoundTriangle>& triangles, double z)
     : WedgeRows(wedges_of(triangles), z) {}
 
 void WedgeRows::collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const {
-    const Rect rect = band.rect();
-    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
-    std::vector<std::uint32_t> items;
-    sections_.query(band, items);
-    for (const std::uint32_t i : items) {
-        const Rect& section = sections_.rect(i);
-        if (section.hi[along] < rect.lo[along] || rect.hi[along] < section.lo[along]) continue;
-        LineRange met = lines_across(band, {section.lo[across], section.hi[across]});
-        met = {std::max(met.first, lines.first), std::min(met.last, lines.last)};
-        if (met.first < met.last) collect_wedge(wedges_[i], band, met, runs);
-    }
+    sections_.visit(band, lines, [&](std::uint32_t i, const LineRange& met) {
+        collect_wedge(wedges_[i], band, met, runs);
+    });
 }
 
 void WedgeRows::collect_wedge(const Wedge& wedge, const RowBand& band, const LineRange& lines,

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "engine/line_frame.h"
 #include "engine/plane_index.h"
 #include "engine/round_triangle.h"
 #include "engine/run_collector.h"
