@@ -15,27 +15,17 @@ namespace {
 constexpr double steep = 2;
 
 void find_steepest(const Grading& cell, const Field& body, GradingReport& report, int per_side = 24) {
-    const Box box = body.bounds();
-    const dvec3 size = box.size();
-    const double step = std::max({size.x, size.y, size.z}) / per_side;
     const std::array<dvec3, 3> axes{dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)};
-    const glm::ivec3 n(glm::max(glm::ceil(size / step - 1e-9), dvec3(1)));
-    for (int k = 0; k < n.z; ++k) {
-        for (int j = 0; j < n.y; ++j) {
-            for (int i = 0; i < n.x; ++i) {
-                const dvec3 p = box.lo + size * (dvec3(i, j, k) + 0.5) / dvec3(n);
-                if (!(body.value(p) < 0)) continue;
-                const double here = cell.at(p);
-                for (const dvec3& axis : axes) {
-                    const dvec3 q = p + axis * here;
-                    if (!(body.value(q) < 0)) continue;
-                    const double there = cell.at(q);
-                    const double ratio = std::max(here / there, there / here);
-                    if (!(ratio > report.steepest)) continue;
-                    report.steepest = ratio;
-                    report.steepest_at = p;
-                }
-            }
+    for (const dvec3& p : points_inside(body, per_side)) {
+        const double here = cell.at(p);
+        for (const dvec3& axis : axes) {
+            const dvec3 q = p + axis * here;
+            if (!(body.value(q) < 0)) continue;
+            const double there = cell.at(q);
+            const double ratio = std::max(here / there, there / here);
+            if (!(ratio > report.steepest)) continue;
+            report.steepest = ratio;
+            report.steepest_at = p;
         }
     }
 }

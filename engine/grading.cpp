@@ -1,6 +1,8 @@
 // Constants, depths and limits; narrow ranges by best-first division; surveys over a lattice.
 #include "engine/grading.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <queue>
@@ -130,28 +132,51 @@ Interval tight_range(const Grading& grading, const Box& box) {
     return {-upper_bound(grading, box, -1), upper_bound(grading, box, 1)};
 }
 
-GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side) {
-    GradingSurvey survey;
+Interval positive_range(const Grading& length, const Box& region, const std::string& what) {
+    const Interval range = tight_range(length, region);
+    if (range.lo > 0 && std::isfinite(range.hi)) return range;
+    if (const auto constant = length.constant()) {
+        throw InputError(fmt::format("{} is {:.6g} mm; it must be positive", what, *constant));
+    }
+    if (!(range.lo > 0)) {
+        throw InputError(
+            fmt::format("{} goes down to {:.6g} mm; it must be positive: give it limits", what, range.lo));
+    }
+    throw InputError(
+        fmt::format("{} is infinite or not defined somewhere in the part; it must be a finite "
+                    "length everywhere: give it limits",
+                    what));
+}
+
+std::vector<dvec3> points_inside(const Field& body, int per_side) {
+    std::vector<dvec3> points;
     const Box box = body.bounds();
     const dvec3 size = box.size();
     const double step = std::max({size.x, size.y, size.z}) / per_side;
-    if (!(step > 0) || !std::isfinite(step)) return survey;
+    if (!(step > 0) || !std::isfinite(step)) return points;
     // At least one point along every side: flat bodies are bodies.
     const glm::ivec3 n(glm::max(glm::ceil(size / step - 1e-9), dvec3(1)));
     for (int k = 0; k < n.z; ++k) {
         for (int j = 0; j < n.y; ++j) {
             for (int i = 0; i < n.x; ++i) {
                 const dvec3 p = box.lo + size * (dvec3(i, j, k) + 0.5) / dvec3(n);
-                if (!(body.value(p) < 0)) continue;
-                const double number = grading.at(p);
-                ++survey.points;
-                survey.below += number < limits.lo;
-                survey.above += number > limits.hi;
-                survey.undefined += std::isnan(number);
-                if (std::isnan(number)) continue;
-                survey.asked = {std::min(survey.asked.lo, number), std::max(survey.asked.hi, number)};
+                if (body.value(p) < 0) points.push_back(p);
             }
         }
+    }
+    return points;
+}
+
+GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side) {
+    GradingSurvey survey;
+    for (const dvec3& p : points_inside(body, per_side)) {
+        const double number = grading.at(p);
+        ++survey.points;
+        survey.below += number < limits.lo;
+        survey.above += number > limits.hi;
+        survey.undefined += std::isnan(number);
+        if (std::isnan(number)) continue;
+        survey.asked = {std::min(survey.asked.lo, number), std::max(survey.asked.hi, number)};
     }
     return survey;
 }

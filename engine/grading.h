@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/field.h"
 
@@ -52,6 +54,10 @@ GradingPtr make_clamped_grading(GradingPtr grading, Interval limits);
 /// enclosure is widest until it exceeds the numbers found at centres by at most 2 % of their spread.
 Interval tight_range(const Grading& grading, const Box& box);
 
+/// Encloses a length over the region as tight_range does. Throws InputError ("<what> ... mm; it must be
+/// positive") when it is not positive, not finite or not defined everywhere.
+Interval positive_range(const Grading& length, const Box& region, const std::string& what);
+
 /// What part of a body asks for numbers outside limits, by a fixed lattice of points.
 struct GradingSurvey {
     int points = 0;     ///< lattice points inside the body
@@ -61,8 +67,11 @@ struct GradingSurvey {
     Interval asked;     ///< the least and the greatest number asked for
 };
 
-/// Asks for the grading at the points inside the body of a lattice with `per_side` points along its longest
-/// side.
+/// The points inside the body of a lattice with `per_side` points along its longest side; none in a body
+/// without an end or an extent.
+std::vector<dvec3> points_inside(const Field& body, int per_side);
+
+/// Asks for the grading at points_inside() the body.
 GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side = 48);
 
 }  // namespace lamella

@@ -11,15 +11,33 @@
 namespace lamella {
 namespace {
 
-/// Everything but the value at a point is the constructive solid's. The value asks the body once, and for its
+/// Everything but the value at a point is the constructive solid's. A value asks the body once, and for its
 /// distance only as far as it matters: deep inside, the filling alone decides.
-class FilledBody : public Field {
+class QuickSolid : public Field {
+  public:
+    explicit QuickSolid(FieldPtr solid) : solid_(std::move(solid)) {}
+    Interval range(const Box& box) const override { return solid_->range(box); }
+    Metric metric() const override { return solid_->metric(); }
+    FieldPtr offset(double d) const override { return solid_->offset(d); }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.slice(*solid_, z);
+    }
+    Box bounds() const override { return solid_->bounds(); }
+
+  protected:
+    double slow_value(dvec3 p) const { return solid_->value(p); }
+
+  private:
+    FieldPtr solid_;
+};
+
+class FilledBody : public QuickSolid {
   public:
     FilledBody(FieldPtr body, FieldPtr filling, double thickness, FieldPtr solid)
-        : body_(std::move(body)),
+        : QuickSolid(std::move(solid)),
+          body_(std::move(body)),
           filling_(std::move(filling)),
-          thickness_(thickness),
-          solid_(std::move(solid)) {}
+          thickness_(thickness) {}
 
     double value(dvec3 p) const override {
         const double f = filling_->value(p);
@@ -34,29 +52,21 @@ class FilledBody : public Field {
         if (-b >= enough) return f;
         return std::max(b, thickness_ > 0 ? std::min(f, -b - thickness_) : f);
     }
-    Interval range(const Box& box) const override { return solid_->range(box); }
-    Metric metric() const override { return solid_->metric(); }
-    FieldPtr offset(double d) const override { return solid_->offset(d); }
-    const SliceField& slice(SliceContext& context, double z) const override {
-        return context.slice(*solid_, z);
-    }
-    Box bounds() const override { return solid_->bounds(); }
 
   private:
     FieldPtr body_, filling_;
     double thickness_;
-    FieldPtr solid_;
 };
 
 /// The same under a skin of graded thickness, which is asked only where it may reach.
-class FilledUnderGradedSkin : public Field {
+class FilledUnderGradedSkin : public QuickSolid {
   public:
     FilledUnderGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
-        : body_(std::move(body)),
+        : QuickSolid(make_intersection({body, make_union({filling, shell})})),
+          body_(std::move(body)),
           filling_(std::move(filling)),
           shell_(std::move(shell)),
-          thickest_(thickest),
-          solid_(make_intersection({body_, make_union({filling_, shell_})})) {}
+          thickest_(thickest) {}
 
     double value(dvec3 p) const override {
         const double f = filling_->value(p);
@@ -64,21 +74,13 @@ class FilledUnderGradedSkin : public Field {
         const double enough = std::max(-f, f + thickest_);
         const double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
         if (-b >= enough) return f;
-        if (b >= enough) return solid_->value(p);
+        if (b >= enough) return slow_value(p);
         return std::max(b, std::min(f, shell_->value(p)));
     }
-    Interval range(const Box& box) const override { return solid_->range(box); }
-    Metric metric() const override { return solid_->metric(); }
-    FieldPtr offset(double d) const override { return solid_->offset(d); }
-    const SliceField& slice(SliceContext& context, double z) const override {
-        return context.slice(*solid_, z);
-    }
-    Box bounds() const override { return solid_->bounds(); }
 
   private:
     FieldPtr body_, filling_, shell_;
     double thickest_;
-    FieldPtr solid_;
 };
 
 /// What lies, inside a body with exact distances, no deeper than the thickness asked for there.

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "engine/error.h"
-#include "procedural/grading_quotient.h"
 
 namespace lamella {
 namespace {

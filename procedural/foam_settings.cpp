@@ -50,18 +50,6 @@ class AmongSeeds : public Grading {
     Stretch stretch_;
 };
 
-/// The range of a graded setting over the region; every number must be positive and finite.
-Interval positive_range(const Grading& grading, const Box& region, const char* what) {
-    const Interval range = tight_range(grading, region);
-    if (range.lo > 0 && std::isfinite(range.hi)) return range;
-    const double wrong = range.lo > 0 ? range.hi : range.lo;
-    if (grading.constant()) throw InputError(fmt::format("{} is {} mm; it must be positive", what, wrong));
-    throw InputError(
-        fmt::format("{} reaches {} mm in the part; it must be positive and finite everywhere: "
-                    "give it limits",
-                    what, wrong));
-}
-
 void check_region(const Box& region, double smallest_cell) {
     if (region.empty() || !finite(region.lo) || !finite(region.hi)) {
         throw InputError("the foam's region is empty or not finite; give a box with finite corners");

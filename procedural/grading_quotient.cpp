@@ -1,9 +1,5 @@
-// Quotients of ranges, and the check that a length is one.
+// Quotients of ranges.
 #include "procedural/grading_quotient.h"
-
-#include <fmt/format.h>
-
-#include "engine/error.h"
 
 namespace lamella {
 namespace {
@@ -27,20 +23,6 @@ class QuotientGrading : public Grading {
 
 GradingPtr make_quotient_grading(GradingPtr numerator, GradingPtr denominator) {
     return std::make_shared<QuotientGrading>(std::move(numerator), std::move(denominator));
-}
-
-Interval positive_range(const Grading& length, const Box& region, const char* what) {
-    const Interval range = tight_range(length, region);
-    if (!(range.lo > 0)) {
-        throw InputError(fmt::format("{} goes down to {:.6g} mm; it must be positive", what, range.lo));
-    }
-    if (!std::isfinite(range.hi)) {
-        throw InputError(
-            fmt::format("{} is infinite or not defined somewhere in the region; it must be a "
-                        "finite length everywhere",
-                        what));
-    }
-    return range;
 }
 
 }  // namespace lamella

@@ -8,8 +8,4 @@ namespace lamella {
 /// numerator / denominator at every point; the denominator's range is positive wherever it is asked for.
 GradingPtr make_quotient_grading(GradingPtr numerator, GradingPtr denominator);
 
-/// Encloses a length over the region as tight_range does. Throws InputError ("<what> ... mm; it must be
-/// positive and finite") when it is not positive, not finite or not defined everywhere.
-Interval positive_range(const Grading& length, const Box& region, const char* what);
-
 }  // namespace lamella

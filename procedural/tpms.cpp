@@ -41,10 +41,9 @@ TpmsSettings checked(const TpmsSettings& settings) {
         throw InputError(
             fmt::format("the {}'s region is empty or not finite; give a box with finite corners", name));
     }
-    const Interval period =
-        positive_range(*settings.period, region, fmt::format("the {}'s period", name).c_str());
+    const Interval period = positive_range(*settings.period, region, fmt::format("the {}'s period", name));
     const Interval thickness =
-        positive_range(*settings.thickness, region, fmt::format("the {}'s thickness", name).c_str());
+        positive_range(*settings.thickness, region, fmt::format("the {}'s thickness", name));
     const dvec3 size = region.size();
     const double longest = std::max(size.x, std::max(size.y, size.z));
     if (longest > most_periods * period.lo) {

@@ -18,7 +18,6 @@
 #include "procedural/tpms.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
-#include "tests/procedural/graded_lengths.h"
 
 using namespace lamella;
 
@@ -78,11 +77,11 @@ std::vector<Named> all_fields() {
     const FieldPtr cone = make_round_cone({{-2, -1, -0.5}, 0.9, {1.7, 1.2, 0.8}, 0.4});
     const FieldPtr torus = make_torus({0, 0.1, 0}, 2, 0.7);
     const FieldPtr mesh = make_mesh_field(shapes::closed(shapes::icosphere(3, 2.4)));
-    const GradingPtr graded = gradings::function([](dvec3 p) { return 0.3 + 0.2 * p.x - 0.1 * p.y; }, 0.23);
+    const GradingPtr graded = steady_function([](dvec3 p) { return 0.3 + 0.2 * p.x - 0.1 * p.y; }, 0.23);
     const glm::dmat3 turn(glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.6, 0.8, 0), glm::dvec3(0, 0, 1));
     const glm::dmat3 mirror(glm::dvec3(-1.1, 0, 0), glm::dvec3(0, 0.9, 0), glm::dvec3(0, 0, 1.2));
-    const auto slope = std::make_shared<LinearGrading>(0.3, dvec3(0.02, 0.01, -0.01));
-    const auto steep_slope = std::make_shared<LinearGrading>(2.5, dvec3(0.15, -0.1, 0.1));
+    const auto slope = std::make_shared<Linear>(0.3, dvec3(0.02, 0.01, -0.01));
+    const auto steep_slope = std::make_shared<Linear>(2.5, dvec3(0.15, -0.1, 0.1));
     return {
         {"sphere", sphere},
         {"box", box},
@@ -97,12 +96,12 @@ std::vector<Named> all_fields() {
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
         {"foam with walls", walled_foam(0.15, 0.0)},
         {"foam with graded walls and windows",
-         walled_foam(GradingPtr(std::make_shared<LinearGrading>(0.2, dvec3(0.03, 0, 0.01))),
-                     GradingPtr(std::make_shared<LinearGrading>(0.4, dvec3(0, 0.1, 0))))},
+         walled_foam(GradingPtr(std::make_shared<Linear>(0.2, dvec3(0.03, 0, 0.01))),
+                     GradingPtr(std::make_shared<Linear>(0.4, dvec3(0, 0.1, 0))))},
         {"octet lattice", lattice("octet", make_constant_grading(1.9), make_constant_grading(0.12))},
         {"bcc lattice in cells of several sizes",
-         lattice("bcc", std::make_shared<LinearGrading>(2, dvec3(0.25, 0, 0.05)),
-                 std::make_shared<LinearGrading>(0.15, dvec3(0.01, 0, -0.005)))},
+         lattice("bcc", std::make_shared<Linear>(2, dvec3(0.25, 0, 0.05)),
+                 std::make_shared<Linear>(0.15, dvec3(0.01, 0, -0.005)))},
         {"gyroid", gyroid(2.2, 0.3)},
         {"Schwarz P network",
          tpms(TpmsKind::schwarz_p, true, make_constant_grading(1.7), make_constant_grading(0.4))},

@@ -47,7 +47,7 @@ double worst_share(const GradedMesh& graded, const Grading& grading) {
 
 TEST_CASE("a number that is linear in space divides no triangle") {
     const TriangleMesh box = shapes::box({-5, -5, -5}, {5, 5, 5});
-    const GradingPtr linear = gradings::function([](dvec3 p) { return 1 + 0.1 * p.x - 0.05 * p.z; }, 0.12);
+    const GradingPtr linear = steady_function([](dvec3 p) { return 1 + 0.1 * p.x - 0.05 * p.z; }, 0.12);
     const GradedMesh graded = read_on_mesh(*linear, box);
     CHECK(graded.mesh.triangles == box.triangles);
     CHECK(graded.mesh.vertices == box.vertices);
@@ -57,7 +57,7 @@ TEST_CASE("a number that is linear in space divides no triangle") {
 
 TEST_CASE("a number that bends is met to two percent, and the mesh stays closed, oriented and where it was") {
     const GradingPtr bend =
-        gradings::function([](dvec3 p) { return 0.8 + 0.03 * p.x * p.x + 0.02 * p.y * p.z; }, 0.6);
+        steady_function([](dvec3 p) { return 0.8 + 0.03 * p.x * p.x + 0.02 * p.y * p.z; }, 0.6);
     for (const TriangleMesh& mesh :
          {shapes::box({-5, -5, -5}, {5, 5, 5}), shapes::icosphere(1, 5), shapes::l_prism()}) {
         const GradedMesh graded = read_on_mesh(*bend, mesh);
@@ -73,8 +73,7 @@ TEST_CASE("a number that bends is met to two percent, and the mesh stays closed,
 }
 
 TEST_CASE("at a step the triangles get small against the number, and no smaller") {
-    const GradingPtr step =
-        gradings::function([](dvec3 p) { return p.x + 0.3 * p.y < 0.4 ? 0.0 : 1.0; }, 1e9);
+    const GradingPtr step = steady_function([](dvec3 p) { return p.x + 0.3 * p.y < 0.4 ? 0.0 : 1.0; }, 1e9);
     const TriangleMesh box = shapes::box({-5, -5, -5}, {5, 5, 5});
     const GradedMesh graded = read_on_mesh(*step, box);
     CHECK(graded.mesh.triangles.size() < 20000);
@@ -94,7 +93,7 @@ TEST_CASE("at a step the triangles get small against the number, and no smaller"
 }
 
 TEST_CASE("a spot on a large triangle is found") {
-    const GradingPtr spot = gradings::function(
+    const GradingPtr spot = steady_function(
         [](dvec3 p) { return std::max(0.1, 1 - glm::length(p - dvec3(1.3, -0.7, 5)) / 1.5); }, 0.67);
     const GradedMesh graded = read_on_mesh(*spot, shapes::box({-5, -5, -5}, {5, 5, 5}));
     CHECK(*std::max_element(graded.numbers.begin(), graded.numbers.end()) > 0.9);

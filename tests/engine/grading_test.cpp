@@ -5,6 +5,7 @@
 
 #include "engine/error.h"
 #include "engine/primitives.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 
@@ -76,4 +77,14 @@ TEST_CASE("a survey counts what lies outside the limits, in the body alone") {
     CHECK(survey.above == above * 40 * 39);
     CHECK(survey.asked.lo >= 1);
     CHECK(survey.asked.hi <= 3);
+}
+
+TEST_CASE("a length that is not one everywhere is refused by name", "[grading]") {
+    const Box box{dvec3(0), dvec3(1)};
+    CHECK(positive_range(*make_constant_grading(3), box, "the width").hi == 3);
+    CHECK_THROWS_WITH(positive_range(*make_constant_grading(0), box, "the width"),
+                      Catch::StartsWith("the width is 0 mm"));
+    CHECK_THROWS_AS(positive_range(*make_constant_grading(infinity), box, "the width"), InputError);
+    CHECK_THROWS_AS(positive_range(Undefined(), box, "the width"), InputError);
+    CHECK_THROWS_AS(positive_range(Linear(0.5, dvec3(-1, 0, 0)), box, "the width"), InputError);
 }

@@ -93,14 +93,14 @@ std::vector<TriangleMesh> meshes() {
 
 /// Slopes, valleys and ridges of all steepnesses, thicknesses that end, and a step.
 std::vector<GradingPtr> thicknesses() {
-    using gradings::function;
     return {
-        function([](dvec3 p) { return 0.6 + 0.15 * p.x; }, 0.15),
-        function([](dvec3 p) { return 0.2 + 0.3 * std::abs(p.y + 0.3) + 0.2 * std::abs(p.z); }, 0.4),
-        function([](dvec3 p) { return std::max(0.0, 1.2 - 0.7 * glm::length(p - dvec3(1, 1, 1))); }, 0.7),
-        function([](dvec3 p) { return std::max(0.0, 0.25 * p.x); }, 0.25),
-        function([](dvec3 p) { return std::min(1.5, std::max(0.1, 0.4 - 1.6 * (p.x + 0.4))); }, 1.6),
-        function([](dvec3 p) { return p.x + 0.2 * p.z < 0.1 ? 0.9 : 0.2; }, 1e9),
+        steady_function([](dvec3 p) { return 0.6 + 0.15 * p.x; }, 0.15),
+        steady_function([](dvec3 p) { return 0.2 + 0.3 * std::abs(p.y + 0.3) + 0.2 * std::abs(p.z); }, 0.4),
+        steady_function([](dvec3 p) { return std::max(0.0, 1.2 - 0.7 * glm::length(p - dvec3(1, 1, 1))); },
+                        0.7),
+        steady_function([](dvec3 p) { return std::max(0.0, 0.25 * p.x); }, 0.25),
+        steady_function([](dvec3 p) { return std::min(1.5, std::max(0.1, 0.4 - 1.6 * (p.x + 0.4))); }, 1.6),
+        steady_function([](dvec3 p) { return p.x + 0.2 * p.z < 0.1 ? 0.9 : 0.2; }, 1e9),
     };
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("a skin of a constant thickness takes the constant path, to the bit") 
 
 TEST_CASE("a graded skin of a ball is thick where it is told to be") {
     const FieldPtr ball = make_sphere({0, 0, 0}, 4);
-    const GradingPtr thickness = gradings::function([](dvec3 p) { return 1 + 0.2 * p.x; }, 0.2);
+    const GradingPtr thickness = steady_function([](dvec3 p) { return 1 + 0.2 * p.x; }, 0.2);
     const FieldPtr skin = make_intersection({ball, make_shell(ball, thickness, {0.5, 1.5})});
     // Along x: at x the thickness is 1 + 0.2 x within limits, and the depth 4 - |x|.
     for (double x = -3.95; x < 3.95; x += 0.1) {
@@ -239,7 +239,7 @@ TEST_CASE("a thickness of nothing makes no skin, and a filled body is its fillin
     const FieldPtr filled = make_filled_body(body, filling, make_constant_grading(0), wide);
     CHECK(filled->value({0.5, 0, 0}) < 0);
     CHECK(!(filled->value({2.3, 0, 0}) < 0));
-    const GradingPtr right = gradings::function([](dvec3 p) { return p.x > 0 ? 0.5 : 0.0; }, 1e9);
+    const GradingPtr right = steady_function([](dvec3 p) { return p.x > 0 ? 0.5 : 0.0; }, 1e9);
     const FieldPtr half = make_filled_body(body, filling, right, wide);
     CHECK(half->value({2.2, 0.1, 0.1}) < 0);
     CHECK(!(half->value({-2.2, 0.1, 0.1}) < 0));

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/error.h"
-#include "tests/procedural/graded_lengths.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 
@@ -40,8 +40,8 @@ TEST_CASE("one size asked for makes one size of cells, from the region's corner"
 TEST_CASE("cells partition space, are as small as asked, and differ by one halving at most",
           "[cell_octree]") {
     const Box region{dvec3(0), {24, 16, 16}};
-    const auto step = std::make_shared<StepGrading>(12.7, 0.5, 8);
-    const auto slope = std::make_shared<LinearGrading>(8, dvec3(-0.3, 0, 0));
+    const auto step = std::make_shared<Step>(12.7, 0.5, 8);
+    const auto slope = std::make_shared<Linear>(8, dvec3(-0.3, 0, 0));
     for (const GradingPtr& size : {GradingPtr(step), GradingPtr(slope)}) {
         const CellOctree octree(size, region, cache);
         CHECK(octree.coarse_side() == 8);
@@ -79,8 +79,8 @@ TEST_CASE("cells partition space, are as small as asked, and differ by one halvi
 
 TEST_CASE("what a box sees of the octree does not depend on what else is asked", "[cell_octree]") {
     const Box region{dvec3(0), {24, 16, 16}};
-    const CellOctree octree(std::make_shared<StepGrading>(12.7, 1, 8), region, cache);
-    const CellOctree fresh(std::make_shared<StepGrading>(12.7, 1, 8), region, 1 << 16);
+    const CellOctree octree(std::make_shared<Step>(12.7, 1, 8), region, cache);
+    const CellOctree fresh(std::make_shared<Step>(12.7, 1, 8), region, 1 << 16);
     const auto all = cells_in(octree, grown(region, 20));
     std::mt19937 random(6);
     std::uniform_real_distribution<double> place(-20, 40), size(0, 6);
@@ -100,8 +100,8 @@ TEST_CASE("cell sizes out of range are refused", "[cell_octree]") {
     const Box region{dvec3(0), dvec3(10)};
     REQUIRE_THROWS_AS(CellOctree(make_constant_grading(0), region, cache), InputError);
     REQUIRE_THROWS_AS(CellOctree(make_constant_grading(infinity), region, cache), InputError);
-    REQUIRE_THROWS_AS(CellOctree(std::make_shared<UndefinedGrading>(), region, cache), InputError);
-    REQUIRE_THROWS_WITH(CellOctree(std::make_shared<StepGrading>(5, 0.01, 8), region, cache),
+    REQUIRE_THROWS_AS(CellOctree(std::make_shared<Undefined>(), region, cache), InputError);
+    REQUIRE_THROWS_WITH(CellOctree(std::make_shared<Step>(5, 0.01, 8), region, cache),
                         Catch::Contains("64 times the smallest"));
     const CellOctree octree(make_constant_grading(1e-3), region, cache);
     REQUIRE_THROWS_AS(cells_in(octree, region), InputError);

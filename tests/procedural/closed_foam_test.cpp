@@ -32,11 +32,11 @@ dvec3 random_point(const Box& box, std::int64_t i) {
 }
 
 Graded sloping_wall() {
-    return gradings::function([](dvec3 p) { return std::max(0.0, 0.12 * (p.x - 1.5)); }, 0.12);
+    return steady_function([](dvec3 p) { return std::max(0.0, 0.12 * (p.x - 1.5)); }, 0.12);
 }
 
 Graded rising_window() {
-    return gradings::function([](dvec3 p) { return std::min(1.0, std::max(0.0, p.y / 5)); }, 0.2);
+    return steady_function([](dvec3 p) { return std::min(1.0, std::max(0.0, p.y / 5)); }, 0.2);
 }
 
 /// The foam on a cubic lattice of `n` points a side, read off the runs.
@@ -292,7 +292,7 @@ TEST_CASE("walls and windows out of range are refused with a sentence", "[closed
     CHECK_THROWS_AS(ClosedFoam(settings(0.1, -0.1)), InputError);
     CHECK_THROWS_AS(ClosedFoam(settings(0.1, 1.1)), InputError);
     CHECK_THROWS_AS(ClosedFoam(settings(0.1, std::nan(""))), InputError);
-    const Graded unknown = gradings::function([](dvec3 p) { return p.x > 3 ? std::nan("") : 0.1; }, infinity);
+    const Graded unknown = steady_function([](dvec3 p) { return p.x > 3 ? std::nan("") : 0.1; }, infinity);
     CHECK_THROWS_AS(ClosedFoam(settings(unknown)), InputError);
     CHECK_THROWS_AS(ClosedFoam(settings(0.1, unknown)), InputError);
     CHECK_THROWS_WITH(ClosedFoam(settings(1.4)), Catch::Contains("at most 1.35 mm"));

@@ -76,8 +76,7 @@ TEST_CASE("a cubic lattice has the faces of its dual cubes, each walled once", "
     const Box inside{dvec3(0.4), dvec3(3.6)};
     for (const bool graded : {false, true}) {
         WallSettings settings = walls(0.05);
-        if (graded)
-            settings.radius = {gradings::function([](dvec3 p) { return 0.05 + 0.001 * p.x; }, 0.001), 1};
+        if (graded) settings.radius = {steady_function([](dvec3 p) { return 0.05 + 0.001 * p.x; }, 0.001), 1};
         CHECK(area(walls_in(pieces_of_list(cubic(5), settings, 0.1), inside)) == Approx(108));
     }
     for (const double open : {0.3, 0.8}) {
@@ -96,8 +95,8 @@ TEST_CASE("a wall's edges are made only where they show", "[foam_walls]") {
     CHECK(beams_of(pieces_of_list(seeds, walls(0.11), 0.1)).size() > 3 * frame);
     // A thickness that is linear in space has no crests; one with a ridge has.
     WallSettings linear = walls(0), ridged = walls(0);
-    linear.radius = {gradings::function([](dvec3 p) { return 0.3 + 0.01 * p.x; }, 0.01), 0.6};
-    ridged.radius = {gradings::function([](dvec3 p) { return 0.8 - 0.02 * std::abs(p.x - 2); }, 0.02), 0.9};
+    linear.radius = {steady_function([](dvec3 p) { return 0.3 + 0.01 * p.x; }, 0.01), 0.6};
+    ridged.radius = {steady_function([](dvec3 p) { return 0.8 - 0.02 * std::abs(p.x - 2); }, 0.02), 0.9};
     CHECK(beams_of(pieces_of_list(seeds, linear, 1)).size() == frame);
     CHECK(beams_of(pieces_of_list(seeds, ridged, 1)).size() > frame);
 }

@@ -9,8 +9,8 @@
 #include "procedural/graded_density.h"
 #include "procedural/plane_strips.h"
 #include "procedural/voronoi_foam.h"
+#include "tests/engine/gradings.h"
 #include "tests/procedural/brute_voronoi.h"
-#include "tests/procedural/graded_sizes.h"
 
 using namespace lamella;
 
@@ -303,10 +303,10 @@ TEST_CASE("graded settings that make no foam are refused", "[graded_foam]") {
     const Box region{dvec3(0), dvec3(10)};
     const auto ramp = [](double lo, double hi) { return std::make_shared<const Ramp>(0, lo, 10, hi); };
     CHECK_THROWS_WITH(VoronoiFoam(settings(ramp(-1, 2), 0.1, region)),
-                      Catch::Contains("cell size reaches -1 mm"));
+                      Catch::Contains("cell size goes down to -1 mm"));
     CHECK_THROWS_WITH(VoronoiFoam(settings(ramp(0.01, 2), 0.1, region)),
                       Catch::Contains("at most") || Catch::Contains("40 times"));
     CHECK_THROWS_WITH(VoronoiFoam(settings(ramp(1, 2), GradingPtr(ramp(0, 1)), region)),
-                      Catch::Contains("beam radius reaches 0 mm"));
+                      Catch::Contains("beam radius goes down to 0 mm"));
     CHECK_THROWS_AS(VoronoiFoam(settings(ramp(1, std::nan("")), 0.1, region)), InputError);
 }

@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 
 #include "engine/error.h"
-#include "tests/procedural/graded_lengths.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 
 TEST_CASE("a quotient's range encloses its numbers", "[grading_quotient]") {
-    const auto n = std::make_shared<LinearGrading>(0.5, dvec3(1, 0, 0));
-    const auto d = std::make_shared<LinearGrading>(2, dvec3(0.5, 0.25, 0));
+    const auto n = std::make_shared<Linear>(0.5, dvec3(1, 0, 0));
+    const auto d = std::make_shared<Linear>(2, dvec3(0.5, 0.25, 0));
     const GradingPtr quotient = make_quotient_grading(n, d);
     CHECK(quotient->at({1, 0, 0}) == 0.6);
     for (const double x : {-2.0, 0.0, 1.5}) {
@@ -24,18 +24,8 @@ TEST_CASE("a quotient's range encloses its numbers", "[grading_quotient]") {
     }
     CHECK(quotient->range({{-5, 0, 0}, {-3, 1, 1}}).lo == -infinity);
     // Proportional numbers: tight_range sees through what intervals do not.
-    const GradingPtr half = make_quotient_grading(std::make_shared<LinearGrading>(1, dvec3(1, 0, 0)),
-                                                  std::make_shared<LinearGrading>(2, dvec3(2, 0, 0)));
+    const GradingPtr half = make_quotient_grading(std::make_shared<Linear>(1, dvec3(1, 0, 0)),
+                                                  std::make_shared<Linear>(2, dvec3(2, 0, 0)));
     CHECK(half->range({dvec3(0), dvec3(9)}).hi == 5);
     CHECK(tight_range(*half, {dvec3(0), dvec3(9)}).hi < 0.51);
-}
-
-TEST_CASE("a length that is not one everywhere is refused by name", "[grading_quotient]") {
-    const Box box{dvec3(0), dvec3(1)};
-    CHECK(positive_range(*make_constant_grading(3), box, "the width").hi == 3);
-    CHECK_THROWS_WITH(positive_range(*make_constant_grading(0), box, "the width"),
-                      Catch::StartsWith("the width goes down to 0 mm"));
-    CHECK_THROWS_AS(positive_range(*make_constant_grading(infinity), box, "the width"), InputError);
-    CHECK_THROWS_AS(positive_range(UndefinedGrading(), box, "the width"), InputError);
-    CHECK_THROWS_AS(positive_range(LinearGrading(0.5, dvec3(-1, 0, 0)), box, "the width"), InputError);
 }

@@ -8,7 +8,7 @@
 
 #include "engine/error.h"
 #include "procedural/beam_box.h"
-#include "tests/procedural/graded_sizes.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "procedural/voronoi_foam.h"
-#include "tests/procedural/graded_sizes.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 

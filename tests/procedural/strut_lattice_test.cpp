@@ -10,7 +10,7 @@
 
 #include "engine/error.h"
 #include "procedural/beam_box.h"
-#include "tests/procedural/graded_lengths.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 
@@ -33,8 +33,8 @@ LatticeSettings constant(const char* name, double cell, double beam, Box region 
 
 /// Cells of 4, 2 and 1 mm.
 LatticeSettings graded(const char* name) {
-    return settings(name, std::make_shared<LinearGrading>(1, dvec3(3.0 / 16, 0, 0)),
-                    std::make_shared<LinearGrading>(0.1, dvec3(0.015, 0, 0)), {dvec3(0), {16, 8, 8}});
+    return settings(name, std::make_shared<Linear>(1, dvec3(3.0 / 16, 0, 0)),
+                    std::make_shared<Linear>(0.1, dvec3(0.015, 0, 0)), {dvec3(0), {16, 8, 8}});
 }
 
 dvec3 random_point(std::mt19937& random, const Box& box) {
@@ -209,7 +209,7 @@ TEST_CASE("slabs' beams together are the whole's", "[strut_lattice]") {
 
 TEST_CASE("a lattice hangs together across sizes of cells", "[strut_lattice]") {
     for (const char* name : names) {
-        const auto step = settings(name, std::make_shared<StepGrading>(9, 0.5, 4), make_constant_grading(0.1),
+        const auto step = settings(name, std::make_shared<Step>(9, 0.5, 4), make_constant_grading(0.1),
                                    {dvec3(0), {16, 8, 8}});
         for (const LatticeSettings& s : {graded(name), step, constant(name, 2, 0.2)}) {
             const StrutLattice lattice(s);
@@ -293,7 +293,7 @@ TEST_CASE("a lattice out of range is refused", "[strut_lattice]") {
     REQUIRE_THROWS_AS(StrutLattice(constant("bcc", 2, 0.2, {})), InputError);
     REQUIRE_THROWS_AS(StrutLattice(constant("bcc", 2, 0.2, {dvec3(0), dvec3(infinity)})), InputError);
     LatticeSettings s = constant("bcc", 2, 0.2);
-    s.beam = std::make_shared<UndefinedGrading>();
+    s.beam = std::make_shared<Undefined>();
     REQUIRE_THROWS_AS(StrutLattice(s), InputError);
     s.beam = nullptr;
     REQUIRE_THROWS_AS(StrutLattice(s), InputError);

@@ -8,7 +8,7 @@
 #include "engine/error.h"
 #include "engine/slice_context.h"
 #include "procedural/tpms_surface.h"
-#include "tests/procedural/graded_lengths.h"
+#include "tests/engine/gradings.h"
 
 using namespace lamella;
 
@@ -250,9 +250,9 @@ TEST_CASE("a solid with one graded number has the runs of its definition", "[tpm
                              << (graded_period ? ", period" : ", thickness"));
                 TpmsSettings s = settings(kind, network, 2.5, 0.3, region);
                 if (graded_period) {
-                    s.period = std::make_shared<LinearGrading>(2.5, dvec3(0.1, 0.05, -0.1));
+                    s.period = std::make_shared<Linear>(2.5, dvec3(0.1, 0.05, -0.1));
                 } else {
-                    s.thickness = std::make_shared<LinearGrading>(0.3, dvec3(0.05, 0.02, 0));
+                    s.thickness = std::make_shared<Linear>(0.3, dvec3(0.05, 0.02, 0));
                 }
                 const auto field = make_tpms(s);
                 CHECK(field->metric() == Metric::sign);
@@ -301,10 +301,10 @@ TEST_CASE("a periodic solid out of range is refused", "[tpms]") {
     REQUIRE_THROWS_AS(make_tpms(with(2, 1.1, true)), InputError);
     REQUIRE_THROWS_AS(make_tpms(with(0.0009, 0.0001)), InputError);
     TpmsSettings s = with(2, 0.3);
-    s.period = std::make_shared<LinearGrading>(1, dvec3(-0.2, 0, 0));
+    s.period = std::make_shared<Linear>(1, dvec3(-0.2, 0, 0));
     REQUIRE_THROWS_WITH(make_tpms(s), Catch::Contains("goes down to -1 mm; it must be positive"));
     s = with(2, 0.3);
-    s.thickness = std::make_shared<UndefinedGrading>();
+    s.thickness = std::make_shared<Undefined>();
     REQUIRE_THROWS_AS(make_tpms(s), InputError);
     s = with(2, 0.3);
     s.thickness = nullptr;
@@ -316,7 +316,7 @@ TEST_CASE("a periodic solid out of range is refused", "[tpms]") {
     REQUIRE_THROWS_AS(make_tpms(s), InputError);
     // Thick where the period is long: what counts is their quotient.
     s = with(2, 0.3);
-    s.period = std::make_shared<LinearGrading>(1, dvec3(1, 0, 0));
-    s.thickness = std::make_shared<LinearGrading>(0.2, dvec3(0.2, 0, 0));
+    s.period = std::make_shared<Linear>(1, dvec3(1, 0, 0));
+    s.thickness = std::make_shared<Linear>(0.2, dvec3(0.2, 0, 0));
     REQUIRE_NOTHROW(make_tpms(s));
 }

@@ -277,19 +277,22 @@ TEST_CASE("an image cut off is refused, or nothing of it is missing") {
     const ScratchFolder folder("cut");
     write_pages<std::uint16_t>(folder / "1.tif", 3, true);
     const auto whole = fs::file_size(folder / "1.tif");
+    int refused = 0;
     for (const auto length : {whole / 8, whole / 3, whole / 2, whole * 2 / 3, whole * 9 / 10, whole - 20}) {
         write_pages<std::uint16_t>(folder / "1.tif", 3, true);
         fs::resize_file(folder / "1.tif", length);
-        // The writer leaves bytes at the end that no page needs: without them, all samples are still there.
+        // The writer leaves bytes at the end that no page needs, as many as it likes: without them, all
+        // samples are still there.
         const std::string message = volume_message(folder.path());
         INFO(length << " of " << whole << " bytes: " << message);
         if (message.empty()) {
-            CHECK(length > whole / 2);
             check_samples<std::uint16_t>(read_volume(folder.path().string(), 0), 3);
         } else {
+            ++refused;
             CHECK(message.find((folder / "1.tif").string() + ": ") == 0);
         }
     }
+    CHECK(refused >= 2);
 }
 
 TEST_CASE("NRRD samples of every type, encoding and byte order are read") {
