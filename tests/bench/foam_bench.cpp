@@ -16,15 +16,8 @@ void foam_spans_8k(benchmark::State& state) {
     SliceContext context;
     const SliceField& slice = context.slice(*foam, bench::plate_z);
     Scratch scratch;
-    SpanRows rows;
     std::size_t runs = 0;
-    for (auto _ : state) {
-        runs = 0;
-        for (int first = 0; first < bench::plate_height; first += 64) {
-            slice.spans(bench::plate_band(first, static_cast<int>(state.range(0))), scratch, rows);
-            runs += rows.runs().size();
-        }
-    }
+    for (auto _ : state) runs = bench::plate_runs(slice, scratch, static_cast<int>(state.range(0)));
     state.counters["runs"] = static_cast<double>(runs);
     state.counters["beams"] = static_cast<double>(foam->beams_at(bench::plate_z).size());
 }
@@ -79,11 +72,7 @@ void first_layer_8k(benchmark::State& state) {
         SliceContext context;
         const SliceField& slice = context.slice(*foam, bench::plate_z);
         Scratch scratch;
-        SpanRows rows;
-        for (int first = 0; first < bench::plate_height; first += 64) {
-            slice.spans(bench::plate_band(first, 1), scratch, rows);
-            benchmark::DoNotOptimize(rows.runs().data());
-        }
+        benchmark::DoNotOptimize(bench::plate_runs(slice, scratch, 1));
     }
 }
 BENCHMARK(first_layer_8k)->Unit(benchmark::kMillisecond);

@@ -3,7 +3,7 @@
 
 #include "engine/slice_context.h"
 #include "tests/bench/plate.h"
-#include "tests/procedural/graded_sizes.h"
+#include "tests/engine/gradings.h"
 
 namespace {
 
@@ -16,24 +16,14 @@ FoamSettings graded_plate() {
     return settings;
 }
 
-std::size_t all_bands(const SliceField& slice, Scratch& scratch, int sub) {
-    SpanRows rows;
-    std::size_t runs = 0;
-    for (int first = 0; first < bench::plate_height; first += 64) {
-        slice.spans(bench::plate_band(first, sub), scratch, rows);
-        runs += rows.runs().size();
-    }
-    return runs;
-}
-
 /// Runs of the whole plate, its cells warm; the argument is the number of sub-rows.
 void foam_graded_spans_8k(benchmark::State& state) {
     const auto foam = make_voronoi_foam(graded_plate());
     SliceContext context;
     const SliceField& slice = context.slice(*foam, bench::plate_z);
     Scratch scratch;
-    std::size_t runs = all_bands(slice, scratch, 1);
-    for (auto _ : state) runs = all_bands(slice, scratch, static_cast<int>(state.range(0)));
+    std::size_t runs = bench::plate_runs(slice, scratch, 1);
+    for (auto _ : state) runs = bench::plate_runs(slice, scratch, static_cast<int>(state.range(0)));
     state.counters["runs"] = static_cast<double>(runs);
     state.counters["beams"] = static_cast<double>(foam->beams_at(bench::plate_z).size());
 }
@@ -67,17 +57,8 @@ void foam_area(benchmark::State& state) {
     SliceContext context;
     const SliceField& slice = context.slice(*foam, bench::plate_z);
     Scratch scratch;
-    SpanRows rows;
-    const auto all = [&] {
-        for (int first = 0; first < bench::plate_height; first += 64) {
-            RowBand band = bench::plate_band(first, 1);
-            band.hi = width;
-            slice.spans(band, scratch, rows);
-            benchmark::DoNotOptimize(rows.runs().data());
-        }
-    };
-    all();
-    for (auto _ : state) all();
+    bench::plate_runs(slice, scratch, 1, width);
+    for (auto _ : state) benchmark::DoNotOptimize(bench::plate_runs(slice, scratch, 1, width));
 }
 BENCHMARK(foam_area)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
 
@@ -89,7 +70,7 @@ void foam_height(benchmark::State& state) {
         const auto foam = make_voronoi_foam(settings);
         SliceContext context;
         Scratch scratch;
-        benchmark::DoNotOptimize(all_bands(context.slice(*foam, 50), scratch, 1));
+        benchmark::DoNotOptimize(bench::plate_runs(context.slice(*foam, 50), scratch, 1));
     }
 }
 BENCHMARK(foam_height)->Arg(100)->Arg(10000)->Unit(benchmark::kMillisecond);

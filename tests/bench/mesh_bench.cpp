@@ -50,16 +50,11 @@ SolidMesh wavy_ball(double triangles) {
 /// Slicing a field and making the plate's runs of it.
 void slice_plate(benchmark::State& state, const Field& field) {
     Scratch scratch;
-    SpanRows rows;
     std::size_t runs = 0;
     for (auto _ : state) {
         SliceContext context;
         const SliceField& slice = context.slice(field, 31.7);
-        runs = 0;
-        for (int first = 0; first < bench::plate_height; first += 64) {
-            slice.spans(bench::plate_band(first, 1), scratch, rows);
-            runs += rows.runs().size();
-        }
+        runs = bench::plate_runs(slice, scratch, 1);
     }
     state.counters["runs"] = static_cast<double>(runs);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/runs.h"
+#include "engine/slice_context.h"
 #include "procedural/voronoi_foam.h"
 
 namespace lamella::bench {
@@ -30,6 +31,19 @@ inline RowBand plate_band(int first, int sub) {
     band.sub = sub;
     band.hi = plate_width;
     return band;
+}
+
+/// Makes the runs of the plate's left part, band by band; returns how many.
+inline std::size_t plate_runs(const SliceField& slice, Scratch& scratch, int sub, int width = plate_width) {
+    SpanRows rows;
+    std::size_t runs = 0;
+    for (int first = 0; first < plate_height; first += 64) {
+        RowBand band = plate_band(first, sub);
+        band.hi = width;
+        slice.spans(band, scratch, rows);
+        runs += rows.runs().size();
+    }
+    return runs;
 }
 
 }  // namespace lamella::bench

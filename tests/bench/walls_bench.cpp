@@ -36,18 +36,13 @@ BENCHMARK(walls_cold_plate)->Arg(0)->Arg(50)->Unit(benchmark::kMillisecond);
 void walls_layer_8k(benchmark::State& state) {
     const ClosedFoam foam(walled_plate(state));
     Scratch scratch;
-    SpanRows rows;
     std::size_t runs = 0;
     double z = bench::plate_z;
     benchmark::DoNotOptimize(foam.pieces_touching({{0, 0, z}, {192, 108, z}}));
     for (auto _ : state) {
         SliceContext context;
         const SliceField& slice = context.slice(foam, z += 0.05);
-        runs = 0;
-        for (int first = 0; first < bench::plate_height; first += 64) {
-            slice.spans(bench::plate_band(first, 1), scratch, rows);
-            runs += rows.runs().size();
-        }
+        runs = bench::plate_runs(slice, scratch, 1);
     }
     state.counters["runs"] = static_cast<double>(runs);
 }
