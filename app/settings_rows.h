@@ -17,6 +17,8 @@ const std::vector<std::string>& words(Falloff);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 
+/// The rows of the [frame] section.
+void add_frame_settings(std::vector<Setting>& table);
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
 
