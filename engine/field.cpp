@@ -18,6 +18,10 @@ Interval Field::range(const Box& box) const {
                  : Interval{-infinity, -std::numeric_limits<double>::denorm_min()};
 }
 
+bool Field::clear_of_surface(dvec3 p, double distance) const {
+    return metric() != Metric::sign && std::abs(value_within(p, distance)) >= distance;
+}
+
 FieldPtr Field::offset(double /*d*/) const { return nullptr; }
 
 const SliceField& Field::slice(SliceContext& context, double z) const {

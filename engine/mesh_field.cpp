@@ -116,6 +116,9 @@ class MeshField : public Field {
         const double d = data_->tree.distance(p, limit);
         return data_->tree.winding(p) != 0 ? -d : d;
     }
+    bool clear_of_surface(dvec3 p, double distance) const override {
+        return !data_->tree.any_within(p, distance);
+    }
     Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
     // Triangles inside the solid, where shells overlap, make the distance a bound only.
     Metric metric() const override { return Metric::bound; }

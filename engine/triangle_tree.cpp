@@ -95,6 +95,22 @@ double TriangleTree::distance(dvec3 p, double limit) const {
     return std::sqrt(best);
 }
 
+bool TriangleTree::any_within(dvec3 p, double distance) const {
+    bool found = false;
+    const double limit = distance * distance;
+    visit_nearest_first(
+        nodes_, [&](const Node& node) { return squared_distance(node.box, p); },
+        [&](double bound) { return !found && bound < limit; },
+        [&](const Node& node) {
+            for (std::uint32_t k = node.first; k < node.first + node.count && !found; ++k) {
+                const auto& t = mesh_.triangles[order_[k]];
+                found = squared_distance(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                         mesh_.vertices[t[2]]) < limit;
+            }
+        });
+    return found;
+}
+
 SurfacePoint TriangleTree::closest(dvec3 p) const {
     // A box's distance may be rounded above that of a triangle within: without the slack, which of two
     // equally close triangles is found would depend on the tree.

@@ -31,6 +31,8 @@ class TriangleTree {
 
     /// Distance from p to the nearest triangle, mm; gives up and returns `limit` when it is at least that.
     double distance(dvec3 p, double limit = infinity) const;
+    /// Whether a triangle is nearer to p than `distance`, mm.
+    bool any_within(dvec3 p, double distance) const;
     /// Winding number of p, by signed crossings of the line towards -x with the same half-open rules as the
     /// mesh's sections. Meaningful for closed chains of triangles.
     int winding(dvec3 p) const;

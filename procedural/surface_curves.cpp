@@ -10,8 +10,7 @@ namespace lamella {
 namespace {
 
 constexpr int steps = SurfaceTracer::steps;
-constexpr double narrow = 1e-3;     // share of a step
-constexpr double sign_only = 1e-9;  // mm, a distance that no question is about
+constexpr double narrow = 1e-3;  // share of a step
 constexpr std::size_t most_edges = 20000;
 
 bool before(dvec3 a, dvec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
@@ -25,13 +24,10 @@ dvec3 on_edge(dvec3 a, dvec3 b, int i) {
     return a * (static_cast<double>(steps - i) / steps) + b * (static_cast<double>(i) / steps);
 }
 
-/// Where the surface crosses between two points on its two sides, whose values are given; the same point
-/// whichever comes first.
-dvec3 crossing(const Field& body, dvec3 p, double at_p, dvec3 q, double at_q) {
-    if (before(q, p)) {
-        std::swap(p, q);
-        std::swap(at_p, at_q);
-    }
+/// Where the surface crosses between two points on its two sides; the same point whichever comes first.
+dvec3 crossing(const Field& body, dvec3 p, dvec3 q) {
+    if (before(q, p)) std::swap(p, q);
+    double at_p = body.value(p), at_q = body.value(q);
     const double near = narrow * glm::distance(p, q);
     const bool inside = at_p < 0;
     double lo = 0, hi = 1;
@@ -101,16 +97,16 @@ std::vector<dvec3> SurfaceTracer::find_inside(dvec3 a, dvec3 b) const {
     if (side == Side::inside) return {a, b};
     std::vector<dvec3> ends;
     dvec3 last = on_edge(a, b, 0);
-    double at_last = body_->value(last);
-    if (at_last < 0) ends.push_back(a);
+    bool was_inside = inside(last);
+    if (was_inside) ends.push_back(a);
     for (int i = 1; i <= steps; ++i) {
         const dvec3 p = on_edge(a, b, i);
-        const double at_p = body_->value(p);
-        if ((at_last < 0) != (at_p < 0)) ends.push_back(crossing(*body_, last, at_last, p, at_p));
+        const bool is_inside = inside(p);
+        if (is_inside != was_inside) ends.push_back(crossing(*body_, last, p));
         last = p;
-        at_last = at_p;
+        was_inside = is_inside;
     }
-    if (at_last < 0) ends.push_back(b);
+    if (was_inside) ends.push_back(b);
     return ends;
 }
 
@@ -125,39 +121,24 @@ dvec3 SurfaceTracer::at(Place place) const {
     return triangle_[0] * rest + (triangle_[1] * i + triangle_[2] * j);
 }
 
-double SurfaceTracer::value(Place place) {
-    double& held = values_[static_cast<std::size_t>(place.j * (steps + 1) + place.i)];
-    // A value that is NaN is asked for again, which is rare.
-    if (std::isnan(held)) held = body_->value(at(place));
-    return held;
+bool SurfaceTracer::inside(Place place) {
+    std::int8_t& held = inside_[static_cast<std::size_t>(place.j * (steps + 1) + place.i)];
+    if (held < 0) held = inside(at(place)) ? 1 : 0;
+    return held > 0;
+}
+
+/// Whether the surface surely does not pass through the box.
+bool SurfaceTracer::clear(const Box& box) const {
+    if (body_->metric() == Metric::sign) {
+        const Interval range = body_->range(box);
+        return range.lo >= 0 || range.hi < 0;
+    }
+    return body_->clear_of_surface(box.center(), std::max(0.5 * diagonal(box) * (1 + 1e-12), sign_only));
 }
 
 SurfaceTracer::Side SurfaceTracer::side_of(const Box& box) const {
-    Interval range;
-    if (body_->metric() == Metric::sign) {
-        range = body_->range(box);
-    } else {
-        const double reach = 0.5 * diagonal(box) * (1 + 1e-12);
-        const double v = body_->value_within(box.center(), reach > 0 ? reach : sign_only);
-        range = {v - reach, v + reach};
-    }
-    return range.lo >= 0 ? Side::outside : range.hi < 0 ? Side::inside : Side::both;
-}
-
-/// Whether the triangle surely lies on one side of the surface: each of its points is nearer to a corner than
-/// the longest edge over the root of 3.
-bool SurfaceTracer::one_sided(Place a, Place b, Place c) {
-    const dvec3 p = at(a), q = at(b), r = at(c);
-    if (body_->metric() == Metric::sign) {
-        Box box;
-        for (const dvec3& corner : {p, q, r}) box.include(corner);
-        return side_of(box) != Side::both;
-    }
-    const double longest = std::max({glm::distance(p, q), glm::distance(q, r), glm::distance(r, p)});
-    const double reach = 0.5774 * longest;
-    const auto beyond = [&](Place place, double side) { return side * value(place) > reach; };
-    return (beyond(a, 1) && beyond(b, 1) && beyond(c, 1)) ||
-           (beyond(a, -1) && beyond(b, -1) && beyond(c, -1));
+    if (!clear(box)) return Side::both;
+    return inside(box.center()) ? Side::inside : Side::outside;
 }
 
 /// Divides the sub-triangle whose corner 0 is the place; of negative size, one that is turned round.
@@ -167,7 +148,9 @@ void SurfaceTracer::divide(Place corner, int size) {
         cut(corner, b, c);
         return;
     }
-    if (one_sided(corner, b, c)) return;
+    Box box;
+    for (const Place place : {corner, b, c}) box.include(at(place));
+    if (clear(box)) return;
     const int half = size / 2;
     divide(corner, half);
     divide({corner.i + half, corner.j}, half);
@@ -179,14 +162,12 @@ void SurfaceTracer::divide(Place corner, int size) {
 void SurfaceTracer::cut(Place a, Place b, Place c) {
     const std::array<Place, 3> places{a, b, c};
     std::array<bool, 3> inside{};
-    for (std::size_t k = 0; k < 3; ++k) inside[k] = value(places[k]) < 0;
+    for (std::size_t k = 0; k < 3; ++k) inside[k] = this->inside(places[k]);
     std::array<dvec3, 2> ends;
     std::size_t found = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
-        if (inside[k] == inside[next]) continue;
-        ends[found++] =
-            crossing(*body_, at(places[k]), value(places[k]), at(places[next]), value(places[next]));
+        if (inside[k] != inside[next]) ends[found++] = crossing(*body_, at(places[k]), at(places[next]));
     }
     if (found == 2 && ends[0] != ends[1]) segments_.push_back({ends[0], ends[1]});
 }
@@ -194,7 +175,7 @@ void SurfaceTracer::cut(Place a, Place b, Place c) {
 void SurfaceTracer::trace(std::span<const dvec3> ring, std::vector<SurfaceCurve>& curves) {
     Box box;
     for (const dvec3& corner : ring) box.include(corner);
-    if (side_of(box) != Side::both) return;
+    if (clear(box)) return;
     dvec3 middle(0);
     for (const dvec3& corner : ring) middle += corner / static_cast<double>(ring.size());
     segments_.clear();
@@ -202,8 +183,7 @@ void SurfaceTracer::trace(std::span<const dvec3> ring, std::vector<SurfaceCurve>
         triangle_[0] = middle;
         triangle_[1] = ring[i];
         triangle_[2] = ring[(i + 1) % ring.size()];
-        values_.assign(static_cast<std::size_t>((steps + 1) * (steps + 1)),
-                       std::numeric_limits<double>::quiet_NaN());
+        inside_.assign(static_cast<std::size_t>((steps + 1) * (steps + 1)), -1);
         divide({0, 0}, steps);
     }
     link(curves);

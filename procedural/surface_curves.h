@@ -17,10 +17,10 @@ using SurfaceCurve = std::vector<dvec3>;
 
 /// Traces the curves in which polygons and straight edges meet the surface of a body.
 ///
-/// A polygon is divided from its middle into triangles, and each edge of these into 8; where the values at
-/// corners leave it open, their signs decide, and crossings are narrowed to 1/1000 of a step. What is smaller
-/// than a step is not seen. An edge meets the surface at the very points where the polygons
-/// that share it do. Not thread-safe; keeps buffers for reuse.
+/// A polygon is divided from its middle into triangles, and each edge of these into 8; where the surface may
+/// pass, the signs at corners decide, and crossings are narrowed to 1/1000 of a step. What is smaller than a
+/// step is not seen. An edge meets the surface at the very points where the polygons that share it do. Not
+/// thread-safe; keeps buffers for reuse.
 class SurfaceTracer {
   public:
     static constexpr int steps = 8;  ///< along an edge
@@ -40,6 +40,7 @@ class SurfaceTracer {
     const Field& body() const { return *body_; }
 
   private:
+    static constexpr double sign_only = 1e-9;  // mm, a distance that no question is about
     struct EdgeOrder {
         bool operator()(const std::pair<dvec3, dvec3>& a, const std::pair<dvec3, dvec3>& b) const;
     };
@@ -51,16 +52,17 @@ class SurfaceTracer {
         int i, j;
     };
     dvec3 at(Place place) const;
-    double value(Place place);
+    bool inside(dvec3 p) const { return body_->value_within(p, sign_only) < 0; }
+    bool inside(Place place);
+    bool clear(const Box& box) const;
     std::vector<dvec3> find_inside(dvec3 a, dvec3 b) const;
-    bool one_sided(Place a, Place b, Place c);
     void divide(Place corner, int size);
     void cut(Place a, Place b, Place c);
     void link(std::vector<SurfaceCurve>& curves);
 
     FieldPtr body_;
     std::array<dvec3, 3> triangle_{};
-    std::vector<double> values_;  ///< of the triangle's lattice, NaN where not asked yet
+    std::vector<std::int8_t> inside_;  ///< of the triangle's lattice, below zero where not asked yet
     std::vector<Segment> segments_;
     /// What is known of edges, which several cells share.
     std::map<std::pair<dvec3, dvec3>, std::vector<dvec3>, EdgeOrder> edges_;
