@@ -14,8 +14,15 @@ namespace lamella {
 const std::vector<std::string>& words(Shape);
 const std::vector<std::string>& words(LengthUnit);
 const std::vector<std::string>& words(Falloff);
+const std::vector<std::string>& words(SkinSide);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
+
+/// The row of the skin's side.
+void add_skin_side_setting(std::vector<Setting>& table);
+
+/// The rows of the [process] section.
+void add_process_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
