@@ -132,9 +132,9 @@ struct SkinRecipe {
 
 /// What makes up for the way a machine prints.
 struct ProcessRecipe {
-    dvec3 scale{1};              ///< of the finished part along x, y, z: about its middle, from its lowest point
-    double xy_compensation = 0;  ///< by which every layer's outline grows, mm; negative: shrinks
-    double elephant_foot = 0;    ///< by which the first layer's outline is drawn in, mm
+    dvec3 scale{1};  ///< of the finished part along x, y, z: about its middle, from its lowest point
+    double xy_compensation = 0;             ///< by which every layer's outline grows, mm; negative: shrinks
+    double elephant_foot = 0;               ///< by which the first layer's outline is drawn in, mm
     std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
 };
 

@@ -26,11 +26,12 @@ void add_skin_side_setting(std::vector<Setting>& table) {
 
 void add_process_settings(std::vector<Setting>& table) {
     using P = ProcessRecipe;
-    add_row<&P::scale>(table, "scale", "--process-scale",
-                       {.limits = {0.1, 10},
-                        .fallback = "1, 1, 1",
-                        .help = "Factors on the finished part, foam and skin with it, along x, y and z: about "
-                                "the middle of its bounds in x and y, up from its lowest point."});
+    add_row<&P::scale>(
+        table, "scale", "--process-scale",
+        {.limits = {0.1, 10},
+         .fallback = "1, 1, 1",
+         .help = "Factors on the finished part, foam and skin with it, along x, y and z: about "
+                 "the middle of its bounds in x and y, up from its lowest point."});
     add_row<&P::xy_compensation>(
         table, "xy_compensation", "--xy-compensation",
         {.unit = "mm",

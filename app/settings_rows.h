@@ -125,7 +125,9 @@ Setting optional_row(std::string section, std::string key, std::string flag, Fac
     Setting s = described<Held>(std::move(section), std::move(key), std::move(flag), std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         auto& whole = r.*optional;
-        (whole ? *whole : whole.emplace()).*member = from_value<Held>(value);
+        // Not as one expression with ?:, for g++ 12 stores into a copy of plain structures.
+        if (!whole) whole.emplace();
+        (*whole).*member = from_value<Held>(value);
     };
     s.load = [](const Recipe& r, std::size_t) {
         const Whole absent;

@@ -16,7 +16,8 @@ RowBand lattice_lines(Axis axis, const Rect& rect, double pitch) {
     constexpr double fraction = 0.118;
     constexpr double most = 1 << 22;
     const int along = axis == Axis::x ? 0 : 1, across = 1 - along;
-    RowBand band{.axis = axis, .along_pitch = pitch, .across_origin = fraction * pitch, .across_pitch = pitch};
+    RowBand band{
+        .axis = axis, .along_pitch = pitch, .across_origin = fraction * pitch, .across_pitch = pitch};
     const dvec2 from = glm::floor(rect.lo / pitch) - 1.0, to = glm::ceil(rect.hi / pitch) + 1.0;
     if (!(-most < std::min(from.x, from.y) && std::max(to.x, to.y) < most)) {
         throw InputError("the tolerance of " + std::to_string(pitch) +
@@ -63,7 +64,8 @@ std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, do
 /// The runs of a disc on the lines of a band.
 void collect_disc(dvec2 center, double radius, const RowBand& band, RunCollector& collector) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
-    // Whether a line is met must not depend on rounding that differs between bands: one too many is asked for.
+    // Whether a line is met must not depend on rounding that differs between bands: one too many is asked
+    // for.
     constexpr double margin = 1e-6;
     const double reach = radius + margin;
     const LineRange lines = lines_across(band, {center[across] - reach, center[across] + reach});
@@ -109,9 +111,8 @@ class OffsetSlice : public SliceField {
         const dvec2 far = tile.origin + tile.step * dvec2(tile.nx - 1, tile.ny - 1);
         const Rect rect{glm::min(tile.origin, far), glm::max(tile.origin, far)};
         for (const dvec2 p : border_points(section_, grown(rect, 2 * radius_), pitch_, scratch)) {
-            visit_near(tile, p, 2 * radius_, [&](std::size_t k, double square) {
-                nearest[k] = std::min(nearest[k], square);
-            });
+            visit_near(tile, p, 2 * radius_,
+                       [&](std::size_t k, double square) { nearest[k] = std::min(nearest[k], square); });
         }
         for (std::size_t k = 0; k < out.size(); ++k) {
             const double disc = std::sqrt(nearest[k]) - radius_, v = out[k];

@@ -87,7 +87,8 @@ Cheese cheese() {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> at(-5.5, 5.5), height(-0.4, 0.4), radius(0.5, 1.3);
     std::vector<FieldPtr> balls;
-    for (int k = 0; k < 25; ++k) balls.push_back(make_sphere({at(random), at(random), height(random)}, radius(random)));
+    for (int k = 0; k < 25; ++k)
+        balls.push_back(make_sphere({at(random), at(random), height(random)}, radius(random)));
     const FieldPtr holes = make_union(balls);
     return {make_difference(make_box({{-5, -4, -2}, {5, 4, 2}}), holes), holes};
 }
@@ -158,7 +159,8 @@ TEST_CASE("convex corners stay sharp when an outline shrinks and become round wh
     CHECK(solid_at(*large, 0, dvec2(diagonal - tolerance)));
     CHECK(!solid_at(*large, 0, dvec2(diagonal + 1e-3)));
     // Concave corners the other way: a shrunk outline is round about them.
-    const FieldPtr angle = make_difference(make_box({{-3, -3, -1}, {3, 3, 1}}), make_box({{0, 0, -2}, {4, 4, 2}}));
+    const FieldPtr angle =
+        make_difference(make_box({{-3, -3, -1}, {3, 3, 1}}), make_box({{0, 0, -2}, {4, 4, 2}}));
     const double inward = -d / std::sqrt(2.0);
     CHECK(solid_at(*moved(angle, -d), 0, dvec2(inward - 1e-3)));
     CHECK(!solid_at(*moved(angle, -d), 0, dvec2(inward + tolerance)));
@@ -224,8 +226,9 @@ TEST_CASE("grown discs are the discs of the greater radii, whatever they overlap
 }
 
 TEST_CASE("what is thinner than twice the distance vanishes, and gaps as narrow close") {
-    const FieldPtr bars = make_union({make_box({{-4, -4, -1}, {-3.7, 4, 1}}), make_box({{0, -4, -1}, {0.5, 4, 1}}),
-                                      make_box({{0.7, -4, -1}, {3, 4, 1}})});
+    const FieldPtr bars =
+        make_union({make_box({{-4, -4, -1}, {-3.7, 4, 1}}), make_box({{0, -4, -1}, {0.5, 4, 1}}),
+                    make_box({{0.7, -4, -1}, {3, 4, 1}})});
     const FieldPtr shrunk = moved(bars, -0.2);
     CHECK(!solid_at(*shrunk, 0, {-3.85, 0}));
     CHECK(solid_at(*shrunk, 0, {0.25, 0}));
@@ -263,7 +266,8 @@ TEST_CASE("rows and columns of a moved outline tell the same at every point") {
         return false;
     };
     for (int k = 0; k < 20000; ++k) {
-        const auto i = static_cast<std::int32_t>(random() % 320), j = static_cast<std::int32_t>(random() % 320);
+        const auto i = static_cast<std::int32_t>(random() % 320),
+                   j = static_cast<std::int32_t>(random() % 320);
         const auto by_row = [&](int margin) {
             return inside(rows, static_cast<std::size_t>(j), i * run_unit + run_unit / 2, margin);
         };
@@ -305,7 +309,8 @@ TEST_CASE("the runs of a moved outline do not depend on bands and clipping") {
                     SpanRows expected;
                     for (std::size_t l = 0; l < all.lines(); ++l) {
                         for (const Run& run : all.line(l)) {
-                            expected.push(std::max(run.begin, 100 * run_unit), std::min(run.end, 171 * run_unit));
+                            expected.push(std::max(run.begin, 100 * run_unit),
+                                          std::min(run.end, 171 * run_unit));
                         }
                         expected.end_line();
                     }
@@ -318,8 +323,8 @@ TEST_CASE("the runs of a moved outline do not depend on bands and clipping") {
 
 TEST_CASE("a section that is not moved is the solid's own") {
     const FieldPtr cube = make_box({dvec3(-5), dvec3(5)});
-    const FieldPtr field = make_in_plane_offset(
-        cube, {[](double z) { return z < 0 ? -0.2 : 0.0; }, {-0.2, 0}}, tolerance);
+    const FieldPtr field =
+        make_in_plane_offset(cube, {[](double z) { return z < 0 ? -0.2 : 0.0; }, {-0.2, 0}}, tolerance);
     SliceContext context;
     CHECK(&context.slice(*field, 0.5) == &context.slice(*cube, 0.5));
     CHECK(&context.slice(*field, -0.5) != &context.slice(*cube, -0.5));
