@@ -61,25 +61,48 @@ std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, do
     return points;
 }
 
-/// The runs of a disc on the lines of a band.
-void collect_disc(dvec2 center, double radius, const RowBand& band, RunCollector& collector) {
-    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
-    // Whether a line is met must not depend on rounding that differs between bands: one too many is asked
-    // for.
-    constexpr double margin = 1e-6;
-    const double reach = radius + margin;
-    const LineRange lines = lines_across(band, {center[across] - reach, center[across] + reach});
-    if (lines.first >= lines.last) return;
-    const auto runs = collector.add(lines.first, lines.last - lines.first);
-    for (int l = lines.first; l < lines.last; ++l) {
-        const double off = band.line(l) - center[across], square = radius * radius - off * off;
-        const double half = square > 0 ? std::sqrt(square) : 0;
-        const std::int32_t a = round_run(band.coordinate(center[along] - half)),
-                           b = round_run(band.coordinate(center[along] + half));
-        runs.begin[l - lines.first] = std::min(a, b);
-        runs.end[l - lines.first] = std::max(a, b);
-    }
+/// The nearest run coordinate, halves upward, as round_run gives it, in operations that a loop of which can
+/// be done several at a time.
+std::int32_t rounded(double u) {
+    constexpr double limit = 1 << 30;
+    const double up = std::min(std::max(u, -limit), limit) + 0.5;
+    const auto towards_zero = static_cast<std::int32_t>(up);
+    return towards_zero - static_cast<std::int32_t>(up < towards_zero);
 }
+
+/// Discs of one radius as runs on the lines of a band.
+class DiscRows {
+  public:
+    DiscRows(const RowBand& band, double radius)
+        : band_(band), radius_(radius), units_per_mm_(run_unit / std::abs(band.along_pitch)) {
+        for (int l = 0; l < band.lines(); ++l) positions_.push_back(band.line(l));
+    }
+
+    void collect(dvec2 center, RunCollector& collector) const {
+        const int along = band_.axis == Axis::x ? 0 : 1;
+        const double across = center[1 - along], middle = band_.coordinate(center[along]);
+        // Whether a line is met must not depend on rounding that differs between bands: lines a little
+        // farther off are asked too.
+        constexpr double margin = 1e-6;
+        const LineRange lines = lines_across(band_, {across - radius_ - margin, across + radius_ + margin});
+        const int count = lines.last - lines.first;
+        if (count <= 0) return;
+        const auto runs = collector.add(lines.first, count);
+        const double* const positions = positions_.data() + lines.first;
+        const double square = radius_ * radius_;
+        for (int i = 0; i < count; ++i) {
+            const double off = positions[i] - across;
+            const double half = std::sqrt(std::max(square - off * off, 0.0)) * units_per_mm_;
+            runs.begin[i] = rounded(middle - half);
+            runs.end[i] = rounded(middle + half);
+        }
+    }
+
+  private:
+    const RowBand& band_;
+    double radius_, units_per_mm_;
+    std::vector<double> positions_;  ///< of the lines, mm across
+};
 
 class OffsetSlice : public SliceField {
   public:
@@ -90,7 +113,8 @@ class OffsetSlice : public SliceField {
         const auto points = border_points(section_, grown(band.rect(), radius_), pitch_, scratch);
         const auto discs = scratch.rows();
         scratch.collector.clear();
-        for (const dvec2 p : points) collect_disc(p, radius_, band, scratch.collector);
+        const DiscRows disc(band, radius_);
+        for (const dvec2 p : points) disc.collect(p, scratch.collector);
         scratch.collector.merge(band, *discs);
         const auto before = scratch.rows();
         section_.spans(band, scratch, *before);
