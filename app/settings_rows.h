@@ -18,6 +18,9 @@ const std::vector<std::string>& words(SkinSide);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 
+/// The rows of the [frame] section.
+void add_frame_settings(std::vector<Setting>& table);
+
 /// The row of the skin's side.
 void add_skin_side_setting(std::vector<Setting>& table);
 

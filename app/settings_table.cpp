@@ -358,6 +358,7 @@ std::vector<Setting> make_table() {
     add_fields(table);
     add_gradings(table);
     add_foam(table);
+    add_frame_settings(table);
     add_skin_and_layers(table);
     add_process_settings(table);
     add_output(table);
@@ -411,6 +412,8 @@ std::span<const Section> sections() {
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
+        {"frame",
+         "beams along the surface that the foam grows out of; without this section the part has none"},
         {"skin", "closed skin at the body's surface; without this section the part has none"},
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
