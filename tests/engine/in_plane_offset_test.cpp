@@ -87,6 +87,7 @@ Cheese cheese() {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> at(-5.5, 5.5), height(-0.4, 0.4), radius(0.5, 1.3);
     std::vector<FieldPtr> balls;
+    balls.reserve(25);
     for (int k = 0; k < 25; ++k)
         balls.push_back(make_sphere({at(random), at(random), height(random)}, radius(random)));
     const FieldPtr holes = make_union(balls);
@@ -294,7 +295,8 @@ TEST_CASE("the runs of a moved outline do not depend on bands and clipping") {
                         for (band.first = 3; band.first + count <= 320; band.first += 5 * count) {
                             const SpanRows part = runs_of(*field, 0.3, band);
                             for (int l = 0; l < band.lines(); ++l) {
-                                const auto a = all.line(static_cast<std::size_t>(band.first * 2 + l));
+                                const auto a = all.line(2 * static_cast<std::size_t>(band.first) +
+                                                        static_cast<std::size_t>(l));
                                 const auto b = part.line(static_cast<std::size_t>(l));
                                 REQUIRE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
                             }

@@ -205,7 +205,7 @@ TEST_CASE("the runs of a graded skin are solid exactly where its value is negati
                     context.slice(*skin, z).spans(band, scratch, rows);
                     for (int k = 0; k < 400; ++k) {
                         const int l = static_cast<int>(random() % 26);
-                        const double u = static_cast<double>(random() % (200 * 256)) + 0.5;
+                        const double u = static_cast<double>(random() % 51200) + 0.5;
                         const double along = band.along(u), across = band.line(l);
                         const dvec3 p =
                             band.axis == Axis::x ? dvec3(along, across, z) : dvec3(across, along, z);
@@ -244,7 +244,7 @@ TEST_CASE("the runs of a skin on any side are solid exactly where its value is n
                 context.slice(*part, z).spans(band, scratch, rows);
                 for (int k = 0; k < 120; ++k) {
                     const int l = static_cast<int>(random() % 38);
-                    const double u = static_cast<double>(random() % (300 * 256)) + 0.5;
+                    const double u = static_cast<double>(random() % 76800) + 0.5;
                     const dvec3 p(band.along(u), band.line(l), z);
                     const double v = part->value(p);
                     if (std::abs(v) < 1e-3) continue;
