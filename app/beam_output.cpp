@@ -24,7 +24,7 @@ void check_beam_output(const Recipe& recipe, const BuiltJob& built, bool replace
 
 BeamLatticeReport write_beam_output(const Recipe& recipe, const BuiltJob& built) {
     const OutputRecipe& output = recipe.output;
-    const Box box = output.beams_box.empty() ? built.job.bounds : box_of(output.beams_box);
+    const Box box = output.beams_box.empty() ? built.designed.bounds : box_of(output.beams_box);
     const std::vector<Beam> beams = built.foam->beams_touching(box);
     if (beams.empty()) {
         throw InputError(

@@ -1,11 +1,13 @@
-// The order of things: body, depths below it, foam, skin, layers.
+// The order of things: body, depths below it, foam, skin, layers, process.
 #include "app/build_job.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "app/build_process.h"
 #include "app/identity.h"
+#include "engine/csg.h"
 #include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/shell.h"
@@ -23,10 +25,11 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     if (!recipe.skin) return make_filled_body(built.body, foam, 0);
     const GradedNumber& thickness = recipe.skin->thickness;
     try {
-        if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number());
+        const SkinSide side = recipe.skin->side;
+        if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number(), side);
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
-        return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits);
+        return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits, side);
     } catch (const PlacedError&) {
         throw;
     } catch (const InputError& error) {
@@ -35,8 +38,7 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     }
 }
 
-int layers_of(const Box& bounds, double layer_height) {
-    const double height = bounds.size().z;
+int layers_of(double height, double layer_height) {
     if (height / layer_height > most_layers) {
         throw InputError(
             fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
@@ -54,9 +56,9 @@ double survey_pitch(const BuiltJob& built, Interval suited) {
     double pitch = without_foam;
     if (built.foam) {
         const bool beams = built.foam->member.key == "foam.beam";
-        pitch = least_of(built.foam->member, built.job.bounds) / (beams ? 3 : 6);
+        pitch = least_of(built.foam->member, built.designed.bounds) / (beams ? 3 : 6);
         for (const GradedUse& other : built.foam->others) {
-            if (other.key == "foam.wall") pitch = std::min(pitch, least_of(other, built.job.bounds) / 6);
+            if (other.key == "foam.wall") pitch = std::min(pitch, least_of(other, built.designed.bounds) / 6);
         }
     }
     return std::min(std::max(pitch, suited.lo), suited.hi);
@@ -68,23 +70,30 @@ BuiltJob build_job(const Recipe& recipe) {
     BuiltJob built;
     Gradings gradings(recipe);
     built.body = build_body(recipe, gradings, built.mesh);
-    Job& job = built.job;
+    Job& job = built.designed;
     job.bounds = built.body->bounds();
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
     job.part = part_of(recipe, built, gradings);
+    built.outside = built.body;
+    if (recipe.skin && recipe.skin->side != SkinSide::inside) {
+        built.outside = make_union({built.body, job.part});
+        job.bounds = built.outside->bounds();
+    }
     job.name = recipe.part.name;
-    job.layer_height = recipe.layer_height;
-    job.layer_count = layers_of(job.bounds, recipe.layer_height);
+    job.layer_height = designed_layer_height(recipe);
+    job.layer_count =
+        layers_of(job.bounds.size().z * (recipe.layer_height / job.layer_height), recipe.layer_height);
     job.identity = job_identity(recipe);
+    built.job = make_processed(recipe, job);
     return built;
 }
 
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options) {
     const bool given = recipe.foam && recipe.foam->islands_pitch > 0;
-    const Interval suited = island_pitches(built.job);
+    const Interval suited = island_pitches(built.designed);
     options.pitch = given ? recipe.foam->islands_pitch : survey_pitch(built, suited);
     if (!suited.contains(options.pitch)) {
         throw InputError(
@@ -92,9 +101,11 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
                         "accepted: {:.4g} to {:.4g} mm, the latter being 16 layers",
                         options.pitch, suited.lo, suited.hi));
     }
-    IslandSurvey survey = survey_islands(built.job, built.body, options);
+    IslandSurvey survey = survey_islands(built.designed, built.outside, options);
     built.islands = std::move(survey.report);
-    if (!survey.dropped->empty()) built.job.part = make_without_islands(built.job.part, survey.dropped);
+    if (survey.dropped->empty()) return;
+    built.designed.part = make_without_islands(built.designed.part, survey.dropped);
+    built.job = make_processed(recipe, built.designed);
 }
 
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {

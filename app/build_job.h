@@ -12,8 +12,10 @@
 namespace lamella {
 
 struct BuiltJob {
-    Job job;
-    FieldPtr body;                        ///< the part's outside, without foam and skin
+    Job job;                              ///< what is printed
+    Job designed;                         ///< the same before [process], layers cut alike
+    FieldPtr body;                        ///< what the recipe's part is, without foam and skin
+    FieldPtr outside;                     ///< the body, with a skin that lies outside it
     std::optional<BuiltFoam> foam;        ///< empty without foam
     std::optional<GradedUse> skin;        ///< empty where the skin's thickness does not vary
     std::optional<MeshReport> mesh;       ///< empty for shapes and fields

@@ -80,7 +80,7 @@ void run(const DumpOptions& options) {
     if (has_body) {
         BuiltJob built = build_job(recipe);
         foam = std::move(*built.foam);
-        if (!box) box = built.job.bounds;
+        if (!box) box = built.designed.bounds;
     } else {
         foam = build_foam_alone(recipe, *box);
     }

@@ -90,7 +90,7 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
               {"layer_height_mm", job.layer_height},
               {"layers", job.layer_count}};
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
-    if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, job.bounds);
+    if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
     if (recipe.skin) info["skin"] = {{"thickness_mm", graded_json(recipe.skin->thickness)}};
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
     if (built.islands) info["islands"] = islands_json(*built.islands);

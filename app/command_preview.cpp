@@ -60,7 +60,8 @@ void run(PreviewCommand& options) {
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
-    save(render_preview(*built.job.part, built.job.bounds, options.picture), path);
+    // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
+    save(render_preview(*built.designed.part, built.designed.bounds, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(

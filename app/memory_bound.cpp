@@ -38,12 +38,12 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
                            static_cast<std::int64_t>(built.mesh->vertices * sizeof(dvec3));
     }
     if (built.foam && built.foam->beams_touching) {
-        const FoamStatistics foam = foam_statistics(*built.foam, built.job.bounds);
+        const FoamStatistics foam = foam_statistics(*built.foam, built.designed.bounds);
         const double seeds_per_mm = size.x * size.y * foam.densest_plane;  // per mm of height
         const double met = beam_length_per_cell / std::cbrt(foam.densest_plane) / 2 + 2 * foam.mean_member;
         bound.beams_per_layer = seeds_per_mm * beams_per_seed / 2 * met;
         const double reach =
-            bound.layers_in_flight * built.job.layer_height + reach_in_cells * foam.greatest_cell;
+            bound.layers_in_flight * built.designed.layer_height + reach_in_cells * foam.greatest_cell;
         bound.cell_bytes = static_cast<std::int64_t>(
             seeds_per_mm * std::min(reach, size.z + 2 * foam.greatest_cell) * bytes_per_seed);
     }

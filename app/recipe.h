@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/geometry.h"
+#include "engine/shell.h"
 #include "printers/profile.h"
 #include "procedural/attractors.h"
 
@@ -131,9 +132,18 @@ struct FrameRecipe {
 };
 
 struct SkinRecipe {
-    GradedNumber thickness;    ///< mm, inward from the surface
+    GradedNumber thickness;    ///< mm
     double thickness_min = 0;  ///< the range of a graded thickness, mm
     double thickness_max = 1000;
+    SkinSide side = SkinSide::inside;  ///< of the body's surface
+};
+
+/// What makes up for the way a machine prints.
+struct ProcessRecipe {
+    dvec3 scale{1};  ///< of the finished part along x, y, z: about its middle, from its lowest point
+    double xy_compensation = 0;             ///< by which every layer's outline grows, mm; negative: shrinks
+    double elephant_foot = 0;               ///< by which the first layer's outline is drawn in, mm
+    std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
 };
 
 /// What is written besides the layers.
@@ -151,6 +161,7 @@ struct Recipe {
     std::optional<FoamRecipe> foam;
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
+    std::optional<ProcessRecipe> process;
     double layer_height = 0.05;  ///< mm
     OutputRecipe output;
     PrinterProfile printer;

@@ -343,6 +343,12 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
     }
+    if (const Entry* layers = entry("process", "elephant_foot_layers");
+        layers && recipe.process->elephant_foot == 0) {
+        refuse(0, fmt::format("{}: no layer is drawn in; accepted: process.elephant_foot / --elephant-foot "
+                              "above 0 with it",
+                              layers->where));
+    }
     if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
         refuse(0, fmt::format(
                       "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",

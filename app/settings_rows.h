@@ -14,11 +14,19 @@ namespace lamella {
 const std::vector<std::string>& words(Shape);
 const std::vector<std::string>& words(LengthUnit);
 const std::vector<std::string>& words(Falloff);
+const std::vector<std::string>& words(SkinSide);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 
 /// The rows of the [frame] section.
 void add_frame_settings(std::vector<Setting>& table);
+
+/// The row of the skin's side.
+void add_skin_side_setting(std::vector<Setting>& table);
+
+/// The rows of the [process] section.
+void add_process_settings(std::vector<Setting>& table);
+
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
 
@@ -120,7 +128,9 @@ Setting optional_row(std::string section, std::string key, std::string flag, Fac
     Setting s = described<Held>(std::move(section), std::move(key), std::move(flag), std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         auto& whole = r.*optional;
-        (whole ? *whole : whole.emplace()).*member = from_value<Held>(value);
+        // Not as one expression with ?:, for g++ 12 stores into a copy of plain structures.
+        if (!whole) whole.emplace();
+        (*whole).*member = from_value<Held>(value);
     };
     s.load = [](const Recipe& r, std::size_t) {
         const Whole absent;

@@ -316,7 +316,7 @@ void add_skin_and_layers(std::vector<Setting>& t) {
         {.unit = "mm",
          .limits = {0, 1000},
          .fallback = "required in [skin]",
-         .help = "Thickness of the closed skin, inward from the surface; 0 for none."}));
+         .help = "Thickness of the closed skin; 0 for none."}));
     t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_min>(
         "skin", "thickness_min", "--skin-min",
         {.unit = "mm",
@@ -330,6 +330,7 @@ void add_skin_and_layers(std::vector<Setting>& t) {
          .fallback = format_value(SkinRecipe{}.thickness_max),
          .help = "Greatest thickness that is made: a graded skin is kept below it, and has it where the "
                  "formula has no number."}));
+    add_skin_side_setting(t);
     t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
         "layers", "height", "--layer-height",
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
@@ -359,6 +360,7 @@ std::vector<Setting> make_table() {
     add_foam(table);
     add_frame_settings(table);
     add_skin_and_layers(table);
+    add_process_settings(table);
     add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
@@ -412,8 +414,9 @@ std::span<const Section> sections() {
         {"foam", "foam inside the body; without this section the part has none"},
         {"frame",
          "beams along the surface that the foam grows out of; without this section the part has none"},
-        {"skin", "closed skin under the body's surface; without this section the part has none"},
+        {"skin", "closed skin at the body's surface; without this section the part has none"},
         {"layers", "how the part is cut"},
+        {"process", "what makes up for the way a machine prints"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};
     return list;

@@ -70,6 +70,9 @@ class Field : public std::enable_shared_from_this<Field> {
     /// The same with a thickness that varies (mm, >= 0, its range finite); null where there is no closed
     /// form, as by default.
     virtual FieldPtr graded_shell(const Grading& thickness) const;
+    /// The other side of it: a field that, outside this solid, is solid exactly within a thickness that
+    /// varies over the surface (inside it may be anything).
+    virtual FieldPtr graded_outer_shell(const Grading& thickness) const;
     /// The solid in the plane at height z, owned by the context. The default samples `value`.
     /// Callers use SliceContext::slice, which works each pair (field, z) out once.
     virtual const SliceField& slice(SliceContext& context, double z) const;

@@ -105,10 +105,10 @@ GrownMesh::GrownMesh(std::shared_ptr<const SolidMesh> solid, double distance, bo
 }
 
 GrownMesh::GrownMesh(std::shared_ptr<const SolidMesh> solid, std::vector<double> radii,
-                     const RoundTriangleTree& tree)
+                     const RoundTriangleTree& tree, bool inside_only)
     : solid_(std::move(solid)), radii_(std::move(radii)), whole_count_(mesh().triangles.size()) {
     index_triangles();
-    if (!solid_->oriented_manifold) {
+    if (!inside_only || !solid_->oriented_manifold) {
         keep_edges([](std::span<const HalfEdge>) { return true; });
         return;
     }

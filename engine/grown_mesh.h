@@ -22,8 +22,8 @@ class GrownMesh {
     /// oriented manifold, a convex edge's beam lies within the wedges of its two triangles, so only reflex
     /// edges are kept.
     GrownMesh(std::shared_ptr<const SolidMesh> solid, double distance, bool inside_only);
-    /// Grows inward by a radius at each vertex, mm, >= 0; for the part inside the solid only. `tree` is that
-    /// of the same mesh and radii.
+    /// Grows by a radius at each vertex, mm, >= 0. `tree` is that of the same mesh and radii; inside_only: as
+    /// above.
     ///
     /// Inside an oriented manifold an inner wedge a triangle is enough, and the beams of edges that are
     /// reflex or between whose inner wedges there is a gap. For let x be the point of the surface whose ball
@@ -33,7 +33,7 @@ class GrownMesh {
     /// unless some point of the surface is so near to x that its smaller radius makes p deeper there: where a
     /// radius exceeds another by more than their distance, both sides and all edges are kept.
     GrownMesh(std::shared_ptr<const SolidMesh> solid, std::vector<double> radii,
-              const RoundTriangleTree& tree);
+              const RoundTriangleTree& tree, bool inside_only);
 
     const TriangleMesh& mesh() const { return solid_->mesh; }
     /// How many edges are kept, and for how many triangles both sides.

@@ -76,15 +76,14 @@ class GrownMeshField : public Field {
     GrownMesh grown_;
 };
 
-/// Everything within a distance of a mesh's surface that varies over it; only the part inside the mesh
-/// counts.
+/// Everything within a distance of a mesh's surface that varies over it.
 class GradedMeshShell : public Field {
   public:
-    GradedMeshShell(const SolidMesh& solid, GradedMesh graded)
+    GradedMeshShell(const SolidMesh& solid, GradedMesh graded, bool inside_only)
         : solid_(std::make_shared<const SolidMesh>(divided(solid, std::move(graded.mesh)))),
           radii_(graded.numbers),
           tree_(solid_->mesh, radii_),
-          grown_(solid_, std::move(graded.numbers), tree_) {}
+          grown_(solid_, std::move(graded.numbers), tree_, inside_only) {}
     double value(dvec3 p) const override { return tree_.distance(p); }
     Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
     Metric metric() const override { return Metric::bound; }
@@ -130,11 +129,9 @@ class MeshField : public Field {
     FieldPtr shell(double thickness) const override {
         return std::make_shared<GrownMeshField>(data_, thickness, true);
     }
-    FieldPtr graded_shell(const Grading& thickness) const override {
-        GradedMesh graded = read_on_mesh(thickness, data_->solid->mesh);
-        const auto& radii = graded.numbers;
-        if (std::all_of(radii.begin(), radii.end(), [](double r) { return r == 0; })) return make_empty();
-        return std::make_shared<GradedMeshShell>(*data_->solid, std::move(graded));
+    FieldPtr graded_shell(const Grading& thickness) const override { return graded_band(thickness, true); }
+    FieldPtr graded_outer_shell(const Grading& thickness) const override {
+        return graded_band(thickness, false);
     }
     const SliceField& slice(SliceContext& context, double z) const override {
         return context.make<MeshSlice>(*this, *data_, z);
@@ -142,6 +139,13 @@ class MeshField : public Field {
     Box bounds() const override { return data_->bounds; }
 
   private:
+    FieldPtr graded_band(const Grading& thickness, bool inside_only) const {
+        GradedMesh graded = read_on_mesh(thickness, data_->solid->mesh);
+        const auto& radii = graded.numbers;
+        if (std::all_of(radii.begin(), radii.end(), [](double r) { return r == 0; })) return make_empty();
+        return std::make_shared<GradedMeshShell>(*data_->solid, std::move(graded), inside_only);
+    }
+
     MeshDataPtr data_;
 };
 

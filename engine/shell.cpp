@@ -101,6 +101,48 @@ class GradedShell : public Field {
     GradingPtr thickness_;
 };
 
+/// What lies, outside a body with exact distances, no farther than the thickness asked for there.
+class GradedOuterShell : public Field {
+  public:
+    GradedOuterShell(FieldPtr body, GradingPtr thickness, double greatest)
+        : body_(std::move(body)), thickness_(std::move(thickness)), greatest_(greatest) {}
+    double value(dvec3 p) const override { return body_->value(p) - thickness_->at(p); }
+    Interval range(const Box& box) const override {
+        const Interval values = body_->range(box), thickness = thickness_->range(box);
+        return {values.lo - thickness.hi, values.hi - thickness.lo};
+    }
+    Metric metric() const override { return Metric::sign; }
+    Box bounds() const override { return grown(body_->bounds(), greatest_); }
+
+  private:
+    FieldPtr body_;
+    GradingPtr thickness_;
+    double greatest_;
+};
+
+/// Encloses the thickness in reach of a body: what is solid lies within the greatest thickness of the box,
+/// which bounds the places where the thickness is asked for, and so the greatest thickness.
+Interval thickness_about(const Box& body, const Grading& thickness, Interval limits) {
+    constexpr int rounds = 8;
+    Interval asked = limits;
+    for (int round = 0; round < rounds; ++round) asked = tight_range(thickness, grown(body, asked.hi));
+    return asked;
+}
+
+/// Half of a thickness.
+class Half : public Grading {
+  public:
+    explicit Half(GradingPtr whole) : whole_(std::move(whole)) {}
+    double at(dvec3 p) const override { return whole_->at(p) / 2; }
+    Interval range(const Box& box) const override {
+        const Interval r = whole_->range(box);
+        return {r.lo / 2, r.hi / 2};
+    }
+
+  private:
+    GradingPtr whole_;
+};
+
 /// The thickness kept within limits; InputError when there is none, or limits that make no skin.
 GradingPtr thickness_within(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
     if (!body || !thickness) throw InputError("a graded skin needs a body and a thickness");
@@ -120,6 +162,7 @@ GradingPtr thickness_within(const FieldPtr& body, const GradingPtr& thickness, I
 }  // namespace
 
 FieldPtr Field::graded_shell(const Grading& /*thickness*/) const { return nullptr; }
+FieldPtr Field::graded_outer_shell(const Grading& /*thickness*/) const { return nullptr; }
 
 FieldPtr Field::shell(double thickness) const {
     FieldPtr core = offset(-thickness);
@@ -144,10 +187,35 @@ FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval 
     return std::make_shared<GradedShell>(body, clamped);
 }
 
-FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
+FieldPtr make_outer_shell(const FieldPtr& body, double thickness) {
+    if (!(thickness > 0) || !std::isfinite(thickness))
+        throw InputError("a skin needs a positive, finite thickness");
+    if (FieldPtr grown = body->offset(thickness)) return grown;
+    if (body->metric() != Metric::exact) refuse_skin();
+    return make_offset(body, thickness);
+}
+
+FieldPtr make_outer_shell(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
+    const GradingPtr clamped = thickness_within(body, thickness, limits);
+    if (const auto constant = clamped->constant())
+        return *constant > 0 ? make_outer_shell(body, *constant) : make_empty();
+    if (FieldPtr shell = body->graded_outer_shell(*clamped)) return shell;
+    if (body->metric() != Metric::exact) refuse_skin();
+    const Interval asked = thickness_about(body->bounds(), *clamped, limits);
+    if (asked.hi == 0) return make_empty();
+    return std::make_shared<GradedOuterShell>(body, clamped, asked.hi);
+}
+
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness, SkinSide side) {
     const bool skinned = thickness > 0;
     if (!body || (!filling && !skinned))
         throw InputError("a filled body needs a body, and a filling or a skin");
+    if (skinned && side != SkinSide::inside) {
+        const double inner = side == SkinSide::centred ? thickness / 2 : 0;
+        FieldPtr skin = make_difference(make_outer_shell(body, thickness - inner), body);
+        if (!filling && inner == 0) return skin;
+        return make_union({make_filled_body(std::move(body), std::move(filling), inner), std::move(skin)});
+    }
     FieldPtr shell = skinned ? make_shell(body, thickness) : nullptr;
     if (!filling) return make_intersection({std::move(body), std::move(shell)});
     FieldPtr inside = skinned ? make_union({filling, std::move(shell)}) : filling;
@@ -155,7 +223,20 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness) {
     return std::make_shared<FilledBody>(std::move(body), std::move(filling), thickness, std::move(solid));
 }
 
-FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness, Interval limits) {
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness, Interval limits,
+                          SkinSide side) {
+    if (side == SkinSide::outside) {
+        FieldPtr skin = make_difference(make_outer_shell(body, thickness, limits), body);
+        if (!filling) return skin;
+        return make_union({make_intersection({std::move(body), std::move(filling)}), std::move(skin)});
+    }
+    if (side == SkinSide::centred) {
+        const auto half = std::make_shared<Half>(thickness_within(body, thickness, limits));
+        limits = {limits.lo / 2, limits.hi / 2};
+        FieldPtr skin = make_difference(make_outer_shell(body, half, limits), body);
+        return make_union(
+            {make_filled_body(std::move(body), std::move(filling), half, limits), std::move(skin)});
+    }
     const Interval asked = thickness_within(body, thickness, limits)->range(body->bounds());
     if (asked.width() == 0) return make_filled_body(std::move(body), std::move(filling), asked.hi);
     FieldPtr shell = make_shell(body, thickness, limits);

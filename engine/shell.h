@@ -6,6 +6,9 @@
 
 namespace lamella {
 
+/// Where the skin of a body lies: under its surface, on it, or half and half.
+enum class SkinSide : std::uint8_t { inside, outside, centred };
+
 /// A field that, inside the body, is solid exactly where the surface is at most `thickness` mm away (true 3D
 /// distance). Outside the body it may be solid too: intersect it with the body. InputError for a body without
 /// a closed-form offset.
@@ -18,12 +21,22 @@ FieldPtr make_shell(const FieldPtr& body, double thickness);
 /// thickness is read at the point in question. InputError for other bodies.
 FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
 
-/// The body filled: its part that is in the filling or within `thickness` mm of its surface. The filling may
-/// be null (a hollow body), the thickness 0 (no skin); not both.
-FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness);
+/// The other side: a field that, outside the body, is solid exactly where the surface is at most `thickness`
+/// mm away. Inside the body it may be solid too. InputError for a body without a closed-form offset.
+FieldPtr make_outer_shell(const FieldPtr& body, double thickness);
 
-/// The body filled, with a shell of varying thickness; the filling may be null.
+/// The other side of a shell whose thickness varies; read, limited and refused as there.
+FieldPtr make_outer_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
+
+/// The body filled, under a skin: its part that is in the filling or within `thickness` mm of its surface.
+/// The filling may be null (a hollow body), the thickness 0 (no skin); not both. With a skin outside, the
+/// body's part that is in the filling, and what lies outside the body within `thickness` mm of it; with a
+/// centred one, half the thickness on either side.
+FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness,
+                          SkinSide side = SkinSide::inside);
+
+/// The body filled, with a skin of varying thickness; the filling may be null.
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness,
-                          Interval thickness_limits);
+                          Interval thickness_limits, SkinSide side = SkinSide::inside);
 
 }  // namespace lamella

@@ -8,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/formula_field.h"
 #include "engine/formula_parser.h"
+#include "engine/in_plane_offset.h"
 #include "engine/mesh_field.h"
 #include "engine/primitives.h"
 #include "engine/shell.h"
@@ -16,6 +17,7 @@
 #include "procedural/closed_foam.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
+#include "procedural/voronoi_foam.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
 
@@ -33,6 +35,12 @@ FieldPtr with_islands_dropped(FieldPtr box) {
         runs.push_back({layer, 18, 100, 1200});
     }
     return make_without_islands(std::move(box), std::make_shared<DroppedIslands>(grid, std::move(runs)));
+}
+
+/// Moved in three steps, the first of which is none.
+FieldPtr with_moved_outline(FieldPtr solid, double most) {
+    const auto by = [most](double z) { return z < -0.5 ? 0 : z < 0.5 ? most / 2 : most; };
+    return make_in_plane_offset(std::move(solid), {by, {std::min(most, 0.0), std::max(most, 0.0)}}, 0.03);
 }
 
 struct Named {
@@ -143,6 +151,13 @@ std::vector<Named> all_fields() {
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
         {"box without islands", with_islands_dropped(box)},
+        {"outline that grows with height", with_moved_outline(torus, 0.2)},
+        {"outline that shrinks with height", with_moved_outline(make_difference(box, cone), -0.15)},
+        {"box under an outer skin", make_filled_body(box, torus, 0.3, SkinSide::outside)},
+        {"mesh under a centred skin", make_filled_body(mesh, cone, 0.3, SkinSide::centred)},
+        {"mesh under a graded outer skin", make_filled_body(mesh, cone, graded, {0, 1}, SkinSide::outside)},
+        {"ball under a graded centred skin",
+         make_filled_body(sphere, torus, graded, {0.1, 1}, SkinSide::centred), true},
         {"union", make_union({box, cone, torus})},
         {"intersection", make_intersection({sphere, box, cone})},
         {"difference", make_difference(box, torus)},

@@ -1,0 +1,20 @@
+// From a designed part to the part as it is printed: scaled, and its outlines moved.
+#pragma once
+
+#include "app/recipe.h"
+#include "engine/layer.h"
+
+namespace lamella {
+
+/// The height in the designed part of a layer of the printed one, mm.
+double designed_layer_height(const Recipe& recipe);
+
+/// The job to print: the designed one under the recipe's [process]. Layers are cut where those of the
+/// designed job are.
+///
+/// The scale is about the middle of the bounds in x and y and about their lowest z, so the part stays where
+/// it stood; foam, skin and everything else scale with it. Then each layer's outline is moved, in mm as
+/// printed.
+Job make_processed(const Recipe& recipe, const Job& designed);
+
+}  // namespace lamella
