@@ -23,15 +23,16 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     if (!recipe.skin) return make_filled_body(built.body, foam, 0);
     const GradedNumber& thickness = recipe.skin->thickness;
     try {
-        if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number());
+        const bool varies = thickness.is_formula() || !gradings.overrides("skin.thickness").empty();
+        if (!varies) return make_filled_body(built.body, foam, thickness.number());
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
         return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits);
     } catch (const PlacedError&) {
         throw;
     } catch (const InputError& error) {
-        throw InputError(thickness.where + ": " + error.what() +
-                         "; accepted: a mesh, or another shape than this one");
+        throw InputError((thickness.where.empty() ? "skin.thickness" : thickness.where) + ": " +
+                         error.what() + "; accepted: a mesh, or another shape than this one");
     }
 }
 
@@ -73,8 +74,10 @@ BuiltJob build_job(const Recipe& recipe) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
+    built.regions = build_regions(recipe, job.bounds, gradings);
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
-    job.part = part_of(recipe, built, gradings);
+    job.part =
+        with_regions(part_of(recipe, built, gradings), built.body, recipe.foam || recipe.skin, built.regions);
     job.name = recipe.part.name;
     job.layer_height = recipe.layer_height;
     job.layer_count = layers_of(job.bounds, recipe.layer_height);
@@ -99,6 +102,7 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
 
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {
     Gradings gradings(recipe);
+    build_regions(recipe, region, gradings);
     return build_foam(*recipe.foam, region, gradings);
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/build_body.h"
 #include "app/build_foam.h"
+#include "app/build_regions.h"
 #include "app/recipe.h"
 #include "engine/island_survey.h"
 #include "engine/layer.h"
@@ -13,10 +14,11 @@ namespace lamella {
 
 struct BuiltJob {
     Job job;
-    FieldPtr body;                        ///< the part's outside, without foam and skin
-    std::optional<BuiltFoam> foam;        ///< empty without foam
-    std::optional<GradedUse> skin;        ///< empty where the skin's thickness does not vary
-    std::optional<MeshReport> mesh;       ///< empty for shapes and fields
+    FieldPtr body;                   ///< the part's outside, without foam and skin
+    std::optional<BuiltFoam> foam;   ///< empty without foam
+    std::optional<GradedUse> skin;   ///< empty where the skin's thickness does not vary
+    std::optional<MeshReport> mesh;  ///< empty for shapes and fields
+    BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
 };
 
