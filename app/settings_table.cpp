@@ -325,9 +325,9 @@ std::vector<Setting> make_table() {
     add_part(table);
     add_field_settings(table);
     add_gradings(table);
-    add_region_settings(table);
     add_foam(table);
     add_skin_and_layers(table);
+    add_region_settings(table);
     add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
@@ -378,10 +378,10 @@ std::span<const Section> sections() {
          [](const Recipe& r) { return r.fields.size(); }},
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
-        {"region", "a part of the body that is made otherwise; later ones win",
-         [](const Recipe& r) { return r.regions.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
         {"skin", "closed skin under the body's surface; without this section the part has none"},
+        {"region", "a part of the body that is made otherwise; later ones win",
+         [](const Recipe& r) { return r.regions.size(); }},
         {"layers", "how the part is cut"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};

@@ -93,7 +93,28 @@ class SurfaceSlopes {
     double greatest_ = 0;
 };
 
-/// Another field with values divided by a number.
+class DividedSlice : public SliceField {
+  public:
+    DividedSlice(const SliceField& slice, double divisor) : slice_(slice), divisor_(divisor) {}
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+        slice_.spans(band, scratch, out);
+    }
+    Interval range(const Rect& r) const override {
+        const Interval all = slice_.range(r);
+        return {all.lo / divisor_, all.hi / divisor_};
+    }
+    void sample(const Tile& tile, std::span<float> out) const override {
+        slice_.sample(tile, out);
+        for (float& v : out) v = static_cast<float>(v / divisor_);
+    }
+    Rect bounds() const override { return slice_.bounds(); }
+
+  private:
+    const SliceField& slice_;
+    double divisor_;
+};
+
+/// Another field with values divided by a number; the solid is the same.
 class Divided : public Field {
   public:
     Divided(FieldPtr field, double divisor) : field_(std::move(field)), divisor_(divisor) {}
@@ -103,9 +124,8 @@ class Divided : public Field {
         return {r.lo / divisor_, r.hi / divisor_};
     }
     Metric metric() const override { return field_->metric(); }
-    /// The solid is the same.
     const SliceField& slice(SliceContext& context, double z) const override {
-        return context.slice(*field_, z);
+        return context.make<DividedSlice>(context.slice(*field_, z), divisor_);
     }
     Box bounds() const override { return field_->bounds(); }
 

@@ -111,5 +111,5 @@ TEST_CASE("keys that a kind of field does not have, or lacks, are named") {
                    "field.height: 3 mm is less than the two round ends of radius 2 mm; accepted: 4 mm"));
     CHECK(mentions(complaint(begin + "kind = \"torus\"\nradius = 2\ntube = 2\n"), "field.tube: 2 mm closes"));
     CHECK(mentions(complaint(begin + "kind = \"mesh\"\nfile = \"models/none.stl\"\n"), "none.stl"));
-    CHECK(mentions(complaint(begin + "kind = \"ball\"\n"), "accepted: formula, vm, mesh, sphere"));
+    CHECK(mentions(complaint(begin + "kind = \"ball\"\n"), "accepted: one of formula, vm, mesh, sphere"));
 }

@@ -60,7 +60,8 @@ TEST_CASE("a region must say what it makes, and of which field") {
                    "region.make: missing, [[region]] needs it"));
     CHECK(mentions(complaint(foam + "[[region]]\nmake = \"solid\"\n"),
                    "region.field: missing, make solid needs it"));
-    CHECK(mentions(complaint(foam + region("heel", "\"hollow\"")), "accepted: solid, empty, foam, skin"));
+    CHECK(mentions(complaint(foam + region("heel", "\"hollow\"")),
+                   "accepted: one of solid, empty, foam, skin"));
 }
 
 TEST_CASE("keys that belong to another kind of region are refused by name") {
