@@ -25,9 +25,15 @@ Interval smooth_min(Interval a, Interval b, double radius) {
     return {lo - rounding(lo), hi + rounding(hi)};
 }
 
+/// A convex mean of two gradients of length at most 1 is no longer.
+Metric metric_of(const Field& a, const Field& b) {
+    return a.metric() == Metric::sign || b.metric() == Metric::sign ? Metric::sign : Metric::bound;
+}
+
 /// What a smooth union has, or a smooth difference lacks, besides its operands' own runs: the smooth minimum
 /// of a value and a tool's, where it is below zero at most `radius` outside the tool. The minimum is below
-/// zero outside both only where neither exceeds the radius; a is not asked elsewhere.
+/// zero outside both only where neither exceeds the radius, so a is not asked elsewhere. Farther outside the
+/// value is the distance to where it may be; the jump on the way lies inside a, or proves nothing wrong.
 class Seam : public Field {
   public:
     Seam(const Field& a, bool inverted, const Field& tool, double radius)
@@ -35,22 +41,22 @@ class Seam : public Field {
 
     double value(dvec3 p) const override {
         const double tool = tool_.value(p);
-        if (tool < 0) return -radius_;
-        if (!(tool < radius_)) return radius_;
+        if (!(tool < radius_)) return tool - radius_;
+        if (tool <= -radius_) return tool;
         const double a = a_.value(p);
         return smooth_min(inverted_ ? -a : a, tool, radius_);
     }
     Interval range(const Box& box) const override {
         const Interval tool = tool_.range(box);
-        if (tool.hi < 0) return {-radius_, -radius_};
-        if (tool.lo >= radius_) return {radius_, radius_};
-        const Interval a = a_.range(box), near{std::max(tool.lo, 0.0), std::min(tool.hi, radius_)};
+        if (tool.hi < 0) return {tool.lo - radius_ * 0.25, tool.hi};
+        if (tool.lo >= radius_) return {tool.lo - radius_, tool.hi - radius_};
+        const Interval a = a_.range(box), near{tool.lo, std::min(tool.hi, radius_)};
         Interval all = smooth_min(inverted_ ? Interval{-a.hi, -a.lo} : a, near, radius_);
-        if (tool.lo < 0) all = {std::min(all.lo, -radius_), std::max(all.hi, -radius_)};
-        if (tool.hi >= radius_) all = {std::min(all.lo, radius_), std::max(all.hi, radius_)};
+        if (tool.lo <= -radius_) all.hi = std::max(all.hi, -radius_);
+        if (tool.hi >= radius_) all = {std::min(all.lo, 0.0), std::max(all.hi, tool.hi - radius_)};
         return all;
     }
-    Metric metric() const override { return Metric::sign; }
+    Metric metric() const override { return metric_of(a_, tool_); }
     /// A tool whose value only bounds the distance may be less than the radius farther away.
     Box bounds() const override {
         const Box everywhere{dvec3(-infinity), dvec3(infinity)};
@@ -91,8 +97,7 @@ class SmoothSlice : public SampledSlice {
     const SliceField& seam_;
 };
 
-/// A union or difference with the tool. Its metric follows from the slopes: a convex mean of two gradients of
-/// length at most 1 stays a bound, which exact operands promise and `bound` ones do not.
+/// A union or difference with the tool.
 template <bool is_union>
 class SmoothSolid : public Field {
   public:
@@ -113,10 +118,7 @@ class SmoothSolid : public Field {
         const Interval less = smooth_min(Interval{-a.hi, -a.lo}, tool, radius_);
         return {-less.hi, a.hi == infinity ? infinity : -less.lo};
     }
-    Metric metric() const override {
-        const bool exact = a_->metric() == Metric::exact && tool_->metric() == Metric::exact;
-        return exact ? Metric::bound : Metric::sign;
-    }
+    Metric metric() const override { return metric_of(*a_, *tool_); }
     const SliceField& slice(SliceContext& context, double z) const override {
         return context.make<SmoothSlice<is_union>>(*this, context.slice(*a_, z), context.slice(*tool_, z),
                                                    context.slice(*seam_, z), z);

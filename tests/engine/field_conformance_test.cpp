@@ -181,6 +181,23 @@ dvec3 position(const RowBand& band, double u, int line, double z) {
 
 }  // namespace
 
+TEST_CASE("values that bound distances change by at most 1 per mm") {
+    const unsigned seed = 17;
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-4, 4), step(-1, 1);
+    for (const Named& named : all_fields()) {
+        if (named.field->metric() == Metric::sign) continue;
+        INFO(named.name);
+        for (int i = 0; i < 3000; ++i) {
+            const dvec3 p(place(random), place(random), place(random));
+            const dvec3 q = p + dvec3(step(random), step(random), step(random)) * (i % 2 == 0 ? 1e-3 : 0.3);
+            const double change = std::abs(named.field->value(q) - named.field->value(p));
+            REQUIRE(change <= glm::distance(p, q) * (1 + 1e-9) + 1e-9);
+        }
+    }
+}
+
 TEST_CASE("runs are solid exactly where the value is negative") {
     const unsigned seed = 11;
     INFO("seed " << seed);
