@@ -148,6 +148,14 @@ struct FoamRecipe {
     double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
 };
 
+/// Beams where the foam's Voronoi faces meet the surface.
+struct FrameRecipe {
+    GradedNumber beam;        ///< radius, mm
+    double beam_min = 0.005;  ///< the printable range of a graded radius, mm
+    double beam_max = 500;
+    bool interior = true;  ///< whether the foam itself is made, too
+};
+
 struct SkinRecipe {
     GradedNumber thickness;    ///< mm, inward from the surface
     double thickness_min = 0;  ///< the range of a graded thickness, mm
@@ -168,6 +176,7 @@ struct Recipe {
     std::vector<GradingRecipe> gradings;
     std::vector<RegionRecipe> regions;
     std::optional<FoamRecipe> foam;
+    std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
     double layer_height = 0.05;  ///< mm
     OutputRecipe output;

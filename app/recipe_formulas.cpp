@@ -120,6 +120,7 @@ class FormulaCheck {
                 check_formula({number, true, number != &recipe_.foam->cell});
             }
         }
+        if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
         if (recipe_.skin) check_formula({&recipe_.skin->thickness});
         for (const RegionRecipe& region : recipe_.regions) {
             for (const RegionNumber& given : numbers_of(region)) {
@@ -270,6 +271,7 @@ std::string unused_entries(const Recipe& recipe) {
     if (recipe.foam) {
         for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
     }
+    if (recipe.frame) open.push_back(&recipe.frame->beam);
     if (recipe.skin) open.push_back(&recipe.skin->thickness);
     while (!open.empty()) {
         const GradedNumber* number = open.back();

@@ -22,6 +22,9 @@ const std::vector<std::string>& words(Antialiasing);
 void add_field_settings(std::vector<Setting>& table);
 void add_region_settings(std::vector<Setting>& table);
 
+/// The rows of the [frame] section.
+void add_frame_settings(std::vector<Setting>& table);
+
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
 

@@ -326,6 +326,7 @@ std::vector<Setting> make_table() {
     add_field_settings(table);
     add_gradings(table);
     add_foam(table);
+    add_frame_settings(table);
     add_skin_and_layers(table);
     add_region_settings(table);
     add_output(table);
@@ -379,6 +380,8 @@ std::span<const Section> sections() {
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
+        {"frame",
+         "beams along the surface that the foam grows out of; without this section the part has none"},
         {"skin", "closed skin under the body's surface; without this section the part has none"},
         {"region", "a part of the body that is made otherwise; later ones win",
          [](const Recipe& r) { return r.regions.size(); }},
