@@ -17,6 +17,7 @@
 #include "procedural/field_slope.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
+#include "procedural/voronoi_foam.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
 
