@@ -14,6 +14,7 @@
 #include "engine/formula_parser.h"
 #include "procedural/attractors.h"
 #include "procedural/attribute_grading.h"
+#include "procedural/region_grading.h"
 #include "procedural/table_grading.h"
 #include "procedural/volume_grading.h"
 
@@ -133,6 +134,15 @@ GradingPtr Gradings::of(const GradedNumber& number, const std::map<std::string, 
     return make_formula_grading(std::move(graded.formula), std::move(graded.others));
 }
 
+void Gradings::override_number(const std::string& key, RegionalNumber number) {
+    overrides_[key].push_back(std::move(number));
+}
+
+std::span<const RegionalNumber> Gradings::overrides(const std::string& key) const {
+    const auto found = overrides_.find(key);
+    return found == overrides_.end() ? std::span<const RegionalNumber>() : found->second;
+}
+
 namespace {
 
 /// The key of the recipe that limits another one from above; null where there is none.
@@ -165,9 +175,15 @@ GradedUse graded(const std::string& key, const GradedNumber& number, Interval li
                  const std::map<std::string, GradingPtr>& more) {
     const Setting* setting = find_setting(key.substr(0, key.find('.')), key.substr(key.find('.') + 1));
     GradedUse use{key, gradings.of(number, more), nullptr, limits, setting ? setting->unit : ""};
+    std::string where = number.where;
+    for (const RegionalNumber& other : gradings.overrides(key)) {
+        if (!number.is_formula() && other.number.is_formula()) where = other.number.where;
+        use.asked =
+            make_region_grading(use.asked, gradings.of(other.number, more), other.region, other.blend);
+    }
     use.made = use.asked;
-    if (!number.is_formula()) return use;
-    if (gradings.body()) use.limits.hi = greatest_of(use, number.where, *gradings.body());
+    if (!number.is_formula() && gradings.overrides(key).empty()) return use;
+    if (gradings.body()) use.limits.hi = greatest_of(use, where, *gradings.body());
     use.made = make_clamped_grading(use.asked, use.limits);
     return use;
 }

@@ -33,6 +33,13 @@ struct GradedUse {
     std::string unit;  ///< of the numbers and limits: "mm", or empty for what has none
 };
 
+/// A number that holds instead of another one inside a region.
+struct RegionalNumber {
+    FieldPtr region;
+    double blend;  ///< mm; see region_weight
+    GradedNumber number;
+};
+
 /// The gradings of a recipe. Each is made, and its file read, when it is first asked for.
 class Gradings {
   public:
@@ -47,6 +54,11 @@ class Gradings {
     /// A formula with what it needs.
     GradedFormula formula_of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
 
+    /// From here on `graded` gives a key another number in a region; of several, later ones win.
+    void override_number(const std::string& key, RegionalNumber number);
+    /// Those of a key.
+    std::span<const RegionalNumber> overrides(const std::string& key) const;
+
     const Recipe& recipe() const { return recipe_; }
     /// Null as long as there is no body.
     const FieldPtr& body() const { return body_; }
@@ -57,12 +69,14 @@ class Gradings {
     const Recipe& recipe_;
     FieldPtr body_;
     std::map<std::string, GradingPtr> made_;
+    std::map<std::string, std::vector<RegionalNumber>> overrides_;
 };
 
-/// A graded number within its limits; constants have been checked with the recipe. Where it has no number, it
-/// gets the upper limit, if the recipe states one (below that of the settings table for `key`_max). If not, a
-/// formula that has no number somewhere in the body is an InputError; and one that may lack it between the
-/// points looked at gets twice the greatest number found there.
+/// A graded number, with those of regions in its place, within its limits; constants have been checked with
+/// the recipe. Where it has no number, it gets the upper limit, if the recipe states one (below that of the
+/// settings table for `key`_max). If not, a formula that has no number somewhere in the body is an
+/// InputError; and one that may lack it between the points looked at gets twice the greatest number found
+/// there.
 GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more = {});
 

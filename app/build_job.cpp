@@ -26,15 +26,16 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     const GradedNumber& thickness = recipe.skin->thickness;
     try {
         const SkinSide side = recipe.skin->side;
-        if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number(), side);
+        const bool varies = thickness.is_formula() || !gradings.overrides("skin.thickness").empty();
+        if (!varies) return make_filled_body(built.body, foam, thickness.number(), side);
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
         return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits, side);
     } catch (const PlacedError&) {
         throw;
     } catch (const InputError& error) {
-        throw InputError(thickness.where + ": " + error.what() +
-                         "; accepted: a mesh, or another shape than this one");
+        throw InputError((thickness.where.empty() ? "skin.thickness" : thickness.where) + ": " +
+                         error.what() + "; accepted: a mesh, or another shape than this one");
     }
 }
 
@@ -75,8 +76,10 @@ BuiltJob build_job(const Recipe& recipe) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
+    built.regions = build_regions(recipe, job.bounds, gradings);
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
-    job.part = part_of(recipe, built, gradings);
+    job.part =
+        with_regions(part_of(recipe, built, gradings), built.body, recipe.foam || recipe.skin, built.regions);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});
@@ -110,6 +113,7 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
 
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {
     Gradings gradings(recipe);
+    build_regions(recipe, region, gradings);
     return build_foam(*recipe.foam, region, gradings);
 }
 

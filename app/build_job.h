@@ -5,6 +5,7 @@
 
 #include "app/build_body.h"
 #include "app/build_foam.h"
+#include "app/build_regions.h"
 #include "app/recipe.h"
 #include "engine/island_survey.h"
 #include "engine/layer.h"
@@ -12,13 +13,14 @@
 namespace lamella {
 
 struct BuiltJob {
-    Job job;                              ///< what is printed
-    Job designed;                         ///< the same before [process], layers cut alike
-    FieldPtr body;                        ///< what the recipe's part is, without foam and skin
-    FieldPtr outside;                     ///< the body, with a skin that lies outside it
-    std::optional<BuiltFoam> foam;        ///< empty without foam
-    std::optional<GradedUse> skin;        ///< empty where the skin's thickness does not vary
-    std::optional<MeshReport> mesh;       ///< empty for shapes and fields
+    Job job;                         ///< what is printed
+    Job designed;                    ///< the same before [process], layers cut alike
+    FieldPtr body;                   ///< what the recipe's part is, without foam and skin
+    FieldPtr outside;                ///< the body, with a skin that lies outside it
+    std::optional<BuiltFoam> foam;   ///< empty without foam
+    std::optional<GradedUse> skin;   ///< empty where the skin's thickness does not vary
+    std::optional<MeshReport> mesh;  ///< empty for shapes and fields
+    BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
 };
 

@@ -12,6 +12,8 @@
 #include "app/island_report.h"
 #include "app/memory_bound.h"
 #include "app/recipe_options.h"
+#include "app/recipe_regions.h"
+#include "app/settings_rows.h"
 #include "app/text_output.h"
 
 namespace lamella {
@@ -71,6 +73,19 @@ Json grading_json(const GradingReport& report) {
     return json;
 }
 
+Json regions_json(const Recipe& recipe, const BuiltRegions& regions) {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < regions.list.size(); ++i) {
+        const RegionRecipe& region = recipe.regions[i];
+        json.push_back({{"field", region.field},
+                        {"make", words(region.make)[static_cast<std::size_t>(region.make)]},
+                        {"blend_mm", region.blend}});
+        for (const RegionNumber& given : numbers_of(region))
+            json.back()[given.key] = graded_json(*given.number);
+    }
+    return json;
+}
+
 Json memory_json(const MemoryBound& bound) {
     return {{"bytes", bound.total()},
             {"layers_in_flight", bound.layers_in_flight},
@@ -92,6 +107,8 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
     if (recipe.skin) info["skin"] = {{"thickness_mm", graded_json(recipe.skin->thickness)}};
+    if (!built.regions.list.empty()) info["regions"] = regions_json(recipe, built.regions);
+    if (!built.regions.warnings.empty()) info["region_warnings"] = built.regions.warnings;
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
     if (built.islands) info["islands"] = islands_json(*built.islands);
     info["printer"] = {{"profile", recipe.printer.name}, {"kind", recipe.printer.backend}};
@@ -158,6 +175,16 @@ std::string grading_text(const Json& grading) {
     return text;
 }
 
+std::string region_text(const Json& region) {
+    std::string text = fmt::format("region    `{}` is {}", region["field"].get<std::string>(),
+                                   region["make"].get<std::string>());
+    for (const auto& [key, number] : region.items()) {
+        if (key.find('.') != std::string::npos) text += fmt::format(", {} {}", key, graded_text(number));
+    }
+    const double blend = region["blend_mm"].get<double>();
+    return text + (blend > 0 ? fmt::format(", blended over {} mm\n", blend) : "\n");
+}
+
 double mebibytes(const Json& bytes) { return bytes.get<double>() / (1 << 20); }
 
 std::string memory_text(const Json& m) {
@@ -181,6 +208,10 @@ std::string as_text(const Json& info, const std::optional<IslandReport>& islands
     if (info.contains("foam")) text += foam_text(info["foam"]);
     if (info.contains("skin"))
         text += fmt::format("skin      {} mm\n", graded_text(info["skin"]["thickness_mm"]));
+    for (const Json& region : info.value("regions", Json::array())) text += region_text(region);
+    for (const Json& warning : info.value("region_warnings", Json::array())) {
+        text += "          " + warning.get<std::string>() + "\n";
+    }
     if (info.contains("graded")) {
         for (const Json& grading : info["graded"]) text += grading_text(grading);
     }

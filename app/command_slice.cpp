@@ -155,6 +155,9 @@ void run(SliceOptions options) {
             for (const std::string& line : warnings(graded)) std::fputs((line + "\n").c_str(), stderr);
         }
     }
+    if (!options.quiet) {
+        for (const std::string& line : built.regions.warnings) std::fputs((line + "\n").c_str(), stderr);
+    }
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.

@@ -62,14 +62,40 @@ struct PartRecipe {
     std::string name;  ///< empty: taken from the input
 };
 
-/// A body that is the inside (below zero) of a formula or of a program for libfive's virtual machine.
+/// A solid by name, for the part and regions: a shape, a mesh, the inside (below zero) of a formula or of a
+/// program for libfive's virtual machine.
 struct FieldRecipe {
     std::string where;  ///< where the entry begins, for messages
     std::string name;
     std::string kind = "formula";  ///< a word of the registered kinds
     GradedNumber formula;          ///< over x, y, z, mm
-    std::string file;              ///< .vm
+    std::string file;              ///< .vm, or a mesh
     NumberRows bounds;             ///< two corners, mm; empty: found by search
+    dvec3 at{0};                   ///< of shapes the centre, of others the place of their origin, mm
+    dvec3 turn{0};                 ///< about x, then y, then z, degrees
+    double radius = 0;             ///< sizes of shapes, as of the part, mm
+    dvec3 size{0};
+    double height = 0;
+    double tube = 0;
+    LengthUnit unit = LengthUnit::mm;  ///< mesh
+    double scale = 1;                  ///< mesh
+};
+
+/// What a region is made of: solid, nothing, or the part's foam or skin with other numbers.
+enum class RegionMake : unsigned char { solid, empty, foam, skin };
+
+/// A part of the body that is made otherwise; of regions that make the same thing, later ones win.
+struct RegionRecipe {
+    std::string where;  ///< where the entry begins, for messages
+    std::string field;  ///< name of a [[field]]
+    RegionMake make = RegionMake::solid;
+    double blend = 0;  ///< width over which it passes into what is about it, mm
+    /// Numbers that hold instead of the foam's; 0 (window: below 0) where the foam's hold.
+    GradedNumber cell;
+    GradedNumber beam;
+    GradedNumber wall;
+    GradedNumber window{-1.0, ""};
+    GradedNumber thickness;  ///< instead of the skin's
 };
 
 /// A number that varies in space, for formulas to use by its name.
@@ -158,6 +184,7 @@ struct Recipe {
     PartRecipe part;
     std::vector<FieldRecipe> fields;
     std::vector<GradingRecipe> gradings;
+    std::vector<RegionRecipe> regions;
     std::optional<FoamRecipe> foam;
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;

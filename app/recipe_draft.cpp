@@ -9,6 +9,8 @@
 
 #include "app/printer_choice.h"
 #include "app/recipe_formulas.h"
+#include "app/recipe_regions.h"
+#include "app/settings_rows.h"
 #include "engine/error.h"
 #include "procedural/nearest_foam.h"
 #include "procedural/tpms.h"
@@ -187,7 +189,8 @@ void RecipeDraft::check_structure() {
     const bool one_body = check_bodies();
     for (const Section& section : sections()) {
         const std::size_t found = count(section);
-        for (std::size_t number = 0; section.is_list() && number < found; ++number) {
+        const bool named = section.is_list() && find_setting(section.name, "name");
+        for (std::size_t number = 0; named && number < found; ++number) {
             check_need({section.name, number}, "name", section.title());
         }
         for (const KindSection& kinds : kind_sections()) {
@@ -233,7 +236,13 @@ Recipe RecipeDraft::assemble() const {
     for (std::size_t i = 0; i < recipe.gradings.size(); ++i) {
         recipe.gradings[i].where = where_begins("grading", i);
     }
+    for (std::size_t i = 0; i < recipe.regions.size(); ++i)
+        recipe.regions[i].where = where_begins("region", i);
     if (recipe.skin && recipe.skin->thickness == GradedNumber{}) recipe.skin.reset();
+    const auto makes_skin = [](const RegionRecipe& region) { return region.make == RegionMake::skin; };
+    if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin) && !recipe.skin) {
+        recipe.skin.emplace();
+    }
     PartRecipe& part = recipe.part;
     if (part.mesh.empty() && part.shape == Shape::none && part.field.empty() && recipe.fields.size() == 1) {
         part.field = recipe.fields.front().name;
@@ -334,6 +343,21 @@ void RecipeDraft::check_output(const OutputRecipe& output) {
     }
 }
 
+/// Rules between the sizes of the part's shape, or of a field's.
+template <typename Sizes>
+void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Sizes& sizes) {
+    if (shape == "capsule" && sizes.height < 2 * sizes.radius) {
+        refuse(0, fmt::format(
+                      "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
+                      where(of.section, "height", of.entry), sizes.height, sizes.radius, 2 * sizes.radius));
+    }
+    if (shape == "torus" && sizes.tube >= sizes.radius) {
+        refuse(0, fmt::format(
+                      "{}: {} mm closes the hole of a torus of radius {} mm; accepted: less than the radius",
+                      where(of.section, "tube", of.entry), sizes.tube, sizes.radius));
+    }
+}
+
 /// Rules between numbers that are each fine on their own.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
@@ -349,15 +373,9 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
                               "above 0 with it",
                               layers->where));
     }
-    if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
-        refuse(0, fmt::format(
-                      "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
-                      where("part", "height"), part.height, part.radius, 2 * part.radius));
-    }
-    if (part.shape == Shape::torus && part.tube >= part.radius) {
-        refuse(0, fmt::format(
-                      "{}: {} mm closes the hole of a torus of radius {} mm; accepted: less than the radius",
-                      where("part", "tube"), part.tube, part.radius));
+    check_shape({"part", 0}, words(part.shape)[static_cast<std::size_t>(part.shape)], part);
+    for (std::size_t i = 0; i < recipe.fields.size(); ++i) {
+        check_shape({"field", i}, recipe.fields[i].kind, recipe.fields[i]);
     }
     const double thickest = greatest_tpms_thickness(TpmsKind::gyroid, false) * part.period;
     if (part.shape == Shape::gyroid && part.thickness >= thickest) {
@@ -379,6 +397,7 @@ Recipe RecipeDraft::finish() {
     if (single_values_fine) {
         check_numbers(recipe);
         for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
+        for (std::string& mistake : region_mistakes(recipe)) refuse(0, std::move(mistake));
     }
     if (mistakes_.empty()) return recipe;
     std::stable_sort(mistakes_.begin(), mistakes_.end(), [](const Mistake& a, const Mistake& b) {

@@ -74,6 +74,8 @@ class RecipeDraft {
     void check_structure();
     void check_printer();
     Recipe assemble() const;
+    template <typename Sizes>
+    void check_shape(const Part& of, const std::string& shape, const Sizes& sizes);
     void check_numbers(const Recipe& recipe);
     void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "app/recipe_regions.h"
 #include "app/settings.h"
 #include "engine/error.h"
 #include "engine/formula_functions.h"
@@ -121,6 +122,12 @@ class FormulaCheck {
         }
         if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
         if (recipe_.skin) check_formula({&recipe_.skin->thickness});
+        for (const RegionRecipe& region : recipe_.regions) {
+            for (const RegionNumber& given : numbers_of(region)) {
+                check_formula(
+                    {given.number, true, given.number != &region.cell && given.number != &region.thickness});
+            }
+        }
     }
 
     void check_formula(const Use& use) {
@@ -249,8 +256,13 @@ std::string unused_entries(const Recipe& recipe) {
     const auto add = [&](const char* section, const std::string& name) {
         unused += fmt::format("{}[[{}]] `{}`", unused.empty() ? "" : ", ", section, name);
     };
+    std::set<std::string> solids{recipe.part.field};
+    for (const RegionRecipe& region : recipe.regions) {
+        solids.insert(region.field);
+        for (const RegionNumber& given : numbers_of(region)) open.push_back(given.number);
+    }
     for (const FieldRecipe& field : recipe.fields) {
-        if (field.name == recipe.part.field) {
+        if (solids.contains(field.name)) {
             open.push_back(&field.formula);
         } else {
             add("field", field.name);

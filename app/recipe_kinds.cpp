@@ -1,7 +1,7 @@
 // The list of kinds: the shapes stand here, the others where they are built.
 #include "app/recipe_kinds.h"
 
-#include "app/build_body.h"
+#include "app/build_fields.h"
 #include "app/build_foam.h"
 #include "app/build_gradings.h"
 
@@ -19,19 +19,27 @@ std::vector<Kind> keys_of(const Builders& builders) {
 }  // namespace
 
 const std::vector<KindSection>& kind_sections() {
-    static const std::vector<KindSection> list{{"part",
-                                                "shape",
-                                                "none",
-                                                {{"none", {}, {}},
-                                                 {"sphere", {"radius"}, {}},
-                                                 {"box", {"size"}, {}},
-                                                 {"cylinder", {"radius", "height"}, {}},
-                                                 {"capsule", {"radius", "height"}, {}},
-                                                 {"torus", {"radius", "tube"}, {}},
-                                                 {"gyroid", {"size", "period", "thickness"}, {}}}},
-                                               {"field", "kind", "formula", keys_of(field_builders())},
-                                               {"grading", "kind", "", keys_of(grading_builders())},
-                                               {"foam", "kind", "voronoi", keys_of(foam_builders())}};
+    static const std::vector<KindSection> list{
+        {"part",
+         "shape",
+         "none",
+         {{"none", {}, {}},
+          {"sphere", {"radius"}, {}},
+          {"box", {"size"}, {}},
+          {"cylinder", {"radius", "height"}, {}},
+          {"capsule", {"radius", "height"}, {}},
+          {"torus", {"radius", "tube"}, {}},
+          {"gyroid", {"size", "period", "thickness"}, {}}}},
+        {"field", "kind", "formula", keys_of(field_builders())},
+        {"grading", "kind", "", keys_of(grading_builders())},
+        {"region",
+         "make",
+         "",
+         {{"solid", {"field"}, {"blend"}},
+          {"empty", {"field"}, {"blend"}},
+          {"foam", {"field"}, {"blend", "cell", "beam", "wall", "window"}},
+          {"skin", {"field", "thickness"}, {"blend"}}}},
+        {"foam", "kind", "voronoi", keys_of(foam_builders())}};
     return list;
 }
 

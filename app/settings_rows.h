@@ -15,8 +15,13 @@ const std::vector<std::string>& words(Shape);
 const std::vector<std::string>& words(LengthUnit);
 const std::vector<std::string>& words(Falloff);
 const std::vector<std::string>& words(SkinSide);
+const std::vector<std::string>& words(RegionMake);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
+
+/// The rows of the [[field]] and [[region]] sections.
+void add_field_settings(std::vector<Setting>& table);
+void add_region_settings(std::vector<Setting>& table);
 
 /// The rows of the [frame] section.
 void add_frame_settings(std::vector<Setting>& table);

@@ -1,4 +1,4 @@
-// The rows of the settings table about the part, its fields and gradings, foam, skin and layers.
+// The rows of the settings table about the part, its gradings, foam, skin and layers.
 #include "app/recipe_kinds.h"
 #include "app/settings_rows.h"
 
@@ -82,37 +82,6 @@ void add_part(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
         "part", "name", "--name",
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
-}
-
-template <auto member>
-void add_field_row(std::vector<Setting>& t, const char* key, Facts facts) {
-    t.push_back(list_row<&Recipe::fields, member>("field", key, std::move(facts)));
-}
-
-void add_fields(std::vector<Setting>& t) {
-    add_field_row<&FieldRecipe::name>(
-        t, "name", {.fallback = "required", .help = "Name, for part.field to use: letters, digits and _."});
-    add_field_row<&FieldRecipe::kind>(t, "kind",
-                                      {.choices = kind_words("field"),
-                                       .fallback = "formula",
-                                       .help = "Where the field's values come from."});
-    add_field_row<&FieldRecipe::formula>(
-        t, "formula",
-        {.fallback = "required by formula",
-         .help = "Formula over x, y, z (mm): the body is where it is below zero.",
-         .is_formula = true});
-    add_field_row<&FieldRecipe::file>(
-        t, "file",
-        {.fallback = "required by vm",
-         .help = "Program of one operation a line (.vm), relative to the recipe's folder.",
-         .is_path = true});
-    add_field_row<&FieldRecipe::bounds>(
-        t, "bounds",
-        {.unit = "mm",
-         .limits = place,
-         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
-         .fallback = "found by search",
-         .help = "Box that the body lies in; outside it the body is cut off."});
 }
 
 template <auto member>
@@ -355,11 +324,12 @@ void add_output(std::vector<Setting>& t) {
 std::vector<Setting> make_table() {
     std::vector<Setting> table;
     add_part(table);
-    add_fields(table);
+    add_field_settings(table);
     add_gradings(table);
     add_foam(table);
     add_frame_settings(table);
     add_skin_and_layers(table);
+    add_region_settings(table);
     add_process_settings(table);
     add_output(table);
     add_printer_settings(table);
@@ -407,7 +377,7 @@ std::span<const Setting> settings() {
 std::span<const Section> sections() {
     static const std::vector<Section> list{
         {"part", "the body: a mesh file, a shape or a field"},
-        {"field", "a body that is the inside of a formula, by name",
+        {"field", "a solid by name, for the part or a region",
          [](const Recipe& r) { return r.fields.size(); }},
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
@@ -415,6 +385,8 @@ std::span<const Section> sections() {
         {"frame",
          "beams along the surface that the foam grows out of; without this section the part has none"},
         {"skin", "closed skin at the body's surface; without this section the part has none"},
+        {"region", "a part of the body that is made otherwise; later ones win",
+         [](const Recipe& r) { return r.regions.size(); }},
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
         {"output", "what is written besides the layers", nullptr, false},

@@ -238,33 +238,6 @@ class Shifted : public Field {
     double d_;
 };
 
-class SmoothUnion : public Field {
-  public:
-    SmoothUnion(FieldPtr a, FieldPtr b, double radius)
-        : a_(std::move(a)), b_(std::move(b)), radius_(radius) {}
-    double value(dvec3 p) const override {
-        const double a = a_->value(p), b = b_->value(p);
-        const double lowest = pick<true>(a, b);
-        const double h = std::max(radius_ - std::abs(a - b), 0.0) / radius_;
-        return std::isnan(h) ? lowest : lowest - h * h * radius_ * 0.25;
-    }
-    Interval range(const Box& box) const override {
-        const Interval low = merge<true>(a_->range(box), b_->range(box));
-        return {low.lo - radius_ * 0.25, low.hi};
-    }
-    // A convex mean of two gradients of length at most 1: it stays a bound if the operands' slopes are at
-    // most 1, which `exact` promises and `bound` does not.
-    Metric metric() const override {
-        const bool exact = a_->metric() == Metric::exact && b_->metric() == Metric::exact;
-        return exact ? Metric::bound : Metric::sign;
-    }
-    Box bounds() const override { return grown(unite(a_->bounds(), b_->bounds()), radius_ * 0.25); }
-
-  private:
-    FieldPtr a_, b_;
-    double radius_;
-};
-
 void require_solids(const std::vector<FieldPtr>& solids, const char* what) {
     if (solids.empty()) throw InputError(std::string(what) + " needs at least one solid");
     for (const FieldPtr& solid : solids) {
@@ -298,13 +271,6 @@ FieldPtr make_offset(FieldPtr solid, double d) {
         throw InputError("this solid has no exact 3D offset: its values are not distances");
     }
     return std::make_shared<Shifted>(std::move(solid), d);
-}
-
-FieldPtr make_smooth_union(FieldPtr a, FieldPtr b, double radius) {
-    require_solids({a, b}, "a smooth union");
-    if (!(radius > 0) || !std::isfinite(radius))
-        throw InputError("a smooth union needs a positive, finite radius");
-    return std::make_shared<SmoothUnion>(std::move(a), std::move(b), radius);
 }
 
 }  // namespace lamella

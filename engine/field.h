@@ -19,7 +19,7 @@ using FieldPtr = std::shared_ptr<const Field>;
 /// What a field's value says about the distance to its surface.
 enum class Metric : std::uint8_t {
     exact,  ///< the signed Euclidean distance, mm
-    bound,  ///< |value| never exceeds the distance
+    bound,  ///< the value changes by at most 1 per mm, so its magnitude never exceeds the distance
     sign    ///< only the sign holds
 };
 

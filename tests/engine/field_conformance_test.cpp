@@ -15,6 +15,7 @@
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 #include "procedural/closed_foam.h"
+#include "procedural/field_slope.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
@@ -164,6 +165,9 @@ std::vector<Named> all_fields() {
         {"smooth union", make_smooth_union(make_sphere({-1, 0, 0}, 1.2), make_sphere({1.2, 0.3, 0}, 1), 0.8),
          true},
         {"offset of a cylinder", make_offset(make_cylinder({-1, 0, -1}, {1, 0.5, 1}, 0.8), 0.3), true},
+        {"foam joined smoothly to a ball", make_smooth_union(walled_foam(0.15, 0.5), sphere, 0.7), true},
+        {"torus less a ball with rounded edges",
+         make_smooth_difference(torus, make_sphere({2, 0, 0}, 1), 0.5), true},
         {"turned box", make_transform(box, turn, {0.2, 0.1, -0.1}), true},
         {"formula of a ball", formula("hypot(x-0.3, y+0.2, z-0.1) - 2.5", 3, Metric::exact), true},
         {"formula of a cut torus", formula("hypot(hypot(x, y-0.1) - 2, z) - 0.7", 2.5, Metric::bound), true},
@@ -174,6 +178,10 @@ std::vector<Named> all_fields() {
          true},
         {"formula of a depth", formula("d > 0.4 and d < 1 ? -1 : 1", 3, Metric::sign), true},
         {"formula with undefined parts", formula("z - sqrt(4 - x*x - y*y)", 2.2, Metric::sign), true},
+        {"formula with its slope made even",
+         make_unit_slope(formula("3*(hypot(x-0.3, y+0.2, z-0.1) - 2.5)", 3, Metric::sign),
+                         {dvec3(-3), dvec3(3)}),
+         true},
         {"mirrored and stretched union", make_transform(make_union({box, cone}), mirror, {0.3, 0, 0.2})},
     };
 }
@@ -198,6 +206,23 @@ dvec3 position(const RowBand& band, double u, int line, double z) {
 }
 
 }  // namespace
+
+TEST_CASE("values that bound distances change by at most 1 per mm") {
+    const unsigned seed = 17;
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-4, 4), step(-1, 1);
+    for (const Named& named : all_fields()) {
+        if (named.field->metric() == Metric::sign) continue;
+        INFO(named.name);
+        for (int i = 0; i < 3000; ++i) {
+            const dvec3 p(place(random), place(random), place(random));
+            const dvec3 q = p + dvec3(step(random), step(random), step(random)) * (i % 2 == 0 ? 1e-3 : 0.3);
+            const double change = std::abs(named.field->value(q) - named.field->value(p));
+            REQUIRE(change <= glm::distance(p, q) * (1 + 1e-9) + 1e-9);
+        }
+    }
+}
 
 TEST_CASE("runs are solid exactly where the value is negative") {
     const unsigned seed = 11;

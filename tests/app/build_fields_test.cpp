@@ -1,0 +1,115 @@
+// Kinds of [[field]]: shapes and meshes where they are placed, as the part and as regions.
+#include "app/build_fields.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "app/build_job.h"
+#include "app/recipe_draft.h"
+#include "engine/error.h"
+#include "tests/engine/plane_runs.h"
+
+using namespace lamella;
+
+namespace {
+
+Recipe read(const std::string& text) {
+    RecipeDraft draft;
+    draft.read_text(text, LAMELLA_SOURCE_DIR "/examples/test.toml");
+    return draft.finish();
+}
+
+FieldPtr part(const std::string& field) { return build_job(read("[[field]]\nname = \"it\"\n" + field)).body; }
+
+std::string complaint(const std::string& text) {
+    try {
+        build_job(read(text));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool mentions(const std::string& text, const std::string& part) {
+    UNSCOPED_INFO(text);
+    return text.find(part) != std::string::npos;
+}
+
+double length(dvec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+
+}  // namespace
+
+TEST_CASE("shapes by name are the closed forms of their kinds where they are placed") {
+    const FieldPtr sphere = part("kind = \"sphere\"\nradius = 2\nat = [1, 2, 3]\n");
+    const FieldPtr box = part("kind = \"box\"\nsize = [2, 4, 6]\nat = [1, 2, 3]\n");
+    const FieldPtr cylinder =
+        part("kind = \"cylinder\"\nradius = 1.5\nheight = 5\nat = [1, 2, 3]\nturn = [0, 90, 0]\n");
+    const FieldPtr capsule =
+        part("kind = \"capsule\"\nradius = 1\nheight = 6\nat = [1, 2, 3]\nturn = [90, 0, 0]\n");
+    const FieldPtr torus =
+        part("kind = \"torus\"\nradius = 3\ntube = 1\nat = [1, 2, 3]\nturn = [0, 90, 0]\n");
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> place(-6, 6);
+    for (int i = 0; i < 2000; ++i) {
+        const dvec3 q(place(random), place(random), place(random)), p = q + dvec3(1, 2, 3);
+        REQUIRE(sphere->value(p) == Approx(glm::length(q) - 2).margin(1e-12));
+        REQUIRE((box->value(p) < 0) == (std::abs(q.x) < 1 && std::abs(q.y) < 2 && std::abs(q.z) < 3));
+        // Along x after the turn about y, and along y after the turn about x.
+        REQUIRE((cylinder->value(p) < 0) == (std::abs(q.x) < 2.5 && length({q.y, q.z}) < 1.5));
+        const double beyond = std::max(std::abs(q.y) - 2, 0.0);
+        REQUIRE(capsule->value(p) == Approx(length({length({q.x, q.z}), beyond}) - 1).margin(1e-9));
+        REQUIRE(torus->value(p) == Approx(length({length({q.y, q.z}) - 3, q.x}) - 1).margin(1e-9));
+    }
+}
+
+TEST_CASE("turns are about x, then y, then z") {
+    // A box long along z: about x by 90 degrees to lie along y, then about z by 30 degrees.
+    const FieldPtr turned = part("kind = \"box\"\nsize = [1, 1, 8]\nturn = [90, 0, 30]\n");
+    const double c = std::sqrt(3) / 2, s = 0.5;
+    CHECK(turned->value({-s * 3.9, c * 3.9, 0}) < 0);
+    CHECK(turned->value({-s * 4.1, c * 4.1, 0}) > 0);
+    CHECK(turned->value({s * 3, c * 3, 0}) > 0);
+    CHECK(turned->value({0, 0, 3}) > 0);
+}
+
+TEST_CASE("a mesh by name is read in its unit, scaled, turned and moved, with its volume kept") {
+    const std::string mesh = "kind = \"mesh\"\nfile = \"models/koala_mm.obj\"\nscale = 0.5\n";
+    const BuiltJob plain = build_job(read("[part]\nmesh = \"models/koala_mm.obj\"\n"));
+    const BuiltJob placed =
+        build_job(read("[[field]]\nname = \"it\"\n" + mesh + "at = [5, 6, 7]\nturn = [0, 0, 90]\n"));
+    REQUIRE(placed.mesh);
+    CHECK(placed.mesh->volume == Approx(plain.mesh->volume / 8).epsilon(1e-9));
+    std::mt19937 random(4);
+    const Box box = plain.job.bounds;
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const dvec3 p = box.lo + box.size() * dvec3(share(random), share(random), share(random));
+        const dvec3 q = dvec3(-p.y, p.x, p.z) * 0.5 + dvec3(5, 6, 7);
+        REQUIRE(placed.body->value(q) == Approx(plain.body->value(p) / 2).margin(1e-9));
+    }
+}
+
+TEST_CASE("formulas can be placed too, and their bounds go with them") {
+    const FieldPtr moved =
+        part("formula = \"max(abs(x) - 1, abs(y) - 2, abs(z) - 3)\"\nat = [10, 0, 0]\nturn = [0, 0, 90]\n");
+    CHECK(moved->value({11.9, 0, 0}) < 0);
+    CHECK(moved->value({12.1, 0, 0}) > 0);
+    CHECK(moved->value({10, 0.9, 2.9}) < 0);
+    CHECK(moved->value({10, 1.1, 0}) > 0);
+    CHECK(moved->bounds().hi.x < 13);
+    CHECK(volume_in(*moved, {{7, -2, -4}, {13, 2, 4}}, 0.1) == Approx(48).epsilon(0.01));
+}
+
+TEST_CASE("keys that a kind of field does not have, or lacks, are named") {
+    const std::string begin = "[[field]]\nname = \"it\"\n";
+    CHECK(mentions(complaint(begin + "kind = \"sphere\"\n"), "field.radius: missing, kind sphere needs it"));
+    CHECK(mentions(complaint(begin + "kind = \"sphere\"\nradius = 2\nturn = [0, 0, 9]\n"),
+                   "field.turn: kind sphere does not have it; accepted: radius, at"));
+    CHECK(mentions(complaint(begin + "kind = \"box\"\nsize = [1, 2, 3]\nformula = \"x\"\n"),
+                   "kind box does not have it"));
+    CHECK(mentions(complaint(begin + "kind = \"capsule\"\nradius = 2\nheight = 3\n"),
+                   "field.height: 3 mm is less than the two round ends of radius 2 mm; accepted: 4 mm"));
+    CHECK(mentions(complaint(begin + "kind = \"torus\"\nradius = 2\ntube = 2\n"), "field.tube: 2 mm closes"));
+    CHECK(mentions(complaint(begin + "kind = \"mesh\"\nfile = \"models/none.stl\"\n"), "none.stl"));
+    CHECK(mentions(complaint(begin + "kind = \"ball\"\n"), "accepted: one of formula, vm, mesh, sphere"));
+}
