@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/identity.h"
+#include "engine/csg.h"
 #include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/shell.h"
@@ -16,6 +17,29 @@ namespace {
 
 constexpr int most_layers = 10'000'000;
 
+/// The body filled with foam, under a skin with windows and holes.
+FieldPtr with_cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
+    const GradedNumber& thickness = recipe.skin->thickness;
+    FieldPtr shell;
+    double depth = 0;
+    if (thickness.is_formula()) {
+        built.skin = graded("skin.thickness", thickness,
+                            {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
+        shell = make_shell(built.body, built.skin->asked, built.skin->limits);
+        depth = built.skin->made->range(built.job.bounds).hi;
+    } else {
+        depth = thickness.number();
+        shell = make_shell(built.body, depth);
+    }
+    shell = cut_windows(recipe, std::move(shell), built.body, depth, gradings, built.pattern);
+    built.holes = drilled_holes(recipe, *built.body, depth);
+    shell = without_holes(std::move(shell), built.holes);
+    FieldPtr inside = built.foam ? make_union({built.foam->field, std::move(shell)}) : std::move(shell);
+    std::vector<DrilledHole> through = built.holes;
+    std::erase_if(through, [](const DrilledHole& hole) { return !hole.through; });
+    return without_holes(make_intersection({built.body, std::move(inside)}), through);
+}
+
 /// The body itself, or filled with foam and skin.
 FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     const FieldPtr foam = built.foam ? built.foam->field : nullptr;
@@ -23,6 +47,7 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
     if (!recipe.skin) return make_filled_body(built.body, foam, 0);
     const GradedNumber& thickness = recipe.skin->thickness;
     try {
+        if (has_cut_skin(recipe)) return with_cut_skin(recipe, built, gradings);
         if (!thickness.is_formula()) return make_filled_body(built.body, foam, thickness.number());
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);

@@ -5,6 +5,7 @@
 
 #include "app/build_body.h"
 #include "app/build_foam.h"
+#include "app/build_skin.h"
 #include "app/recipe.h"
 #include "engine/island_survey.h"
 #include "engine/layer.h"
@@ -16,6 +17,8 @@ struct BuiltJob {
     FieldPtr body;                        ///< the part's outside, without foam and skin
     std::optional<BuiltFoam> foam;        ///< empty without foam
     std::optional<GradedUse> skin;        ///< empty where the skin's thickness does not vary
+    std::optional<PatternReport> pattern; ///< empty where the skin is closed
+    std::vector<DrilledHole> holes;       ///< that the recipe asks for
     std::optional<MeshReport> mesh;       ///< empty for shapes and fields
     std::optional<IslandReport> islands;  ///< empty until they are looked for
 };

@@ -36,6 +36,12 @@ std::vector<std::string> keys_of(const Kind& kind) {
     return keys;
 }
 
+/// What every entry of a list section has.
+std::vector<std::string> needs_of_list(std::string_view section) {
+    if (section == "hole") return {"at", "radius"};
+    return {"name"};
+}
+
 std::set<std::string> keys_of(const KindSection& section) {
     std::set<std::string> keys;
     for (const Kind& kind : section.kinds) {
@@ -188,7 +194,8 @@ void RecipeDraft::check_structure() {
     for (const Section& section : sections()) {
         const std::size_t found = count(section);
         for (std::size_t number = 0; section.is_list() && number < found; ++number) {
-            check_need({section.name, number}, "name", section.title());
+            for (const std::string& key : needs_of_list(section.name))
+                check_need({section.name, number}, key, section.title());
         }
         for (const KindSection& kinds : kind_sections()) {
             if (kinds.section != section.name || (section.name == "part" && !one_body)) continue;
@@ -232,6 +239,7 @@ Recipe RecipeDraft::assemble() const {
     for (std::size_t i = 0; i < recipe.gradings.size(); ++i) {
         recipe.gradings[i].where = where_begins("grading", i);
     }
+    for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
     if (recipe.skin && recipe.skin->thickness == GradedNumber{}) recipe.skin.reset();
     PartRecipe& part = recipe.part;
     if (part.mesh.empty() && part.shape == Shape::none && part.field.empty() && recipe.fields.size() == 1) {

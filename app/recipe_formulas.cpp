@@ -119,7 +119,10 @@ class FormulaCheck {
                 check_formula({number, true, number != &recipe_.foam->cell});
             }
         }
-        if (recipe_.skin) check_formula({&recipe_.skin->thickness});
+        if (recipe_.skin) {
+            check_formula({&recipe_.skin->thickness});
+            check_formula({&recipe_.skin->strut});
+        }
     }
 
     void check_formula(const Use& use) {
@@ -258,7 +261,7 @@ std::string unused_entries(const Recipe& recipe) {
     if (recipe.foam) {
         for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
     }
-    if (recipe.skin) open.push_back(&recipe.skin->thickness);
+    if (recipe.skin) open.insert(open.end(), {&recipe.skin->thickness, &recipe.skin->strut});
     while (!open.empty()) {
         const GradedNumber* number = open.back();
         open.pop_back();

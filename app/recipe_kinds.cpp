@@ -4,6 +4,7 @@
 #include "app/build_body.h"
 #include "app/build_foam.h"
 #include "app/build_gradings.h"
+#include "app/build_skin.h"
 
 namespace lamella {
 
@@ -31,7 +32,8 @@ const std::vector<KindSection>& kind_sections() {
                                                  {"gyroid", {"size", "period", "thickness"}, {}}}},
                                                {"field", "kind", "formula", keys_of(field_builders())},
                                                {"grading", "kind", "", keys_of(grading_builders())},
-                                               {"foam", "kind", "voronoi", keys_of(foam_builders())}};
+                                               {"foam", "kind", "voronoi", keys_of(foam_builders())},
+                                               {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;
 }
 

@@ -310,26 +310,7 @@ void add_foam(std::vector<Setting>& t) {
                  "connected."});
 }
 
-void add_skin_and_layers(std::vector<Setting>& t) {
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness>(
-        "skin", "thickness", "--skin",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = "required in [skin]",
-         .help = "Thickness of the closed skin, inward from the surface; 0 for none."}));
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_min>(
-        "skin", "thickness_min", "--skin-min",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = format_value(SkinRecipe{}.thickness_min),
-         .help = "Least thickness that is made: a graded skin is kept above it."}));
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_max>(
-        "skin", "thickness_max", "--skin-max",
-        {.unit = "mm",
-         .limits = {0.001, SkinRecipe{}.thickness_max},
-         .fallback = format_value(SkinRecipe{}.thickness_max),
-         .help = "Greatest thickness that is made: a graded skin is kept below it, and has it where the "
-                 "formula has no number."}));
+void add_layers(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
         "layers", "height", "--layer-height",
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
@@ -357,7 +338,8 @@ std::vector<Setting> make_table() {
     add_fields(table);
     add_gradings(table);
     add_foam(table);
-    add_skin_and_layers(table);
+    add_skin_settings(table);
+    add_layers(table);
     add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
@@ -409,7 +391,8 @@ std::span<const Section> sections() {
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
-        {"skin", "closed skin under the body's surface; without this section the part has none"},
+        {"skin", "skin under the body's surface, closed or with windows; without this section the part has none"},
+        {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
         {"layers", "how the part is cut"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};
