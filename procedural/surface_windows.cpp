@@ -139,12 +139,12 @@ SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& s
 /// How far a point (from the seed) lies outside the window shrunk by its corners' radius, mm; the distance to
 /// all wedges of two of its faces.
 double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
-    constexpr std::size_t most = 32;
-    struct Violated {
+    constexpr std::size_t most = 32;  // faces whose edges are rounded: cells on a surface have about six
+    struct Shrunk {
         dvec3 normal;
-        double by;
+        double by;  ///< how far the point lies beyond it, mm
     };
-    Violated violated[most];
+    Shrunk shrunk[most];
     std::size_t count = 0;
     const double inset = cell.inset + cell.corner;
     const double cube =
@@ -153,17 +153,16 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
     for (std::uint32_t f = cell.first; f < cell.walls_end; ++f) {
         const double by = inset - (faces_[f].distance - glm::dot(faces_[f].normal, q));
         worst = std::max(worst, by);
-        // Where a face's plane is far inside, no wedge with it is nearer than the other face alone.
-        if (by > -2 * reach_ && count < most) violated[count++] = {faces_[f].normal, by};
+        if (count < most) shrunk[count++] = {faces_[f].normal, by};
     }
     if (worst <= 0) return worst;
     for (std::size_t i = 0; i < count; ++i) {
-        const double a = violated[i].by;
+        const double a = shrunk[i].by;
         if (a <= 0) continue;
         for (std::size_t j = 0; j < count; ++j) {
-            const double b = violated[j].by;
+            const double b = shrunk[j].by;
             if (b > a || (b == a && j <= i)) continue;
-            const double cosine = glm::dot(violated[i].normal, violated[j].normal);
+            const double cosine = glm::dot(shrunk[i].normal, shrunk[j].normal);
             const double sine_squared = 1 - cosine * cosine;
             // Past the edge of the wedge both faces push; else the deeper one alone.
             if (!(b > a * cosine) || sine_squared < 1e-9) continue;

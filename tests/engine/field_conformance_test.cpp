@@ -15,6 +15,7 @@
 #include "engine/tile_walk.h"
 #include "procedural/closed_foam.h"
 #include "procedural/strut_lattice.h"
+#include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
@@ -62,6 +63,18 @@ FieldPtr walled_foam(Graded wall, Graded window) {
     settings.wall = std::move(wall);
     settings.window = std::move(window);
     return make_closed_foam(settings);
+}
+
+/// The shell of a body with windows in it.
+FieldPtr windowed(const FieldPtr& body, bool hexagons) {
+    const SurfaceWindowSettings settings{0.9, 0.3, 0.15, 0.4};
+    std::shared_ptr<const WindowPattern> pattern;
+    if (hexagons) {
+        pattern = make_hexagon_windows(*body, settings);
+    } else {
+        pattern = make_voronoi_windows(*body, settings, 3);
+    }
+    return make_intersection({body, make_patterned_shell(make_shell(body, 0.4), pattern)});
 }
 
 /// The solid where the text, about x, y, z and the depth d in a ball, is negative.
@@ -129,6 +142,9 @@ std::vector<Named> all_fields() {
                             make_shell(make_mesh_field(shapes::closed(shapes::l_prism())), graded, {0, 1})})},
         {"ball with a graded shell", make_intersection({sphere, make_shell(sphere, graded, {0.1, 1})}), true},
         {"filled mesh with a graded skin", make_filled_body(mesh, make_union({cone, torus}), graded, {0, 1})},
+        {"ball with Voronoi windows", windowed(sphere, false)},
+        {"box with hexagonal windows", windowed(box, true)},
+        {"mesh with Voronoi windows", windowed(mesh, false)},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
         {"box without islands", with_islands_dropped(box)},
