@@ -83,6 +83,15 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
         if (cells_.back().closed) ++closed_;
     }
     faces_.shrink_to_fit();
+    // What lies beyond a wall is solid for half a strut at least, unless the other side of a thin wall is near.
+    for (Cell& cell : cells_) cell.beyond = least_inset_;
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < seeds.size(); ++i) {
+        if (cells_[i].walls_end == cells_[i].end) continue;
+        near.clear();
+        tree_.within(seeds[i].place, neighbourhood(), near);
+        for (const std::uint32_t other : near) cells_[other].beyond = 0;
+    }
 }
 
 SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own,
@@ -93,7 +102,7 @@ SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& s
         bool behind;
     };
     std::vector<std::uint32_t> near;
-    tree_.within(seeds[own].place, 2 * std::sqrt(3.0) * reach_, near);
+    tree_.within(seeds[own].place, neighbourhood(), near);
     std::vector<Neighbour> neighbours;
     for (const std::uint32_t i : near) {
         const dvec3 way = seeds[i].place - seeds[own].place;
@@ -183,8 +192,7 @@ double SurfaceWindows::value_near(dvec3 p, std::uint32_t& hint) const {
         double& least = f < cell.walls_end ? to_wall : to_border;
         least = std::min(least, std::max(d, 0.0));
     }
-    // What lies beyond a wall is solid for half a strut at least; beyond a border anything.
-    const double solid = std::min(to_wall + least_inset_, to_border);
+    const double solid = std::min(to_wall + cell.beyond, to_border);
     if (cell.closed) return -solid;
     const double outside = excess(cell, q) - cell.corner;
     return outside < 0 ? std::min(-outside, to_border) : -std::min(outside, solid);

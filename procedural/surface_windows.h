@@ -44,8 +44,12 @@ class SurfaceWindows : public WindowPattern {
         std::uint32_t first = 0, walls_end = 0, end = 0;  ///< of faces_: walls, then those without a strut
         double inset = 0;    ///< half a strut, mm
         double corner = 0;   ///< mm
+        double beyond = 0;   ///< how far it is surely solid beyond the walls, mm
         bool closed = false;
     };
+
+    /// How far apart seeds are at most whose cells can come near each other, mm.
+    double neighbourhood() const { return 2 * std::sqrt(3.0) * reach_; }
 
     Cell make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own, double half, double least_room);
     double excess(const Cell& cell, dvec3 q) const;

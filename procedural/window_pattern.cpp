@@ -132,7 +132,13 @@ class PatternedShell : public Field {
 
 }  // namespace
 
-Interval WindowPattern::range(const Box& box) const { return lipschitz_range(*this, box); }
+Interval WindowPattern::range(const Box& box) const {
+    const double reach = 0.5 * diagonal(box);
+    if (!std::isfinite(reach)) return {-infinity, infinity};
+    constexpr double least = std::numeric_limits<double>::min();
+    const double v = value(box.center());
+    return {v > reach ? least : -infinity, v < -reach ? -least : infinity};
+}
 
 FieldPtr make_patterned_shell(FieldPtr shell, std::shared_ptr<const WindowPattern> pattern) {
     if (!shell || !pattern) throw InputError("a patterned skin needs a shell and a pattern");

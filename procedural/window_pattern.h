@@ -8,7 +8,7 @@
 namespace lamella {
 
 /// A pattern of windows: a field that is solid where a skin keeps its struts and void where it has windows,
-/// through its whole thickness. Its value is a bound of the distance and changes by at most 1 per mm.
+/// through its whole thickness. Its value never exceeds the distance to where struts begin or end.
 class WindowPattern : public Field {
   public:
     double value(dvec3 p) const final {
