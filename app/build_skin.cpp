@@ -6,6 +6,7 @@
 #include "engine/csg.h"
 #include "engine/error.h"
 #include "engine/primitives.h"
+#include "procedural/image_windows.h"
 #include "procedural/surface_windows.h"
 
 namespace lamella {
@@ -43,6 +44,18 @@ FieldPtr hexagons(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, do
                   report);
 }
 
+FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
+               PatternReport& report) {
+    const SkinRecipe& skin = *recipe.skin;
+    const auto strut = gradings.of(skin.strut)->constant();
+    if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
+    StrutImage picture(read_volume(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
+    report.islands = picture.islands();
+    report.open_share = picture.open_share();
+    return make_patterned_shell(
+        std::move(shell), std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
+}
+
 double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
 
 }  // namespace
@@ -51,7 +64,8 @@ std::span<const PatternBuilder> pattern_builders() {
     static const std::vector<PatternBuilder> list{
         {{"closed", {}, {}}, nullptr},
         {{"voronoi", {"window", "strut"}, {"corner", "seed"}}, voronoi},
-        {{"hexagons", {"window", "strut"}, {"corner"}}, hexagons}};
+        {{"hexagons", {"window", "strut"}, {"corner"}}, hexagons},
+        {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image}};
     return list;
 }
 

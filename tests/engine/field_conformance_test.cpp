@@ -14,6 +14,7 @@
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 #include "procedural/closed_foam.h"
+#include "procedural/image_windows.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
@@ -75,6 +76,19 @@ FieldPtr windowed(const FieldPtr& body, bool hexagons) {
         pattern = make_voronoi_windows(*body, settings, 3);
     }
     return make_intersection({body, make_patterned_shell(make_shell(body, 0.4), pattern)});
+}
+
+/// The shell of a ball with a picture of a grid in it.
+FieldPtr pictured(const FieldPtr& ball) {
+    Volume picture;
+    picture.size = {8, 8, 1};
+    std::vector<std::uint8_t> samples(64, 255);
+    for (std::size_t k = 0; k < 8; ++k) samples[k] = samples[8 + k] = samples[8 * k] = samples[8 * k + 1] = 0;
+    picture.samples = std::move(samples);
+    picture.full_scale = 255;
+    const auto pattern =
+        std::make_shared<ImageWindows>(StrutImage(picture, {1.3, 0.25, 0.5, false}), *ball, 0.25, 0.4);
+    return make_intersection({ball, make_patterned_shell(make_shell(ball, 0.4), pattern)});
 }
 
 /// The solid where the text, about x, y, z and the depth d in a ball, is negative.
@@ -143,6 +157,7 @@ std::vector<Named> all_fields() {
         {"ball with a graded shell", make_intersection({sphere, make_shell(sphere, graded, {0.1, 1})}), true},
         {"filled mesh with a graded skin", make_filled_body(mesh, make_union({cone, torus}), graded, {0, 1})},
         {"ball with Voronoi windows", windowed(sphere, false)},
+        {"ball with a picture's windows", pictured(sphere)},
         {"box with hexagonal windows", windowed(box, true)},
         {"mesh with Voronoi windows", windowed(mesh, false)},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
