@@ -17,27 +17,49 @@ namespace {
 
 constexpr int most_layers = 10'000'000;
 
-/// The body filled with foam, under a skin with windows and holes.
-FieldPtr with_cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
-    const GradedNumber& thickness = recipe.skin->thickness;
+/// A skin with windows before it is drilled, and the thickest that it is, mm.
+struct CutSkin {
     FieldPtr shell;
     double depth = 0;
+};
+
+CutSkin cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
+    const GradedNumber& thickness = recipe.skin->thickness;
+    CutSkin skin;
     if (thickness.is_formula()) {
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
-        shell = make_shell(built.body, built.skin->asked, built.skin->limits);
-        depth = built.skin->made->range(built.job.bounds).hi;
+        skin.shell = make_shell(built.body, built.skin->asked, built.skin->limits);
+        skin.depth = built.skin->made->range(built.body->bounds()).hi;
     } else {
-        depth = thickness.number();
-        shell = make_shell(built.body, depth);
+        skin.depth = thickness.number();
+        skin.shell = make_shell(built.body, skin.depth);
     }
-    shell = cut_windows(recipe, std::move(shell), built.body, depth, gradings, built.pattern);
-    built.holes = drilled_holes(recipe, *built.body, depth);
-    shell = without_holes(std::move(shell), built.holes);
+    skin.shell = cut_windows(recipe, std::move(skin.shell), built.body, skin.depth, gradings, built.pattern);
+    return skin;
+}
+
+/// The body filled with foam, under a skin with holes.
+FieldPtr drilled(const BuiltJob& built, FieldPtr shell, const std::vector<DrilledHole>& holes) {
+    shell = without_holes(std::move(shell), holes);
     FieldPtr inside = built.foam ? make_union({built.foam->field, std::move(shell)}) : std::move(shell);
-    std::vector<DrilledHole> through = built.holes;
+    std::vector<DrilledHole> through = holes;
     std::erase_if(through, [](const DrilledHole& hole) { return !hole.through; });
     return without_holes(make_intersection({built.body, std::move(inside)}), through);
+}
+
+/// The part under a skin with windows and holes; drains are placed once all else is there.
+FieldPtr with_cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
+    const CutSkin skin = cut_skin(recipe, built, gradings);
+    built.holes = drilled_holes(recipe, *built.body, skin.depth);
+    FieldPtr part = drilled(built, skin.shell, built.holes);
+    if (recipe.skin->drains == 0) return part;
+    Job job = built.job;
+    job.part = part;
+    built.drains = place_drains(recipe, job, *built.body, skin.depth);
+    std::vector<DrilledHole> holes = built.holes;
+    holes.insert(holes.end(), built.drains->holes.begin(), built.drains->holes.end());
+    return drilled(built, skin.shell, holes);
 }
 
 /// The body itself, or filled with foam and skin.
@@ -99,10 +121,10 @@ BuiltJob build_job(const Recipe& recipe) {
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
-    job.part = part_of(recipe, built, gradings);
-    job.name = recipe.part.name;
     job.layer_height = recipe.layer_height;
     job.layer_count = layers_of(job.bounds, recipe.layer_height);
+    job.part = part_of(recipe, built, gradings);
+    job.name = recipe.part.name;
     job.identity = job_identity(recipe);
     return built;
 }

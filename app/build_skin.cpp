@@ -70,7 +70,8 @@ std::span<const PatternBuilder> pattern_builders() {
 }
 
 bool has_cut_skin(const Recipe& recipe) {
-    return recipe.skin && (recipe.skin->pattern != "closed" || !recipe.holes.empty());
+    return recipe.skin &&
+           (recipe.skin->pattern != "closed" || recipe.skin->drains > 0 || !recipe.holes.empty());
 }
 
 FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,

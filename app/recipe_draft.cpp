@@ -326,6 +326,22 @@ void RecipeDraft::check_output(const OutputRecipe& output) {
     }
 }
 
+/// Rules between drains, their keys and the foam.
+void RecipeDraft::check_drains(const Recipe& recipe) {
+    if (recipe.skin->drains == 0) {
+        for (const char* key : {"drain_radius", "drain_pitch"}) {
+            if (!entry("skin", key)) continue;
+            refuse(0, fmt::format("{}: there are no drains; accepted: skin.drains / --drains with it",
+                                  where("skin", key)));
+        }
+    } else if (recipe.foam && recipe.foam->kind == "closed" && !recipe.foam->window.is_formula() &&
+               recipe.foam->window.number() == 0) {
+        refuse(0, fmt::format("{}: each cell of a closed foam is a cavity of its own, too many to drain; "
+                              "accepted: a foam of open cells, foam.window / --window above 0, or no drains",
+                              where("skin", "drains")));
+    }
+}
+
 /// Rules between numbers that are each fine on their own.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
@@ -333,6 +349,10 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     check_output(recipe.output);
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
+        check_drains(recipe);
+    } else if (!recipe.holes.empty()) {
+        refuse(0, fmt::format("{}: there is no skin to drill; accepted: [skin] with a thickness above 0",
+                              recipe.holes.front().where));
     }
     if (part.shape == Shape::capsule && part.height < 2 * part.radius) {
         refuse(0, fmt::format(

@@ -149,8 +149,7 @@ TiledMask widened(const TiledMask& solid, double radius) {
     const auto depth = squared_distances(where(solid, [&](std::size_t i) { return !solid.marked[i]; }));
     const TiledMask deep = where(
         solid, [&](std::size_t i) { return static_cast<double>(depth[i]) > radius * radius; });
-    TiledMask wide = dilated(deep, radius);
-    for (std::size_t i = 0; i < wide.marked.size(); ++i) wide.marked[i] &= solid.marked[i];
+    const TiledMask wide = dilated(deep, radius);
     const auto from_wide = squared_distances(wide);
     const TiledMask rest = where(solid, [&](std::size_t i) { return solid.marked[i] && !wide.marked[i]; });
     TiledMask line(solid.width, solid.height);
@@ -162,6 +161,21 @@ TiledMask widened(const TiledMask& solid, double radius) {
     }
     const TiledMask struts = dilated(line, radius);
     return where(solid, [&](std::size_t i) { return wide.marked[i] || struts.marked[i]; });
+}
+
+/// The pixels that discs of the radius within the marked ones cover.
+TiledMask opened(const TiledMask& mask, double radius) {
+    const auto depth = squared_distances(where(mask, [&](std::size_t i) { return !mask.marked[i]; }));
+    return dilated(
+        where(mask, [&](std::size_t i) { return static_cast<double>(depth[i]) > radius * radius; }), radius);
+}
+
+/// Notches of windows narrower than two radii are filled.
+TiledMask closed(const TiledMask& mask, double radius) {
+    const auto unmarked = [](const TiledMask& of) {
+        return where(of, [&](std::size_t i) { return !of.marked[i]; });
+    };
+    return unmarked(opened(unmarked(mask), radius));
 }
 
 }  // namespace
@@ -176,6 +190,7 @@ StrutImage::StrutImage(const Volume& picture, const StrutImageSettings& settings
     // Discs of pixels are up to half a pixel narrower than discs.
     const double radius = 0.5 * settings.strut / pixel_ + 0.5;
     TiledMask solid = widened(thresholded(grey_of(picture), width, height, times, settings), radius);
+    solid = opened(closed(solid, 0.5 * radius), radius);
     for (const TiledComponent& part : components_of(solid)) {
         if (part.goes_on) continue;
         ++islands_;
