@@ -13,8 +13,14 @@ namespace lamella {
 
 namespace {
 
+/// Keeps a further graded number with the foam and gives what is made of it.
+GradingPtr further(FoamMaking& making, const char* key, const GradedNumber& number, Interval limits) {
+    making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
+    return making.built.others.back().made;
+}
+
 /// Cells about seeds in a pattern, the same stretch everywhere.
-FoamSettings seeded(const FoamMaking& making, SeedPattern pattern) {
+FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
     const FoamRecipe& foam = making.recipe;
     FoamSettings settings;
     settings.cell = making.built.cell.made;
@@ -26,6 +32,11 @@ FoamSettings seeded(const FoamMaking& making, SeedPattern pattern) {
     const dvec3 stretch = constant(foam.stretch).value_or(dvec3(1));
     if (stretch != dvec3(1)) {
         settings.stretch = Stretch(turned_axes(constant(foam.turn).value_or(dvec3(0))), stretch);
+    }
+    if (const auto& frame = making.gradings.recipe().frame; frame && making.gradings.body()) {
+        settings.frame = {making.gradings.body(),
+                          further(making, "frame.beam", frame->beam, {frame->beam_min, frame->beam_max}),
+                          frame->interior};
     }
     return settings;
 }
@@ -46,12 +57,6 @@ void edges(FoamMaking& making, SeedPattern pattern) {
 void voronoi(FoamMaking& making) { edges(making, SeedPattern::jittered); }
 
 void kelvin(FoamMaking& making) { edges(making, SeedPattern::bcc); }
-
-/// Keeps a further graded number with the foam and gives what is made of it.
-GradingPtr further(FoamMaking& making, const char* key, const GradedNumber& number, Interval limits) {
-    making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
-    return making.built.others.back().made;
-}
 
 void closed(FoamMaking& making) {
     const FoamRecipe& foam = making.recipe;

@@ -88,6 +88,7 @@ std::string job_identity(const Recipe& recipe) {
     for (const Section& section : sections()) {
         if (!section.decides_layers) continue;
         if (section.name == "foam" && !recipe.foam) continue;
+        if (section.name == "frame" && !recipe.frame) continue;
         if (section.name == "skin" && !recipe.skin) continue;
         const std::size_t entries = section.is_list() ? section.entries(recipe) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) {

@@ -122,6 +122,14 @@ struct FoamRecipe {
     double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
 };
 
+/// Beams where the foam's Voronoi faces meet the surface.
+struct FrameRecipe {
+    GradedNumber beam;        ///< radius, mm
+    double beam_min = 0.005;  ///< the printable range of a graded radius, mm
+    double beam_max = 500;
+    bool interior = true;  ///< whether the foam itself is made, too
+};
+
 struct SkinRecipe {
     GradedNumber thickness;    ///< mm, inward from the surface
     double thickness_min = 0;  ///< the range of a graded thickness, mm
@@ -163,6 +171,7 @@ struct Recipe {
     std::vector<FieldRecipe> fields;
     std::vector<GradingRecipe> gradings;
     std::optional<FoamRecipe> foam;
+    std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
     std::vector<HoleRecipe> holes;
     double layer_height = 0.05;  ///< mm

@@ -206,6 +206,7 @@ void RecipeDraft::check_structure() {
         }
     }
     if (count(*find_section("skin")) > 0) check_need({"skin", 0}, "thickness", "a skin");
+    if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
 }
 
 void RecipeDraft::check_printer() {
@@ -309,6 +310,21 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
     }
 }
 
+void RecipeDraft::check_frame(const Recipe& recipe) {
+    const FrameRecipe& frame = *recipe.frame;
+    const std::vector<std::string> with_faces{"voronoi", "kelvin", "closed"};
+    const bool follows =
+        recipe.foam && std::find(with_faces.begin(), with_faces.end(), recipe.foam->kind) != with_faces.end();
+    if (!follows) {
+        refuse(0, fmt::format("{}: a frame follows the faces of a foam's cells, and {}; accepted: foam.kind "
+                              "{} with it",
+                              where("frame", "beam"),
+                              recipe.foam ? "kind " + recipe.foam->kind + " has none" : "there is no foam",
+                              fmt::join(with_faces, ", ")));
+    }
+    check_limits("frame", "beam", frame.beam, frame.beam_min, frame.beam_max);
+}
+
 void RecipeDraft::check_output(const OutputRecipe& output) {
     if (output.beams.empty()) {
         if (output.beams_box.empty()) return;
@@ -346,6 +362,7 @@ void RecipeDraft::check_drains(const Recipe& recipe) {
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam) check_foam(*recipe.foam);
+    if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);

@@ -76,6 +76,7 @@ class RecipeDraft {
     Recipe assemble() const;
     void check_numbers(const Recipe& recipe);
     void check_drains(const Recipe& recipe);
+    void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);
     void check_limits(const std::string& section, const std::string& key, const GradedNumber& number,
                       double least, double most);

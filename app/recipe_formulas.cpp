@@ -119,6 +119,7 @@ class FormulaCheck {
                 check_formula({number, true, number != &recipe_.foam->cell});
             }
         }
+        if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
         if (recipe_.skin) {
             check_formula({&recipe_.skin->thickness});
             check_formula({&recipe_.skin->strut});
@@ -261,6 +262,7 @@ std::string unused_entries(const Recipe& recipe) {
     if (recipe.foam) {
         for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
     }
+    if (recipe.frame) open.push_back(&recipe.frame->beam);
     if (recipe.skin) open.insert(open.end(), {&recipe.skin->thickness, &recipe.skin->strut});
     while (!open.empty()) {
         const GradedNumber* number = open.back();

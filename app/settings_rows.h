@@ -17,6 +17,9 @@ const std::vector<std::string>& words(Falloff);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 
+/// The rows of the [frame] section.
+void add_frame_settings(std::vector<Setting>& table);
+
 /// The rows of the [skin] and [[hole]] sections.
 void add_skin_settings(std::vector<Setting>& table);
 

@@ -338,6 +338,7 @@ std::vector<Setting> make_table() {
     add_fields(table);
     add_gradings(table);
     add_foam(table);
+    add_frame_settings(table);
     add_skin_settings(table);
     add_layers(table);
     add_output(table);
@@ -391,7 +392,10 @@ std::span<const Section> sections() {
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
-        {"skin", "skin under the body's surface, closed or with windows; without this section the part has none"},
+        {"frame",
+         "beams along the surface that the foam grows out of; without this section the part has none"},
+        {"skin",
+         "skin under the body's surface, closed or with windows; without this section the part has none"},
         {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
         {"layers", "how the part is cut"},
         {"output", "what is written besides the layers", nullptr, false},

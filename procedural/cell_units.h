@@ -16,7 +16,8 @@ namespace lamella {
 ///   using Piece
 ///   std::size_t append(const VoronoiCell&, const Seed& own, std::span<const Seed> sites,
 ///                      std::vector<Piece>&)   returns the number of edges left out for want of an end
-///   double growth(const Box&) const, double largest_growth() const, const Stretch& stretch() const
+///   double growth(const Box&) const, double largest_growth() const, bool avoids(const Box&) const,
+///   const Stretch& stretch() const
 /// with the meanings of PieceUnits.
 template <typename Maker>
 class CellSource {
@@ -48,6 +49,7 @@ class CellSource {
     double farthest() const { return std::sqrt(3.0) * tree_->coarse_side(); }
     double growth(const Box& box) const { return maker_.growth(box); }
     double largest_growth() const { return maker_.largest_growth(); }
+    bool avoids(const Box& box) const { return maker_.avoids(box); }
     const Stretch& stretch() const { return maker_.stretch(); }
 
   private:

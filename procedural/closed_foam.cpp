@@ -72,16 +72,17 @@ ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings, const FoamGround& gro
 ClosedFoam::ClosedFoam(const Box& region, const FoamGround& ground, const WallSettings& walls,
                        std::size_t cache_bytes)
     : PieceFoam(region, ground.cell, ground.cells,
-                std::max(ground.radius.largest(), walls.radius.largest() + walls.growth), cache_bytes),
+                std::max(ground.largest_radius(), walls.radius.largest() + walls.growth), cache_bytes),
       ground_(ground),
       walls_(walls),
       cache_bytes_(cache_bytes),
-      units_(ground.tree, WallMaker(BeamMaker(ground.radius, ground.stretch), walls), cache_bytes) {}
+      units_(ground.tree,
+             FramedMaker<WallMaker>(WallMaker(BeamMaker(ground.radius, ground.stretch), walls), ground.frame),
+             cache_bytes) {}
 
 FieldPtr ClosedFoam::offset(double d) const {
     if (!(d >= 0) || !std::isfinite(d)) return nullptr;
-    FoamGround ground = ground_;
-    ground.radius = ground_.radius.grown(d);
+    const FoamGround ground = ground_.grown(d);
     WallSettings walls = walls_;
     walls.growth += d;
     return FieldPtr(new ClosedFoam(grown(bounds(), d), ground, walls, cache_bytes_));

@@ -43,7 +43,7 @@ class ClosedFoam : public PieceFoam<FoamPiece> {
     FoamGround ground_;
     WallSettings walls_;
     std::size_t cache_bytes_;
-    CellUnits<WallMaker> units_;
+    CellUnits<FramedMaker<WallMaker>> units_;
 };
 
 /// Throws InputError for settings out of range.

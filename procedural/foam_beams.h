@@ -22,6 +22,8 @@ class NodeRadius {
     NodeRadius(GradingPtr radius, double largest) : radius_(std::move(radius)), largest_(largest) {}
     double at(dvec3 p) const { return radius_->at(p); }
     bool constant() const { return radius_->constant().has_value(); }
+    /// Encloses the radii of the nodes in the box.
+    Interval range(const Box& box) const { return radius_->range(box); }
     /// Every radius larger by a length, mm.
     NodeRadius grown(double by) const;
     /// No node has a larger one.
@@ -67,6 +69,7 @@ class BeamMaker {
 
     double largest_growth() const { return radius_.largest(); }
     double growth(const Box& box) const { return radius_.largest_in(box); }
+    bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return stretch_; }
 
     /// Appends the beams that `own` owns, in the order of the other seeds' keys. The cell's identifiers index

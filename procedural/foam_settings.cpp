@@ -37,6 +37,22 @@ class RadiusWithinCells : public Grading {
     GradingPtr radius_, cell_;
 };
 
+/// The frame's radius, but never less than the foam's.
+class RadiusOverBeams : public Grading {
+  public:
+    RadiusOverBeams(GradingPtr frame, NodeRadius beams)
+        : frame_(std::move(frame)), beams_(std::move(beams)) {}
+    double at(dvec3 p) const override { return std::max(frame_->at(p), beams_.at(p)); }
+    Interval range(const Box& box) const override {
+        const Interval frame = frame_->range(box), beams = beams_.range(box);
+        return {std::max(frame.lo, beams.lo), std::max(frame.hi, beams.hi)};
+    }
+
+  private:
+    GradingPtr frame_;
+    NodeRadius beams_;
+};
+
 /// A grading of the part's space, asked in the space of the seeds.
 class AmongSeeds : public Grading {
   public:
@@ -78,7 +94,28 @@ NodeRadius node_radius(const FoamSettings& settings, const GradingPtr& cell, con
             std::min(radii.hi, thickest * cells.hi)};
 }
 
+std::optional<SurfaceFrame> surface_frame(const FoamSettings& settings, const NodeRadius& beams) {
+    if (!settings.frame) return std::nullopt;
+    const FrameSettings& frame = *settings.frame;
+    const Interval radii = positive_range(*frame.radius, settings.region, "the frame's beam radius");
+    const double largest = std::max(radii.hi, beams.largest());
+    const bool constant = frame.radius->constant() && (beams.constant() || beams.largest() <= radii.lo);
+    const NodeRadius radius =
+        constant ? NodeRadius(largest)
+                 : NodeRadius(std::make_shared<RadiusOverBeams>(
+                                  make_clamped_grading(frame.radius.pointer(), radii), beams),
+                              largest);
+    return SurfaceFrame(frame.body, radius, frame.interior);
+}
+
 }  // namespace
+
+FoamGround FoamGround::grown(double by) const {
+    FoamGround thicker = *this;
+    thicker.radius = radius.grown(by);
+    if (frame) thicker.frame = frame->grown(by);
+    return thicker;
+}
 
 FoamGround prepare_foam(const FoamSettings& settings) {
     const auto constant_cell = settings.cell->constant();
@@ -102,9 +139,14 @@ FoamGround prepare_foam(const FoamSettings& settings) {
     }
     const double coarse = (cells.lo == cells.hi ? cells_per_coarse_side : graded_cells_per_coarse_side) *
                           (settings.pattern == SeedPattern::bcc ? bcc_side : 1);
+    const NodeRadius radius = node_radius(settings, cell, cells);
     return {std::make_shared<const SeedTree>(std::move(density), coarse * cells.hi, settings.seed,
                                              settings.pattern, settings.jitter),
-            cell, cells, node_radius(settings, cell, cells), settings.stretch};
+            cell,
+            cells,
+            radius,
+            settings.stretch,
+            surface_frame(settings, radius)};
 }
 
 std::vector<Seed> FoamGround::seeds_in(const Box& box) const {

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "engine/grading.h"
 #include "procedural/foam_beams.h"
 #include "procedural/seed_tree.h"
 #include "procedural/stretch.h"
+#include "procedural/surface_frame.h"
 
 namespace lamella {
 
@@ -21,9 +23,10 @@ struct FoamSettings {
     Graded beam_radius = 0.2;
     std::uint64_t seed = 0;  ///< another number, another foam
     SeedPattern pattern = SeedPattern::jittered;
-    double jitter = 0.05;  ///< of the patterns other than jittered: share of the spacing
-    Stretch stretch{};     ///< of the cells
-    Box region{};          ///< where the foam is wanted, mm; finite
+    double jitter = 0.05;                  ///< of the patterns other than jittered: share of the spacing
+    Stretch stretch{};                     ///< of the cells
+    std::optional<FrameSettings> frame{};  ///< under a body's surface, which the foam then ends at
+    Box region{};                          ///< where the foam is wanted, mm; finite
     std::size_t cache_bytes = std::size_t{256}
                               << 20;  ///< bound of the memory for cells, and again for distances
 };
@@ -35,7 +38,14 @@ struct FoamGround {
     Interval cells;   ///< the cell sizes of the region, mm
     NodeRadius radius;
     Stretch stretch;
+    std::optional<SurfaceFrame> frame;
 
+    /// No beam is thicker, mm.
+    double largest_radius() const {
+        return frame ? std::max(radius.largest(), frame->largest_radius()) : radius.largest();
+    }
+    /// The ground of the foam with beams thicker by a length, mm.
+    FoamGround grown(double by) const;
     /// All seeds in the closed box of the part's space, by key.
     std::vector<Seed> seeds_in(const Box& box) const;
 };

@@ -1,4 +1,4 @@
-// Faces in order, their fans and windows, and the edges of the fans that show.
+// The fans and windows of faces, and the edges of the fans that show.
 #include "procedural/foam_walls.h"
 
 #include <algorithm>
@@ -20,71 +20,16 @@ double distance_to_line(dvec3 p, dvec3 a, dvec3 b) {
 
 }  // namespace
 
-/// Lists the edges of the faces that `own` owns, by face and then by the seed beyond. Returns how many of its
-/// faces are left out.
-std::size_t WallMaker::collect_edges(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites) {
-    edges_.clear();
-    const auto seed = [&](std::int32_t id) {
-        return id < 0 ? nullptr : &sites[static_cast<std::size_t>(id)];
-    };
-    cell.edges([&](std::int32_t a, std::int32_t b, std::size_t v, std::size_t w) {
-        // Seen from outside, face b turns from v to w, and face a back.
-        const Seed *first = seed(a), *second = seed(b);
-        if (first && own.key < first->key) edges_.push_back({first, second, w, v});
-        if (second && own.key < second->key) edges_.push_back({second, first, v, w});
-    });
-    std::sort(edges_.begin(), edges_.end(), [](const FaceEdge& a, const FaceEdge& b) {
-        if (a.face->key != b.face->key) return a.face->key < b.face->key;
-        if (!a.beyond || !b.beyond) return a.beyond && !b.beyond;
-        return a.beyond->key < b.beyond->key;
-    });
-    std::size_t left_out = 0;
-    std::erase_if(edges_, [&](const FaceEdge& edge) {
-        const auto planes = cell.planes(edge.from);
-        const bool unbounded =
-            std::any_of(planes.begin(), planes.end(), [](std::int32_t p) { return p < 0; });
-        left_out += unbounded;
-        return unbounded;
-    });
-    return left_out;
-}
-
-/// Puts the vertices of a face in order, from the edge whose seed beyond has the lowest key. False when its
-/// edges make no ring.
-bool WallMaker::order_face(std::span<const FaceEdge> edges) {
-    ring_.clear();
-    std::size_t at = edges.front().from;
-    for (std::size_t step = 0; step < edges.size(); ++step) {
-        const auto next =
-            std::find_if(edges.begin(), edges.end(), [&](const FaceEdge& edge) { return edge.from == at; });
-        if (next == edges.end()) return false;
-        ring_.push_back(at);
-        at = next->to;
-    }
-    return at == edges.front().from;
-}
-
 std::size_t WallMaker::append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                               std::vector<FoamPiece>& pieces) {
     made_.clear();
     std::size_t left_out = beams_.append(cell, own, sites, made_);
     pieces.insert(pieces.end(), made_.begin(), made_.end());
-    left_out += collect_edges(cell, own, sites);
-    nodes_.start(cell);
-    for (std::size_t first = 0; first < edges_.size();) {
-        std::size_t last = first + 1;
-        while (last < edges_.size() && edges_[last].face == edges_[first].face) ++last;
-        if (order_face(std::span(edges_).subspan(first, last - first))) {
-            corners_.clear();
-            for (const std::size_t vertex : ring_) {
-                const dvec3 place = stretch().to_part(nodes_.at(cell, vertex, own, sites));
-                corners_.push_back({place, walls_.radius.at(place)});
-            }
-            append_wall(pieces);
-        } else {
-            ++left_out;
-        }
-        first = last;
+    left_out += faces_.list(cell, own, sites, stretch(), CellFaces::Which::owned);
+    for (const CellFaces::Face& face : faces_.faces()) {
+        corners_.clear();
+        for (const dvec3& place : face.ring) corners_.push_back({place, walls_.radius.at(place)});
+        append_wall(pieces);
     }
     return left_out;
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "procedural/foam_beams.h"
+#include "procedural/cell_faces.h"
 #include "procedural/foam_piece.h"
 
 namespace lamella {
@@ -36,6 +36,7 @@ class WallMaker {
     double growth(const Box& box) const {
         return std::max(beams_.growth(box), walls_.radius.largest_in(box) + walls_.growth);
     }
+    bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return beams_.stretch(); }
 
     /// Appends the pieces that `own` owns, beams first, then walls in the order of the other seeds' keys; see
@@ -44,19 +45,11 @@ class WallMaker {
                        std::vector<FoamPiece>& pieces);
 
   private:
-    /// An edge of a face in its sense of turning, with the seed beyond it.
-    struct FaceEdge {
-        const Seed* face;
-        const Seed* beyond;  ///< null: the start box
-        std::size_t from, to;
-    };
     struct Corner {
         dvec3 place;
         double radius;
     };
 
-    std::size_t collect_edges(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites);
-    bool order_face(std::span<const FaceEdge> edges);
     void append_wall(std::vector<FoamPiece>& pieces);
     void append_triangle(const Corner& a, const Corner& b, const Corner& c,
                          std::vector<FoamPiece>& pieces) const;
@@ -68,11 +61,9 @@ class WallMaker {
 
     BeamMaker beams_;
     WallSettings walls_;
-    CellNodes nodes_;
+    CellFaces faces_;
     std::vector<Beam> made_;
-    std::vector<FaceEdge> edges_;
-    std::vector<std::size_t> ring_;  ///< the cell's vertices round a face
-    std::vector<Corner> corners_;    ///< the same in the part's space
+    std::vector<Corner> corners_;  ///< of the face in hand
 };
 
 }  // namespace lamella

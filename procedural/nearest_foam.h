@@ -50,6 +50,7 @@ class NearestSource {
     double farthest() const;
     double growth(const Box& box) const { return radius_.largest_in(box); }
     double largest_growth() const { return radius_.largest(); }
+    bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return none_; }
 
     /// The k nearest seeds, by distance, then key.

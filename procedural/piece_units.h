@@ -23,7 +23,8 @@ namespace lamella {
 ///   double farthest() const        no reach is larger
 ///   double growth(const Box&) const   how far solids leave axes in a box of the part's space, mm
 ///   double largest_growth() const  ... anywhere
-///   const Stretch& stretch() const from the seeds' space to that of pieces and of boxes asked about
+///   bool avoids(const Box&) const  whether surely no axis of a piece passes through a box of the part's
+///   space const Stretch& stretch() const from the seeds' space to that of pieces and of boxes asked about
 ///
 /// A unit is a tree node of at most 64 seeds, or one of its eight slabs in z when it has more than 16. It
 /// matters to a query only within its reach and growth.
@@ -83,7 +84,8 @@ class PieceUnits {
     double reach(const SeedBlock& block, std::size_t node, double z) const;
     void visit(const SeedBlock& block, std::size_t node, double within, Request& request) const;
     void collect(const SeedBlock& block, std::size_t node, double within, Request& request) const;
-    Unit make(const SeedBlock& block, const SeedNode& node, const Box& part, Request& request) const;
+    Unit make(const SeedBlock& block, const SeedNode& node, const Box& part, double within,
+              Request& request) const;
 
     std::shared_ptr<const SeedTree> tree_;
     Source source_;
@@ -182,7 +184,8 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
         for (int part = 0; part < parts_of(here); ++part) {
             const auto at = static_cast<std::size_t>(part);
             if (!missing[at]) continue;
-            auto unit = std::make_shared<const Unit>(make(block, here, part_box(here, part), request));
+            auto unit =
+                std::make_shared<const Unit>(make(block, here, part_box(here, part), within, request));
             units[at] = units_.insert(key(part), request.z, std::move(unit));
         }
     }
@@ -198,10 +201,13 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
 
 template <typename Source>
 typename PieceUnits<Source>::Unit PieceUnits<Source>::make(const SeedBlock& block, const SeedNode& node,
-                                                           const Box& part, Request& request) const {
+                                                           const Box& part, double within,
+                                                           Request& request) const {
     Unit unit;
     const bool last = part.hi.z == node.box.hi.z, first = part.lo.z == node.box.lo.z;
-    for (std::uint32_t i = node.first_seed; i < node.first_seed + node.seed_count; ++i) {
+    const bool none = source_.avoids(source_.stretch().to_part(grown(part, within)));
+    const std::uint32_t end = none ? node.first_seed : node.first_seed + node.seed_count;
+    for (std::uint32_t i = node.first_seed; i < end; ++i) {
         const Seed own = block.seed(i);
         if (own.position.z < part.lo.z && !first) continue;
         if (own.position.z >= part.hi.z && !last) continue;

@@ -8,19 +8,18 @@ namespace lamella {
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings) : VoronoiFoam(settings, prepare_foam(settings)) {}
 
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings, FoamGround ground)
-    : BeamFoam(settings.region, ground.cell, ground.cells, ground.radius.largest(), settings.cache_bytes),
+    : BeamFoam(settings.region, ground.cell, ground.cells, ground.largest_radius(), settings.cache_bytes),
       settings_(settings),
       ground_(std::move(ground)),
-      units_(std::make_shared<const CellUnits<BeamMaker>>(
-          ground_.tree, BeamMaker(ground_.radius, settings.stretch), settings.cache_bytes)) {}
+      units_(std::make_shared<const CellUnits<FramedMaker<BeamMaker>>>(
+          ground_.tree, FramedMaker<BeamMaker>(BeamMaker(ground_.radius, settings.stretch), ground_.frame),
+          settings.cache_bytes)) {}
 
 FieldPtr VoronoiFoam::offset(double d) const {
     if (!(d >= 0) || !std::isfinite(d)) return nullptr;
     FoamSettings thicker = settings_;
     thicker.region = grown(settings_.region, d);
-    FoamGround ground = ground_;
-    ground.radius = ground_.radius.grown(d);
-    return FieldPtr(new VoronoiFoam(thicker, std::move(ground)));
+    return FieldPtr(new VoronoiFoam(thicker, ground_.grown(d)));
 }
 
 double VoronoiFoam::expected_volume_fraction(dvec3 p) const {

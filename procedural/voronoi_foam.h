@@ -37,7 +37,7 @@ class VoronoiFoam : public BeamFoam {
 
     FoamSettings settings_;
     FoamGround ground_;
-    std::shared_ptr<const CellUnits<BeamMaker>> units_;
+    std::shared_ptr<const CellUnits<FramedMaker<BeamMaker>>> units_;
 };
 
 /// Throws InputError for settings out of range.

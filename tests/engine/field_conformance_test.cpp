@@ -91,6 +91,16 @@ FieldPtr pictured(const FieldPtr& ball) {
     return make_intersection({ball, make_patterned_shell(make_shell(ball, 0.4), pattern)});
 }
 
+/// Foam that ends at a ball, in a frame on its surface.
+FieldPtr framed_foam(const FieldPtr& body) {
+    FoamSettings settings;
+    settings.cell = 2;
+    settings.beam_radius = 0.15;
+    settings.region = {dvec3(-4.5), dvec3(4.5)};
+    settings.frame = FrameSettings{body, 0.3, true};
+    return make_voronoi_foam(settings);
+}
+
 /// The solid where the text, about x, y, z and the depth d in a ball, is negative.
 FieldPtr formula(const char* text, double half, Metric metric) {
     const std::vector<std::string> names{"x", "y", "z", "d"};
@@ -125,6 +135,7 @@ std::vector<Named> all_fields() {
         {"foam with graded walls and windows",
          walled_foam(GradingPtr(std::make_shared<Linear>(0.2, dvec3(0.03, 0, 0.01))),
                      GradingPtr(std::make_shared<Linear>(0.4, dvec3(0, 0.1, 0))))},
+        {"foam in a frame", framed_foam(sphere)},
         {"octet lattice", lattice("octet", make_constant_grading(1.9), make_constant_grading(0.12))},
         {"bcc lattice in cells of several sizes",
          lattice("bcc", std::make_shared<Linear>(2, dvec3(0.25, 0, 0.05)),

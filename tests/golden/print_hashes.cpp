@@ -48,6 +48,16 @@ FieldPtr foam_in(const FieldPtr& body, double cell, double beam, double skin) {
     return make_intersection({body, make_union({make_voronoi_foam(settings), make_shell(body, skin)})});
 }
 
+FieldPtr framed_foam(const FieldPtr& body) {
+    FoamSettings settings;
+    settings.cell = 4;
+    settings.beam_radius = 0.3;
+    settings.seed = 5;
+    settings.region = body->bounds();
+    settings.frame = FrameSettings{body, 0.5, true};
+    return make_filled_body(body, make_voronoi_foam(settings), 0);
+}
+
 FieldPtr gyroid(const Box& region) {
     TpmsSettings settings;
     settings.period = make_constant_grading(4);
@@ -85,6 +95,7 @@ std::map<std::string, FieldPtr> solids() {
     const std::vector<std::string> xyz{"x", "y", "z"};
     return {
         {"closed foam", make_intersection({ball, make_closed_foam({graded_settings(ball), 0.3, 0.4})})},
+        {"foam in a frame", framed_foam(koala_body)},
         {"formula", make_formula_field(parse_formula("min(max(x^2 + y^2 + z^2 - 64, 2 - hypot(x, y)), "
                                                      "atan2(sin(x)*cos(y), 1 + z^2) + ln(1 + y^2) - 0.2)",
                                                      xyz),

@@ -1,0 +1,70 @@
+// Curves on the faces to beams, and beams cut at the surface.
+#include "procedural/surface_frame.h"
+
+#include <algorithm>
+
+namespace lamella {
+namespace {
+
+constexpr double flatness = 0.02;  // share of the radius that a beam may leave its curve by
+constexpr std::size_t most_faces = 5000;
+
+}  // namespace
+
+void SurfaceFrame::append_curve(const SurfaceCurve& curve, std::vector<Beam>& beams) const {
+    double least = infinity;
+    for (const dvec3& p : curve) least = std::min(least, radius_.at(p));
+    const SurfaceCurve simple = simplified(curve, flatness * least);
+    for (std::size_t i = 0; i + 1 < simple.size(); ++i)
+        append_tapered(simple[i], simple[i + 1], radius_, beams);
+}
+
+const std::vector<SurfaceCurve>& SurfaceFrame::curves_on(const CellFaces::Face& face, const SeedKey& own) {
+    const auto keys = std::minmax(face.other, own);
+    const auto [entry, fresh] = known_.try_emplace({keys.first, keys.second});
+    if (fresh) tracer_.trace(face.ring, entry->second);
+    return entry->second;
+}
+
+std::size_t SurfaceFrame::append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
+                                 const Stretch& stretch, std::vector<Beam>& beams) {
+    Box box;
+    for (std::size_t v = 0; v < cell.vertex_count(); ++v) box.include(own.position + cell.vertex(v));
+    if (tracer_.side_of(stretch.to_part(box)) != SurfaceTracer::Side::both) return 0;
+    const std::size_t left_out = faces_.list(cell, own, sites, stretch, CellFaces::Which::all);
+    if (known_.size() > most_faces) known_.clear();
+    const std::size_t first = beams.size();
+    curves_.clear();
+    for (const CellFaces::Face& face : faces_.faces()) {
+        const std::vector<SurfaceCurve>& curves = curves_on(face, own.key);
+        curves_.insert(curves_.end(), curves.begin(), curves.end());
+        if (face.other < own.key) continue;
+        for (const SurfaceCurve& curve : curves) append_curve(curve, beams);
+    }
+    if (curves_.empty()) return left_out;
+    for (const SurfaceCurve& joint : joints_.joints(faces_.faces(), curves_, tracer_, own, sites, stretch)) {
+        for (std::size_t i = 0; i + 1 < joint.size(); ++i)
+            append_tapered(joint[i], joint[i + 1], radius_, beams);
+    }
+    for (std::size_t i = first; i < beams.size(); ++i) {
+        beams[i].ra += growth_;
+        beams[i].rb += growth_;
+    }
+    return left_out;
+}
+
+void SurfaceFrame::append_inside(const Beam& beam, std::vector<Beam>& parts) {
+    const std::vector<dvec3> ends = tracer_.inside(beam.a, beam.b);
+    const dvec3 along = beam.b - beam.a;
+    const double square = glm::dot(along, along);
+    const auto radius = [&](dvec3 p) {
+        if (p == beam.a || !(square > 0)) return beam.ra;
+        if (p == beam.b) return beam.rb;
+        return beam.ra + (beam.rb - beam.ra) * (glm::dot(p - beam.a, along) / square);
+    };
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+        parts.push_back({ends[i], radius(ends[i]), ends[i + 1], radius(ends[i + 1])});
+    }
+}
+
+}  // namespace lamella
