@@ -15,14 +15,14 @@ namespace lamella {
 
 struct BuiltJob {
     Job job;
-    FieldPtr body;                        ///< the part's outside, without foam and skin
-    std::optional<BuiltFoam> foam;        ///< empty without foam
-    std::optional<GradedUse> skin;        ///< empty where the skin's thickness does not vary
-    std::optional<PatternReport> pattern; ///< empty where the skin is closed
-    std::vector<DrilledHole> holes;       ///< that the recipe asks for
-    std::optional<DrainReport> drains;    ///< empty where none are asked for
-    std::optional<MeshReport> mesh;       ///< empty for shapes and fields
-    std::optional<IslandReport> islands;  ///< empty until they are looked for
+    FieldPtr body;                         ///< the part's outside, without foam and skin
+    std::optional<BuiltFoam> foam;         ///< empty without foam
+    std::optional<GradedUse> skin;         ///< empty where the skin's thickness does not vary
+    std::optional<PatternReport> pattern;  ///< empty where the skin is closed
+    std::vector<DrilledHole> holes;        ///< that the recipe asks for
+    std::optional<DrainReport> drains;     ///< empty where none are asked for
+    std::optional<MeshReport> mesh;        ///< empty for shapes and fields
+    std::optional<IslandReport> islands;   ///< empty until they are looked for
 };
 
 /// Where drains are asked for, the layers are surveyed for cavities. Throws InputError when a file is

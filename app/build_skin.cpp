@@ -31,8 +31,8 @@ FieldPtr cut_by(const std::shared_ptr<const SurfaceWindows>& windows, FieldPtr s
     return make_patterned_shell(std::move(shell), windows);
 }
 
-FieldPtr voronoi(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
-                 Gradings& gradings, PatternReport& report) {
+FieldPtr voronoi(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
+                 PatternReport& report) {
     const auto windows = make_voronoi_windows(*body, window_settings(recipe, depth, gradings),
                                               static_cast<std::uint64_t>(recipe.skin->seed));
     return cut_by(windows, std::move(shell), report);
@@ -52,8 +52,8 @@ FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, doubl
     StrutImage picture(read_volume(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
     report.islands = picture.islands();
     report.open_share = picture.open_share();
-    return make_patterned_shell(
-        std::move(shell), std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
+    return make_patterned_shell(std::move(shell),
+                                std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
 }
 
 double length(dvec3 v) { return std::sqrt(glm::dot(v, v)); }
@@ -93,20 +93,20 @@ FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body,
 DrilledHole drill(const Field& body, dvec3 at, dvec3 direction, double radius, double deep, double depth) {
     const auto foot = foot_on_surface(body, at, 1e-4 * radius);
     if (!foot) {
-        throw InputError(fmt::format("no point of the surface can be told to be the nearest to ({}, {}, {}) "
-                                     "mm; accepted: a point nearer to the surface",
-                                     at.x, at.y, at.z));
+        throw InputError(
+            fmt::format("no point of the surface can be told to be the nearest to ({}, {}, {}) "
+                        "mm; accepted: a point nearer to the surface",
+                        at.x, at.y, at.z));
     }
     const double given = length(direction);
     const dvec3 inward = given > 0 ? direction / given : -foot->normal;
     const double cosine = -glm::dot(inward, foot->normal);
     constexpr double flattest = 0.1;
     if (cosine < flattest) {
-        throw InputError(
-            fmt::format("the direction ({}, {}, {}) does not lead into the body, whose outward normal is "
-                        "({:.4g}, {:.4g}, {:.4g}) there; accepted: one within 84 degrees of its opposite",
-                        direction.x, direction.y, direction.z, foot->normal.x, foot->normal.y,
-                        foot->normal.z));
+        throw InputError(fmt::format(
+            "the direction ({}, {}, {}) does not lead into the body, whose outward normal is "
+            "({:.4g}, {:.4g}, {:.4g}) there; accepted: one within 84 degrees of its opposite",
+            direction.x, direction.y, direction.z, foot->normal.x, foot->normal.y, foot->normal.z));
     }
     // A round skin is met later at the hole's rim than in its middle, an oblique one later on one side.
     const double slant = radius * std::sqrt(1 - std::min(cosine * cosine, 1.0)) / cosine;
@@ -132,8 +132,7 @@ FieldPtr without_holes(FieldPtr solid, std::span<const DrilledHole> holes) {
     if (holes.empty()) return solid;
     std::vector<FieldPtr> cylinders;
     cylinders.reserve(holes.size());
-    for (const DrilledHole& hole : holes)
-        cylinders.push_back(make_cylinder(hole.from, hole.to, hole.radius));
+    for (const DrilledHole& hole : holes) cylinders.push_back(make_cylinder(hole.from, hole.to, hole.radius));
     return make_difference(std::move(solid), make_union(std::move(cylinders)));
 }
 

@@ -13,10 +13,10 @@ namespace lamella {
 /// What came of a skin's pattern.
 struct PatternReport {
     std::string pattern;
-    std::size_t windows = 0;        ///< cells of the pattern; 0 for a picture
-    std::size_t closed = 0;         ///< cells too small for a window
-    std::size_t islands = 0;        ///< solid parts of a picture that hang on nothing and were left out
-    double open_share = 0;          ///< of a picture that is window
+    std::size_t windows = 0;  ///< cells of the pattern; 0 for a picture
+    std::size_t closed = 0;   ///< cells too small for a window
+    std::size_t islands = 0;  ///< solid parts of a picture that hang on nothing and were left out
+    double open_share = 0;    ///< of a picture that is window
 };
 
 /// A hole as it is drilled.

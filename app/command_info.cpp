@@ -74,7 +74,8 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
     }
     auto holes = Json::array();
     for (const DrilledHole& hole : built.holes) {
-        holes.push_back({{"from_mm", triple(hole.from)}, {"to_mm", triple(hole.to)}, {"radius_mm", hole.radius}});
+        holes.push_back(
+            {{"from_mm", triple(hole.from)}, {"to_mm", triple(hole.to)}, {"radius_mm", hole.radius}});
     }
     if (!holes.empty()) json["holes"] = std::move(holes);
     return json;
@@ -199,9 +200,9 @@ std::string skin_text(const Json& skin) {
                             skin["windows"].get<std::size_t>(), skin["pattern"].get<std::string>(),
                             skin["too_small_for_a_window"].get<std::size_t>());
     } else if (skin.contains("open_share")) {
-        text += fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",
-                            100 * skin["open_share"].get<double>(),
-                            skin["islands_left_out"].get<std::size_t>());
+        text +=
+            fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",
+                        100 * skin["open_share"].get<double>(), skin["islands_left_out"].get<std::size_t>());
     }
     if (skin.contains("holes")) text += fmt::format(", {} drilled", skin["holes"].size());
     return text + "\n";

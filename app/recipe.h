@@ -150,11 +150,11 @@ struct SkinRecipe {
 
 /// A hole drilled through the skin.
 struct HoleRecipe {
-    std::string where;  ///< where the entry begins, for messages
-    dvec3 at{0};        ///< mm; the hole begins at the nearest point of the surface
-    double radius = 0;  ///< mm
-    dvec3 direction{0}; ///< inward; zero: at right angles to the surface
-    double depth = 0;   ///< from the surface, mm; 0: through the skin
+    std::string where;     ///< where the entry begins, for messages
+    dvec3 at{0};           ///< mm; the hole begins at the nearest point of the surface
+    double radius = 0;     ///< mm
+    dvec3 direction{0};    ///< inward; zero: at right angles to the surface
+    double depth = 0;      ///< from the surface, mm; 0: through the skin
     bool through = false;  ///< through the filling, too
 };
 

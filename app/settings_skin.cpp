@@ -23,11 +23,12 @@ void add_thickness(std::vector<Setting>& t) {
                                  .limits = {0, 1000},
                                  .fallback = "required in [skin]",
                                  .help = "Thickness of the skin, inward from the surface; 0 for none."});
-    add_skin_row<&S::thickness_min>(t, "thickness_min", "--skin-min",
-                                    {.unit = "mm",
-                                     .limits = {0, 1000},
-                                     .fallback = format_value(S{}.thickness_min),
-                                     .help = "Least thickness that is made: a graded skin is kept above it."});
+    add_skin_row<&S::thickness_min>(
+        t, "thickness_min", "--skin-min",
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .fallback = format_value(S{}.thickness_min),
+         .help = "Least thickness that is made: a graded skin is kept above it."});
     add_skin_row<&S::thickness_max>(
         t, "thickness_max", "--skin-max",
         {.unit = "mm",
@@ -94,12 +95,11 @@ void add_drains(std::vector<Setting>& t) {
                                     .limits = {0.01, 1000},
                                     .fallback = "half the skin's thickness, at least 0.5 mm",
                                     .help = "Radius of these holes."});
-    add_skin_row<&S::drain_pitch>(
-        t, "drain_pitch", "--drain-pitch",
-        {.unit = "mm",
-         .limits = {0.001, 100},
-         .fallback = "a third of the skin's thickness, at most 16 layers",
-         .help = "Distance of the rows in which the survey for cavities looks."});
+    add_skin_row<&S::drain_pitch>(t, "drain_pitch", "--drain-pitch",
+                                  {.unit = "mm",
+                                   .limits = {0.001, 100},
+                                   .fallback = "a third of the skin's thickness, at most 16 layers",
+                                   .help = "Distance of the rows in which the survey for cavities looks."});
 }
 
 template <auto member>
@@ -114,8 +114,7 @@ void add_holes(std::vector<Setting>& t) {
                           .fallback = "required",
                           .help = "Where it is: the point of the surface that is nearest to this one."});
     add_hole_row<&H::radius>(
-        t, "radius",
-        {.unit = "mm", .limits = {0.01, 1e4}, .fallback = "required", .help = "Its radius."});
+        t, "radius", {.unit = "mm", .limits = {0.01, 1e4}, .fallback = "required", .help = "Its radius."});
     add_hole_row<&H::direction>(t, "direction",
                                 {.limits = place,
                                  .fallback = "at right angles to the surface",

@@ -194,7 +194,8 @@ CavitySurvey Surveyor::result(std::size_t most) {
         // The void of the last layer goes on above it.
         if (ends.high.layer == last_layer_) continue;
         const auto& component = components_.component(number);
-        const double volume = static_cast<double>(component.extent.length) / run_unit * pitch_ * pitch_ * height_;
+        const double volume =
+            static_cast<double>(component.extent.length) / run_unit * pitch_ * pitch_ * height_;
         ++survey.count;
         survey.volume += volume;
         survey.cavities.push_back({volume, middle(ends.low), middle(ends.high)});

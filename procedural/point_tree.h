@@ -13,7 +13,7 @@ namespace lamella {
 class PointTree {
   public:
     struct Nearest {
-        std::uint32_t point = 0;  ///< its number
+        std::uint32_t point = 0;    ///< its number
         double squared = infinity;  ///< of the distance, mm^2
     };
 

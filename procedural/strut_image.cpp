@@ -19,8 +19,8 @@ constexpr double largest_picture = 8192;  // px along a side
 
 void check(const Volume& picture, const StrutImageSettings& s) {
     if (!(s.size > 0 && s.strut > 0 && std::isfinite(s.size) && std::isfinite(s.strut))) {
-        throw InputError(fmt::format("a picture {} mm wide with struts of {} mm; both must be positive",
-                                     s.size, s.strut));
+        throw InputError(
+            fmt::format("a picture {} mm wide with struts of {} mm; both must be positive", s.size, s.strut));
     }
     if (!(0 <= s.threshold && s.threshold <= 1))
         throw InputError(fmt::format("the threshold is {}; it must be from 0 to 1", s.threshold));
@@ -39,7 +39,8 @@ std::vector<double> grey_of(const Volume& picture) {
         [&](const auto& samples) {
             std::vector<double> grey;
             grey.reserve(samples.size());
-            for (const auto sample : samples) grey.push_back(static_cast<double>(sample) / picture.full_scale);
+            for (const auto sample : samples)
+                grey.push_back(static_cast<double>(sample) / picture.full_scale);
             return grey;
         },
         picture.samples);
@@ -147,8 +148,8 @@ void mark_middle_line(const TiledComponent& part, const TiledMask& solid,
 /// The solid with every strut at least two radii wide, and corners rounded by the radius (px).
 TiledMask widened(const TiledMask& solid, double radius) {
     const auto depth = squared_distances(where(solid, [&](std::size_t i) { return !solid.marked[i]; }));
-    const TiledMask deep = where(
-        solid, [&](std::size_t i) { return static_cast<double>(depth[i]) > radius * radius; });
+    const TiledMask deep =
+        where(solid, [&](std::size_t i) { return static_cast<double>(depth[i]) > radius * radius; });
     const TiledMask wide = dilated(deep, radius);
     const auto from_wide = squared_distances(wide);
     const TiledMask rest = where(solid, [&](std::size_t i) { return solid.marked[i] && !wide.marked[i]; });
@@ -227,9 +228,8 @@ double StrutImage::value(double u, double v) const {
     const int i = std::min(static_cast<int>(x), width_ - 1), j = std::min(static_cast<int>(y), height_ - 1);
     const int right = i + 1 < width_ ? i + 1 : 0, up = j + 1 < height_ ? j + 1 : 0;
     const auto at = [&](int a, int b) {
-        return static_cast<double>(
-            distance_[static_cast<std::size_t>(b) * static_cast<std::size_t>(width_) +
-                      static_cast<std::size_t>(a)]);
+        return static_cast<double>(distance_[static_cast<std::size_t>(b) * static_cast<std::size_t>(width_) +
+                                             static_cast<std::size_t>(a)]);
     };
     const double s = x - i, t = y - j;
     const double low = at(i, j) * (1 - s) + at(right, j) * s, high = at(i, up) * (1 - s) + at(right, up) * s;

@@ -20,9 +20,10 @@ struct StrutImageSettings {
 /// The solid part of a picture, tiled. The picture is read between its pixels by bilinear interpolation, as
 /// finely as an eighth of a strut, and thresholded. What is solid and narrower than a strut is widened about
 /// its middle line when it is a strut, that is when it ends more than half a strut away from what is wide
-/// enough or joins two places of that; a mere corner is rounded instead. Notches of windows narrower than half a strut are filled. So the solid part is a union of
-/// discs that are a strut wide. Parts of it that are no network, because they do not go on over the tile's
-/// border round to themselves, would float free in a window and are left out.
+/// enough or joins two places of that; a mere corner is rounded instead. Notches of windows narrower than
+/// half a strut are filled. So the solid part is a union of discs that are a strut wide. Parts of it that are
+/// no network, because they do not go on over the tile's border round to themselves, would float free in a
+/// window and are left out.
 class StrutImage {
   public:
     /// Throws InputError for settings out of range, a stack of several pictures, a picture without struts

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int levels = 5;  // of cubes: the largest are 16 times as wide as the finest
 constexpr int largest = 1 << (levels - 1);
-constexpr double most_cubes = 1e5;              // along the body's diagonal
+constexpr double most_cubes = 1e5;  // along the body's diagonal
 constexpr std::size_t most_leaves = 20'000'000;
-constexpr double slope_step = 1e-3;             // of the finest cube
+constexpr double slope_step = 1e-3;  // of the finest cube
 
 int level_of(double side, double finest) {
     int level = 0;
@@ -57,8 +57,8 @@ std::size_t SurfaceCharts::Hash::operator()(const Key& key) const {
 SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : finest_(finest) {
     const double across = diagonal(body.bounds()) / finest;
     if (!(finest > 0) || !(across < most_cubes)) {
-        throw InputError(fmt::format(
-            "struts are too narrow for a body of {:.4g} mm; accepted: wider ones", diagonal(body.bounds())));
+        throw InputError(fmt::format("struts are too narrow for a body of {:.4g} mm; accepted: wider ones",
+                                     diagonal(body.bounds())));
     }
     const double step = slope_step * finest;
     std::vector<std::pair<LatticeCube, Chart>> leaves;

@@ -14,15 +14,15 @@ namespace lamella {
 
 /// The two coordinate directions, six in all, that a surface may be projected along.
 struct Chart {
-    int axis = 0;       ///< 0 to 2
+    int axis = 0;          ///< 0 to 2
     bool positive = true;  ///< the side the outward normal points to
     friend bool operator==(const Chart&, const Chart&) = default;
 };
 
 /// Divides the space about a body's surface into charts: cubes where one axis is the nearest to the
-/// direction in which the body's value rises. Cubes are halved, down to a stated size, where that axis changes
-/// between their corners and middle. Of axes equally near, within 1 %, z comes before y before x, so that a
-/// plane at 45 degrees has one chart. Immutable.
+/// direction in which the body's value rises. Cubes are halved, down to a stated size, where that axis
+/// changes between their corners and middle. Of axes equally near, within 1 %, z comes before y before x, so
+/// that a plane at 45 degrees has one chart. Immutable.
 class SurfaceCharts {
   public:
     /// Cubes of `finest` mm at seams; wanted within `depth` mm of the surface. Throws InputError for a body

@@ -138,12 +138,8 @@ class LatticeFront {
         seeds_.add(foot);
         const dvec3 aside = glm::cross(foot.normal, along);
         const double half = 0.5, high = std::sqrt(0.75);
-        const dvec3 ways[] = {along,
-                              along * half + aside * high,
-                              along * -half + aside * high,
-                              -along,
-                              along * -half - aside * high,
-                              along * half - aside * high};
+        const dvec3 ways[] = {along,  along * half + aside * high,  along * -half + aside * high,
+                              -along, along * -half - aside * high, along * half - aside * high};
         for (const dvec3 way : ways) propose(foot, foot.place + way * pitch_, along, bend);
     }
 

@@ -24,8 +24,8 @@ std::vector<dvec3> places(const std::vector<SurfaceFoot>& seeds) {
 void check(const SurfaceWindowSettings& settings, bool seeded) {
     const auto length = [](double v, const char* what, bool positive) {
         if (std::isfinite(v) && (positive ? v > 0 : v >= 0)) return;
-        throw InputError(fmt::format("{} is {} mm; it must be {}, finite", what, v,
-                                     positive ? "positive" : "at least 0"));
+        throw InputError(
+            fmt::format("{} is {} mm; it must be {}, finite", what, v, positive ? "positive" : "at least 0"));
     };
     length(settings.window, "the windows' width", true);
     length(settings.corner, "the radius of the windows' corners", false);
@@ -83,7 +83,8 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
         if (cells_.back().closed) ++closed_;
     }
     faces_.shrink_to_fit();
-    // What lies beyond a wall is solid for half a strut at least, unless the other side of a thin wall is near.
+    // What lies beyond a wall is solid for half a strut at least, unless the other side of a thin wall is
+    // near.
     for (Cell& cell : cells_) cell.beyond = least_inset_;
     std::vector<std::uint32_t> near;
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
@@ -156,8 +157,7 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
     Shrunk shrunk[most];
     std::size_t count = 0;
     const double inset = cell.inset + cell.corner;
-    const double cube =
-        reach_ - std::max(std::max(std::abs(q.x), std::abs(q.y)), std::abs(q.z));
+    const double cube = reach_ - std::max(std::max(std::abs(q.x), std::abs(q.y)), std::abs(q.z));
     double worst = inset - cube;
     for (std::uint32_t f = cell.first; f < cell.walls_end; ++f) {
         const double by = inset - (faces_[f].distance - glm::dot(faces_[f].normal, q));

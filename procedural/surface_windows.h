@@ -11,8 +11,8 @@
 namespace lamella {
 
 struct SurfaceWindowSettings {
-    double window = 2;   ///< mean width of a window, mm
-    Graded strut = 0.5;  ///< width of the struts, mm, > 0; asked for at the seeds
+    double window = 2;     ///< mean width of a window, mm
+    Graded strut = 0.5;    ///< width of the struts, mm, > 0; asked for at the seeds
     double corner = 0.25;  ///< radius of the windows' corners, mm, >= 0
     double depth = 1;      ///< how far from the surface the pattern is wanted, mm
 };
@@ -37,14 +37,14 @@ class SurfaceWindows : public WindowPattern {
 
   private:
     struct Face {
-        dvec3 normal;  ///< away from the seed
+        dvec3 normal;     ///< away from the seed
         double distance;  ///< from the seed, mm
     };
     struct Cell {
         std::uint32_t first = 0, walls_end = 0, end = 0;  ///< of faces_: walls, then those without a strut
-        double inset = 0;    ///< half a strut, mm
-        double corner = 0;   ///< mm
-        double beyond = 0;   ///< how far it is surely solid beyond the walls, mm
+        double inset = 0;                                 ///< half a strut, mm
+        double corner = 0;                                ///< mm
+        double beyond = 0;                                ///< how far it is surely solid beyond the walls, mm
         bool closed = false;
     };
 
@@ -55,8 +55,8 @@ class SurfaceWindows : public WindowPattern {
     double excess(const Cell& cell, dvec3 q) const;
 
     PointTree tree_;
-    double reach_;         ///< half side of the cube that a cell is cut from, mm
-    double corner_;        ///< mm
+    double reach_;                   ///< half side of the cube that a cell is cut from, mm
+    double corner_;                  ///< mm
     double least_inset_ = infinity;  ///< mm
     std::vector<Cell> cells_;
     std::vector<Face> faces_;

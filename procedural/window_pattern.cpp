@@ -117,9 +117,7 @@ class PatternedShell : public Field {
         const double inside = std::max(shell.lo, pattern.lo);
         return {shell.hi > 0 ? std::min(inside, 0.0) : inside, std::max(shell.hi, pattern.hi)};
     }
-    Metric metric() const override {
-        return shell_->metric() == Metric::sign ? Metric::sign : Metric::bound;
-    }
+    Metric metric() const override { return shell_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override {
         return context.make<PatternedSlice>(*this, context.slice(*shell_, z), *pattern_, z);
     }

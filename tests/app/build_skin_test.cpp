@@ -170,13 +170,13 @@ TEST_CASE("skins that cannot be are refused with the key that is to blame") {
     CHECK(mentions(complaint(ball, skin + "window = 2\n"), "pattern closed does not have it"));
     CHECK(mentions(complaint(ball, skin + "drain_radius = 2\n"), "there are no drains"));
     CHECK(mentions(complaint(ball, skin + "drains = 1\ndrain_pitch = 90\n"), "drain_pitch"));
-    CHECK(mentions(complaint(ball, skin + "drains = 1\n[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.3\n"),
-                   "too many to drain"));
+    CHECK(mentions(
+        complaint(ball, skin + "drains = 1\n[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.3\n"),
+        "too many to drain"));
     CHECK(mentions(complaint(ball, "[[hole]]\nat = [0, 0, 10]\nradius = 1\n"), "there is no skin to drill"));
     CHECK(mentions(complaint(ball, skin + "[[hole]]\nradius = 1\n"), "hole.at: missing"));
-    CHECK(mentions(
-        complaint(ball, skin + "[[hole]]\nat = [0, 0, 10]\nradius = 1\ndirection = [0, 0, 1]\n"),
-        "does not lead into the body"));
+    CHECK(mentions(complaint(ball, skin + "[[hole]]\nat = [0, 0, 10]\nradius = 1\ndirection = [0, 0, 1]\n"),
+                   "does not lead into the body"));
     CHECK(mentions(complaint(ball, skin + "pattern = \"image\"\nimage = \"nowhere.png\"\nimage_size = 9\n"
                                           "strut = 1\n"),
                    "nowhere.png"));
@@ -187,9 +187,13 @@ TEST_CASE("windows, holes and drains change a job's identity") {
     const auto identity = [](const std::string& text) {
         return job_identity(read("[part]\nshape = \"sphere\"\nradius = 10\n" + text));
     };
-    const std::string skin = "[skin]\nthickness = 1\n", voronoi = skin + "pattern = \"voronoi\"\nwindow = 2\nstrut = 1\n";
+    const std::string skin = "[skin]\nthickness = 1\n",
+                      voronoi = skin + "pattern = \"voronoi\"\nwindow = 2\nstrut = 1\n";
     const std::vector<std::string> all{
-        identity(skin), identity(voronoi), identity(voronoi + "seed = 2\n"), identity(skin + "drains = 1\n"),
+        identity(skin),
+        identity(voronoi),
+        identity(voronoi + "seed = 2\n"),
+        identity(skin + "drains = 1\n"),
         identity(skin + "[[hole]]\nat = [0, 0, 10]\nradius = 1\n"),
         identity(skin + "[[hole]]\nat = [0, 0, 10]\nradius = 1\nthrough = true\n")};
     for (std::size_t i = 0; i < all.size(); ++i) {

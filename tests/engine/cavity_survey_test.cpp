@@ -45,7 +45,8 @@ TEST_CASE("the cavity of a hollow ball has its volume, its lowest and its highes
 
 TEST_CASE("a cavity with a way out is none, whichever way that leads") {
     const FieldPtr hollow = make_difference(make_sphere({0, 0, 0}, 8), make_sphere({0, 0, 0}, 5));
-    for (const dvec3 way : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(-0.6, 0, 0.8)}) {
+    for (const dvec3 way :
+         {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(-0.6, 0, 0.8)}) {
         const FieldPtr drilled = make_difference(hollow, make_cylinder({0, 0, 0}, way * 9.0, 0.5));
         CHECK(surveyed(drilled).count == 0);
     }
@@ -67,8 +68,9 @@ TEST_CASE("an onion has a cavity between any two of its layers") {
 
 TEST_CASE("a cavity of two chambers joined at the top is one, and lowest in the deeper one") {
     const FieldPtr block = make_box({{-10, -5, -10}, {10, 5, 10}});
-    const FieldPtr chambers = make_union({make_box({{-8, -3, -2}, {-4, 3, 8}}), make_box({{2, -3, -7}, {6, 3, 6}}),
-                                          make_box({{-6, -1, 4}, {4, 1, 5}})});
+    const FieldPtr chambers =
+        make_union({make_box({{-8, -3, -2}, {-4, 3, 8}}), make_box({{2, -3, -7}, {6, 3, 6}}),
+                    make_box({{-6, -1, 4}, {4, 1, 5}})});
     const CavitySurvey survey = surveyed(make_difference(block, chambers));
     REQUIRE(survey.count == 1);
     const Cavity& cavity = survey.cavities.front();

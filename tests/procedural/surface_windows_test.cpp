@@ -84,7 +84,8 @@ TEST_CASE("scattered seeds keep their distance, leave no hole and are one to a p
     CHECK(static_cast<double>(seeds.size()) == Approx(wanted).epsilon(0.03));
     for (const dvec3 p : points_in_shell(radius, 1e-9, 2000, 3)) {
         double least = infinity;
-        for (const SurfaceFoot& seed : seeds) least = std::min(least, length(seed.place - p - dvec3(1, 2, 3)));
+        for (const SurfaceFoot& seed : seeds)
+            least = std::min(least, length(seed.place - p - dvec3(1, 2, 3)));
         REQUIRE(least < 1.1 * pitch);
     }
 }
@@ -92,8 +93,9 @@ TEST_CASE("scattered seeds keep their distance, leave no hole and are one to a p
 TEST_CASE("seeds are the same each time, and others with another number") {
     const FieldPtr ball = make_sphere(dvec3(0), 6);
     const auto same = [](const std::vector<SurfaceFoot>& a, const std::vector<SurfaceFoot>& b) {
-        return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
-                                                  [](const auto& s, const auto& t) { return s.place == t.place; });
+        return a.size() == b.size() &&
+               std::equal(a.begin(), a.end(), b.begin(),
+                          [](const auto& s, const auto& t) { return s.place == t.place; });
     };
     CHECK(same(scatter_on_surface(*ball, 1.5, 5), scatter_on_surface(*ball, 1.5, 5)));
     CHECK_FALSE(same(scatter_on_surface(*ball, 1.5, 5), scatter_on_surface(*ball, 1.5, 6)));
