@@ -9,7 +9,7 @@
 namespace lamella {
 
 /// More seeds than this are refused.
-inline constexpr std::size_t most_surface_seeds = 4'000'000;
+inline constexpr std::size_t most_surface_seeds = 1'000'000;
 
 /// Two places face away from each other, as those on the two sides of a thin wall do. They are no
 /// neighbours, however near they are.

@@ -18,6 +18,7 @@
 #include "procedural/strut_lattice.h"
 #include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
+#include "procedural/voronoi_foam.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
 
