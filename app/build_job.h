@@ -6,6 +6,8 @@
 #include "app/build_body.h"
 #include "app/build_foam.h"
 #include "app/build_regions.h"
+#include "app/build_skin.h"
+#include "app/place_drains.h"
 #include "app/recipe.h"
 #include "engine/island_survey.h"
 #include "engine/layer.h"
@@ -13,18 +15,22 @@
 namespace lamella {
 
 struct BuiltJob {
-    Job job;                         ///< what is printed
-    Job designed;                    ///< the same before [process], layers cut alike
-    FieldPtr body;                   ///< what the recipe's part is, without foam and skin
-    FieldPtr outside;                ///< the body, with a skin that lies outside it
-    std::optional<BuiltFoam> foam;   ///< empty without foam
-    std::optional<GradedUse> skin;   ///< empty where the skin's thickness does not vary
-    std::optional<MeshReport> mesh;  ///< empty for shapes and fields
+    Job job;                               ///< what is printed
+    Job designed;                          ///< the same before [process], layers cut alike
+    FieldPtr body;                         ///< what the recipe's part is, without foam and skin
+    FieldPtr outside;                      ///< the body, with a skin that lies outside it
+    std::optional<BuiltFoam> foam;         ///< empty without foam
+    std::optional<GradedUse> skin;         ///< empty where the skin's thickness does not vary
+    std::optional<MeshReport> mesh;        ///< empty for shapes and fields
+    std::optional<PatternReport> pattern;  ///< empty where the skin is closed
+    std::vector<DrilledHole> holes;        ///< that the recipe asks for
+    std::optional<DrainReport> drains;     ///< empty where none are asked for
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
 };
 
-/// Throws InputError when a file is unreadable or the part is empty.
+/// Where drains are asked for, the layers are surveyed for cavities. Throws InputError when a file is
+/// unreadable or the part is empty.
 BuiltJob build_job(const Recipe& recipe);
 
 /// Surveys the job's layers and leaves out of the part what floats free of it. The pitch is the recipe's, or

@@ -61,6 +61,28 @@ Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bound
     return json;
 }
 
+Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
+    Json json{{"thickness_mm", graded_json(recipe.thickness)}};
+    if (built.pattern) {
+        json["pattern"] = built.pattern->pattern;
+        json["strut_mm"] = graded_json(recipe.strut);
+        if (built.pattern->windows > 0) {
+            json["windows"] = built.pattern->windows - built.pattern->closed;
+            json["too_small_for_a_window"] = built.pattern->closed;
+        } else {
+            json["open_share"] = built.pattern->open_share;
+            json["islands_left_out"] = built.pattern->islands;
+        }
+    }
+    auto holes = Json::array();
+    for (const DrilledHole& hole : built.holes) {
+        holes.push_back(
+            {{"from_mm", triple(hole.from)}, {"to_mm", triple(hole.to)}, {"radius_mm", hole.radius}});
+    }
+    if (!holes.empty()) json["holes"] = std::move(holes);
+    return json;
+}
+
 Json grading_json(const GradingReport& report) {
     const std::string unit = report.unit.empty() ? "" : "_" + report.unit;
     Json json{{"key", report.key},
@@ -106,7 +128,8 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
               {"layers", job.layer_count}};
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
-    if (recipe.skin) info["skin"] = {{"thickness_mm", graded_json(recipe.skin->thickness)}};
+    if (recipe.skin) info["skin"] = skin_json(*recipe.skin, built);
+    if (built.drains) info["drains"] = drains_json(*built.drains);
     if (!built.regions.list.empty()) info["regions"] = regions_json(recipe, built.regions);
     if (!built.regions.warnings.empty()) info["region_warnings"] = built.regions.warnings;
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
@@ -197,7 +220,24 @@ std::string memory_text(const Json& m) {
         m["beams_per_layer"].get<double>());
 }
 
-std::string as_text(const Json& info, const std::optional<IslandReport>& islands) {
+std::string skin_text(const Json& skin) {
+    std::string text = fmt::format("skin      {} mm", graded_text(skin["thickness_mm"]));
+    if (skin.contains("windows")) {
+        text += fmt::format(", {} windows ({}), {} cells too small for one",
+                            skin["windows"].get<std::size_t>(), skin["pattern"].get<std::string>(),
+                            skin["too_small_for_a_window"].get<std::size_t>());
+    } else if (skin.contains("open_share")) {
+        text +=
+            fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",
+                        100 * skin["open_share"].get<double>(), skin["islands_left_out"].get<std::size_t>());
+    }
+    if (skin.contains("holes")) text += fmt::format(", {} drilled", skin["holes"].size());
+    return text + "\n";
+}
+
+std::string as_text(const Json& info, const BuiltJob& built) {
+    const std::optional<IslandReport>& islands = built.islands;
+    const std::optional<DrainReport>& drains = built.drains;
     std::string text =
         fmt::format("part      {}, {}\n", info["name"].get<std::string>(), size_text(info["size_mm"]));
     text += fmt::format("bounds    {} to {}\n", point_text(info["bounds_mm"]["lo"]),
@@ -206,8 +246,8 @@ std::string as_text(const Json& info, const std::optional<IslandReport>& islands
                         info["layer_height_mm"].get<double>());
     if (info.contains("mesh")) text += mesh_text(info["mesh"]);
     if (info.contains("foam")) text += foam_text(info["foam"]);
-    if (info.contains("skin"))
-        text += fmt::format("skin      {} mm\n", graded_text(info["skin"]["thickness_mm"]));
+    if (info.contains("skin")) text += skin_text(info["skin"]);
+    if (drains) text += fmt::format("drains    {}\n", drains_text(*drains));
     for (const Json& region : info.value("regions", Json::array())) text += region_text(region);
     for (const Json& warning : info.value("region_warnings", Json::array())) {
         text += "          " + warning.get<std::string>() + "\n";
@@ -234,7 +274,7 @@ void run(const InfoOptions& options) {
     }
     const Json info = describe(recipe, built, options.threads);
     TextOutput out("");
-    out.write(options.json ? info.dump(2) + "\n" : as_text(info, built.islands));
+    out.write(options.json ? info.dump(2) + "\n" : as_text(info, built));
     out.close();
 }
 

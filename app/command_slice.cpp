@@ -100,6 +100,7 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                                        {"first_layer_seconds", display.first_layer_seconds()},
                                        {"peak_memory_bytes", peak_memory_bytes()},
                                        {"volume_mm3", report.volume}};
+        if (built.drains) summary["drains"] = drains_json(*built.drains);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
         if (beams) {
             summary["beams"] = {{"output", recipe.output.beams},
@@ -158,6 +159,8 @@ void run(SliceOptions options) {
     if (!options.quiet) {
         for (const std::string& line : built.regions.warnings) std::fputs((line + "\n").c_str(), stderr);
     }
+    if (built.drains && !options.quiet)
+        std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.

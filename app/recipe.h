@@ -162,6 +162,18 @@ struct SkinRecipe {
     double thickness_min = 0;  ///< the range of a graded thickness, mm
     double thickness_max = 1000;
     SkinSide side = SkinSide::inside;  ///< of the body's surface
+    std::string pattern = "closed";    ///< a word of the registered kinds
+    double window = 0;                 ///< mean width of a window, mm
+    GradedNumber strut;                ///< width of what is left between windows, at least, mm
+    double corner = -1;                ///< radius of the windows' corners, mm; negative: half the strut
+    std::int64_t seed = 1;             ///< voronoi: of the random draws
+    std::string image;                 ///< path of a picture
+    double image_size = 0;             ///< image: what its width covers, mm
+    double threshold = 0.5;            ///< image: grey, 0 to 1, below which it is solid
+    bool invert = false;               ///< image: solid where it is bright
+    std::int64_t drains = 0;  ///< holes of each closed cavity: at its lowest point, and at its highest
+    double drain_radius = 0;  ///< mm; 0: what the skin suggests
+    double drain_pitch = 0;   ///< of the survey for cavities, mm; 0: what suits the skin
 };
 
 /// What makes up for the way a machine prints.
@@ -170,6 +182,16 @@ struct ProcessRecipe {
     double xy_compensation = 0;             ///< by which every layer's outline grows, mm; negative: shrinks
     double elephant_foot = 0;               ///< by which the first layer's outline is drawn in, mm
     std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
+};
+
+/// A hole drilled through the skin.
+struct HoleRecipe {
+    std::string where;     ///< where the entry begins, for messages
+    dvec3 at{0};           ///< mm; the hole begins at the nearest point of the surface
+    double radius = 0;     ///< mm
+    dvec3 direction{0};    ///< inward; zero: at right angles to the surface
+    double depth = 0;      ///< from the surface, mm; 0: through the skin
+    bool through = false;  ///< through the filling, too
 };
 
 /// What is written besides the layers.
@@ -189,6 +211,7 @@ struct Recipe {
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
     std::optional<ProcessRecipe> process;
+    std::vector<HoleRecipe> holes;
     double layer_height = 0.05;  ///< mm
     OutputRecipe output;
     PrinterProfile printer;

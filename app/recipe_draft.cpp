@@ -38,6 +38,13 @@ std::vector<std::string> keys_of(const Kind& kind) {
     return keys;
 }
 
+/// What every entry of a list section has.
+std::vector<std::string> needs_of_list(std::string_view section) {
+    if (section == "hole") return {"at", "radius"};
+    if (section == "region") return {};
+    return {"name"};
+}
+
 std::set<std::string> keys_of(const KindSection& section) {
     std::set<std::string> keys;
     for (const Kind& kind : section.kinds) {
@@ -189,9 +196,9 @@ void RecipeDraft::check_structure() {
     const bool one_body = check_bodies();
     for (const Section& section : sections()) {
         const std::size_t found = count(section);
-        const bool named = section.is_list() && find_setting(section.name, "name");
-        for (std::size_t number = 0; named && number < found; ++number) {
-            check_need({section.name, number}, "name", section.title());
+        for (std::size_t number = 0; section.is_list() && number < found; ++number) {
+            for (const std::string& key : needs_of_list(section.name))
+                check_need({section.name, number}, key, section.title());
         }
         for (const KindSection& kinds : kind_sections()) {
             if (kinds.section != section.name || (section.name == "part" && !one_body)) continue;
@@ -238,6 +245,7 @@ Recipe RecipeDraft::assemble() const {
     }
     for (std::size_t i = 0; i < recipe.regions.size(); ++i)
         recipe.regions[i].where = where_begins("region", i);
+    for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
     if (recipe.skin && recipe.skin->thickness == GradedNumber{}) recipe.skin.reset();
     const auto makes_skin = [](const RegionRecipe& region) { return region.make == RegionMake::skin; };
     if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin) && !recipe.skin) {
@@ -343,6 +351,31 @@ void RecipeDraft::check_output(const OutputRecipe& output) {
     }
 }
 
+/// A skin with windows or holes lies inside.
+void RecipeDraft::check_cut_skin(const Recipe& recipe) {
+    const SkinRecipe& skin = *recipe.skin;
+    if (skin.side == SkinSide::inside) return;
+    if (skin.pattern == "closed" && recipe.holes.empty() && skin.drains == 0) return;
+    refuse(0, fmt::format("{}: a skin with windows, holes or drains lies inside the body; accepted: inside",
+                          where("skin", "side")));
+}
+
+/// Rules between drains, their keys and the foam.
+void RecipeDraft::check_drains(const Recipe& recipe) {
+    if (recipe.skin->drains == 0) {
+        for (const char* key : {"drain_radius", "drain_pitch"}) {
+            if (!entry("skin", key)) continue;
+            refuse(0, fmt::format("{}: there are no drains; accepted: skin.drains / --drains with it",
+                                  where("skin", key)));
+        }
+    } else if (recipe.foam && recipe.foam->kind == "closed" && !recipe.foam->window.is_formula() &&
+               recipe.foam->window.number() == 0) {
+        refuse(0, fmt::format("{}: each cell of a closed foam is a cavity of its own, too many to drain; "
+                              "accepted: a foam of open cells, foam.window / --window above 0, or no drains",
+                              where("skin", "drains")));
+    }
+}
+
 /// Rules between the sizes of the part's shape, or of a field's.
 template <typename Sizes>
 void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Sizes& sizes) {
@@ -366,6 +399,11 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     check_output(recipe.output);
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
+        check_drains(recipe);
+        check_cut_skin(recipe);
+    } else if (!recipe.holes.empty()) {
+        refuse(0, fmt::format("{}: there is no skin to drill; accepted: [skin] with a thickness above 0",
+                              recipe.holes.front().where));
     }
     if (const Entry* layers = entry("process", "elephant_foot_layers");
         layers && recipe.process->elephant_foot == 0) {

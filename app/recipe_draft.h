@@ -77,6 +77,8 @@ class RecipeDraft {
     template <typename Sizes>
     void check_shape(const Part& of, const std::string& shape, const Sizes& sizes);
     void check_numbers(const Recipe& recipe);
+    void check_cut_skin(const Recipe& recipe);
+    void check_drains(const Recipe& recipe);
     void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);
     void check_limits(const std::string& section, const std::string& key, const GradedNumber& number,

@@ -121,7 +121,10 @@ class FormulaCheck {
             }
         }
         if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
-        if (recipe_.skin) check_formula({&recipe_.skin->thickness});
+        if (recipe_.skin) {
+            check_formula({&recipe_.skin->thickness});
+            check_formula({&recipe_.skin->strut});
+        }
         for (const RegionRecipe& region : recipe_.regions) {
             for (const RegionNumber& given : numbers_of(region)) {
                 check_formula(
@@ -272,7 +275,7 @@ std::string unused_entries(const Recipe& recipe) {
         for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
     }
     if (recipe.frame) open.push_back(&recipe.frame->beam);
-    if (recipe.skin) open.push_back(&recipe.skin->thickness);
+    if (recipe.skin) open.insert(open.end(), {&recipe.skin->thickness, &recipe.skin->strut});
     while (!open.empty()) {
         const GradedNumber* number = open.back();
         open.pop_back();

@@ -4,6 +4,7 @@
 #include "app/build_fields.h"
 #include "app/build_foam.h"
 #include "app/build_gradings.h"
+#include "app/build_skin.h"
 
 namespace lamella {
 
@@ -39,7 +40,8 @@ const std::vector<KindSection>& kind_sections() {
           {"empty", {"field"}, {"blend"}},
           {"foam", {"field"}, {"blend", "cell", "beam", "wall", "window"}},
           {"skin", {"field", "thickness"}, {"blend"}}}},
-        {"foam", "kind", "voronoi", keys_of(foam_builders())}};
+        {"foam", "kind", "voronoi", keys_of(foam_builders())},
+        {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;
 }
 

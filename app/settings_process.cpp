@@ -1,12 +1,7 @@
-// The rows of the settings table about what makes up for the way a machine prints, and the skin's side.
+// The rows of the settings table about what makes up for the way a machine prints.
 #include "app/settings_rows.h"
 
 namespace lamella {
-
-const std::vector<std::string>& words(SkinSide) {
-    static const std::vector<std::string> list{"inside", "outside", "centred"};
-    return list;
-}
 
 namespace {
 
@@ -16,13 +11,6 @@ void add_row(std::vector<Setting>& t, const char* key, const char* flag, Facts f
 }
 
 }  // namespace
-
-void add_skin_side_setting(std::vector<Setting>& table) {
-    table.push_back(optional_row<&Recipe::skin, &SkinRecipe::side>(
-        "skin", "side", "--skin-side",
-        {.fallback = "inside",
-         .help = "Side of the body's surface that the skin lies on; centred: half on either side."}));
-}
 
 void add_process_settings(std::vector<Setting>& table) {
     using P = ProcessRecipe;

@@ -26,11 +26,10 @@ void add_region_settings(std::vector<Setting>& table);
 /// The rows of the [frame] section.
 void add_frame_settings(std::vector<Setting>& table);
 
-/// The row of the skin's side.
-void add_skin_side_setting(std::vector<Setting>& table);
-
 /// The rows of the [process] section.
 void add_process_settings(std::vector<Setting>& table);
+/// The rows of the [skin] and [[hole]] sections.
+void add_skin_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);

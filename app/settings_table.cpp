@@ -279,27 +279,7 @@ void add_foam(std::vector<Setting>& t) {
                  "connected."});
 }
 
-void add_skin_and_layers(std::vector<Setting>& t) {
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness>(
-        "skin", "thickness", "--skin",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = "required in [skin]",
-         .help = "Thickness of the closed skin; 0 for none."}));
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_min>(
-        "skin", "thickness_min", "--skin-min",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = format_value(SkinRecipe{}.thickness_min),
-         .help = "Least thickness that is made: a graded skin is kept above it."}));
-    t.push_back(optional_row<&Recipe::skin, &SkinRecipe::thickness_max>(
-        "skin", "thickness_max", "--skin-max",
-        {.unit = "mm",
-         .limits = {0.001, SkinRecipe{}.thickness_max},
-         .fallback = format_value(SkinRecipe{}.thickness_max),
-         .help = "Greatest thickness that is made: a graded skin is kept below it, and has it where the "
-                 "formula has no number."}));
-    add_skin_side_setting(t);
+void add_layers(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
         "layers", "height", "--layer-height",
         {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
@@ -328,8 +308,9 @@ std::vector<Setting> make_table() {
     add_gradings(table);
     add_foam(table);
     add_frame_settings(table);
-    add_skin_and_layers(table);
+    add_skin_settings(table);
     add_region_settings(table);
+    add_layers(table);
     add_process_settings(table);
     add_output(table);
     add_printer_settings(table);
@@ -384,7 +365,9 @@ std::span<const Section> sections() {
         {"foam", "foam inside the body; without this section the part has none"},
         {"frame",
          "beams along the surface that the foam grows out of; without this section the part has none"},
-        {"skin", "closed skin at the body's surface; without this section the part has none"},
+        {"skin",
+         "skin at the body's surface, closed or with windows; without this section the part has none"},
+        {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
         {"region", "a part of the body that is made otherwise; later ones win",
          [](const Recipe& r) { return r.regions.size(); }},
         {"layers", "how the part is cut"},

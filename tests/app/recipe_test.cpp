@@ -63,7 +63,7 @@ Value another_value(const Setting& setting) {
         case ValueType::boolean:
             return !std::get<bool>(held);
         case ValueType::integer:
-            return std::int64_t{7};
+            return std::int64_t{setting.limits.hi < 7 ? 2 : 7};
         case ValueType::number:
             return setting.limits.hi <= 1 ? 0.375 : 3.0625;
         case ValueType::text:

@@ -5,6 +5,8 @@
 #include "engine/mesh_field.h"
 #include "engine/shell.h"
 #include "engine/slice_context.h"
+#include "procedural/image_windows.h"
+#include "procedural/surface_windows.h"
 #include "tests/bench/plate.h"
 #include "tests/bench/wavy_ball.h"
 
@@ -51,6 +53,38 @@ void graded_skin_layer(benchmark::State& state) {
     slice_plate(state, *make_intersection({body, make_shell(body, std::make_shared<AlongX>(), {0.1, 3})}));
 }
 BENCHMARK(graded_skin_layer)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+/// The same skin with windows of 3 mm between struts of 1 mm: Voronoi (0), hexagons (1), a picture (2).
+std::shared_ptr<const WindowPattern> windows(const FieldPtr& body, std::int64_t kind) {
+    const SurfaceWindowSettings settings{3, 1, 0.5, 1};
+    if (kind == 0) return make_voronoi_windows(*body, settings, 1);
+    if (kind == 1) return make_hexagon_windows(*body, settings);
+    Volume picture;
+    picture.size = {64, 64, 1};
+    std::vector<std::uint8_t> samples(64 * 64, 255);
+    for (std::size_t k = 0; k < 64 * 64; ++k) {
+        if (k % 64 < 16 || k / 64 < 16) samples[k] = 0;
+    }
+    picture.samples = std::move(samples);
+    picture.full_scale = 255;
+    return std::make_shared<ImageWindows>(StrutImage(picture, {4, 1, 0.5, false}), *body, 1, 1);
+}
+
+void patterned_skin_layer(benchmark::State& state) {
+    const FieldPtr body = make_mesh_field(wavy_ball(static_cast<double>(state.range(0))));
+    const FieldPtr shell = make_patterned_shell(make_shell(body, 1), windows(body, state.range(1)));
+    slice_plate(state, *make_intersection({body, shell}));
+}
+BENCHMARK(patterned_skin_layer)
+    ->ArgsProduct({{100'000, 1'000'000}, {0, 1, 2}})
+    ->Unit(benchmark::kMillisecond);
+
+/// From a mesh field to its windows: seeds and their cells, or charts.
+void patterned_skin_setup(benchmark::State& state) {
+    const FieldPtr body = make_mesh_field(wavy_ball(static_cast<double>(state.range(0))));
+    for (auto _ : state) benchmark::DoNotOptimize(windows(body, state.range(1)).get());
+}
+BENCHMARK(patterned_skin_setup)->ArgsProduct({{100'000}, {0, 1, 2}})->Unit(benchmark::kMillisecond);
 
 /// From a mesh field to its graded skin: numbers at vertices, tree, edges that show.
 void graded_skin_setup(benchmark::State& state) {

@@ -16,7 +16,9 @@
 #include "engine/tile_walk.h"
 #include "procedural/closed_foam.h"
 #include "procedural/field_slope.h"
+#include "procedural/image_windows.h"
 #include "procedural/strut_lattice.h"
+#include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
 #include "tests/engine/gradings.h"
@@ -71,6 +73,31 @@ FieldPtr walled_foam(Graded wall, Graded window) {
     settings.wall = std::move(wall);
     settings.window = std::move(window);
     return make_closed_foam(settings);
+}
+
+/// The shell of a body with windows in it.
+FieldPtr windowed(const FieldPtr& body, bool hexagons) {
+    const SurfaceWindowSettings settings{0.9, 0.3, 0.15, 0.4};
+    std::shared_ptr<const WindowPattern> pattern;
+    if (hexagons) {
+        pattern = make_hexagon_windows(*body, settings);
+    } else {
+        pattern = make_voronoi_windows(*body, settings, 3);
+    }
+    return make_intersection({body, make_patterned_shell(make_shell(body, 0.4), pattern)});
+}
+
+/// The shell of a ball with a picture of a grid in it.
+FieldPtr pictured(const FieldPtr& ball) {
+    Volume picture;
+    picture.size = {8, 8, 1};
+    std::vector<std::uint8_t> samples(64, 255);
+    for (std::size_t k = 0; k < 8; ++k) samples[k] = samples[8 + k] = samples[8 * k] = samples[8 * k + 1] = 0;
+    picture.samples = std::move(samples);
+    picture.full_scale = 255;
+    const auto pattern =
+        std::make_shared<ImageWindows>(StrutImage(picture, {1.3, 0.25, 0.5, false}), *ball, 0.25, 0.4);
+    return make_intersection({ball, make_patterned_shell(make_shell(ball, 0.4), pattern)});
 }
 
 /// Foam that ends at a ball, in a frame on its surface.
@@ -149,6 +176,10 @@ std::vector<Named> all_fields() {
                             make_shell(make_mesh_field(shapes::closed(shapes::l_prism())), graded, {0, 1})})},
         {"ball with a graded shell", make_intersection({sphere, make_shell(sphere, graded, {0.1, 1})}), true},
         {"filled mesh with a graded skin", make_filled_body(mesh, make_union({cone, torus}), graded, {0, 1})},
+        {"ball with Voronoi windows", windowed(sphere, false)},
+        {"ball with a picture's windows", pictured(sphere)},
+        {"box with hexagonal windows", windowed(box, true)},
+        {"mesh with Voronoi windows", windowed(mesh, false)},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
         {"box without islands", with_islands_dropped(box)},
