@@ -12,7 +12,7 @@ namespace lamella {
 namespace {
 
 constexpr double reach_in_pitches = 1.5;  // no point of a surface is farther from all seeds
-constexpr double least_room = 0.05;       // of a window: half the width below which there is none
+constexpr double room_share = 0.05;       // of a window: half the width below which there is none
 
 std::vector<dvec3> places(const std::vector<SurfaceFoot>& seeds) {
     std::vector<dvec3> places;
@@ -79,7 +79,7 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
     reach_ = reach_in_pitches * (settings.window + widest) + settings.depth;
     cells_.reserve(seeds.size());
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
-        cells_.push_back(make_cell(seeds, i, halves[i], least_room * settings.window));
+        cells_.push_back(make_cell(seeds, i, halves[i], room_share * settings.window));
         if (cells_.back().closed) ++closed_;
     }
     faces_.shrink_to_fit();
@@ -182,16 +182,29 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
     return worst;
 }
 
-double SurfaceWindows::value_near(dvec3 p, std::uint32_t& hint) const {
-    hint = tree_.nearest(p, hint).point;
-    const Cell& cell = cells_[hint];
-    const dvec3 q = p - tree_.points()[hint];
-    double to_wall = infinity, to_border = infinity;
+SurfaceWindows::Ways SurfaceWindows::ways_out(const Cell& cell, dvec3 q) const {
+    Ways ways;
+    const double cube = std::max(std::max(std::abs(q.x), std::abs(q.y)), std::abs(q.z));
+    ways.inside = cube < reach_;
     for (std::uint32_t f = cell.first; f < cell.end; ++f) {
         const double d = faces_[f].distance - glm::dot(faces_[f].normal, q);
-        double& least = f < cell.walls_end ? to_wall : to_border;
+        constexpr double rounding = 1e-9;
+        if (d <= rounding * reach_) ways.inside = false;
+        double& least = f < cell.walls_end ? ways.wall : ways.border;
         least = std::min(least, std::max(d, 0.0));
     }
+    return ways;
+}
+
+double SurfaceWindows::value_near(dvec3 p, std::uint32_t& hint) const {
+    Ways ways = ways_out(cells_[hint], p - tree_.points()[hint]);
+    if (!ways.inside) {
+        hint = tree_.nearest(p, hint).point;
+        ways = ways_out(cells_[hint], p - tree_.points()[hint]);
+    }
+    const Cell& cell = cells_[hint];
+    const dvec3 q = p - tree_.points()[hint];
+    const double to_wall = ways.wall, to_border = ways.border;
     const double solid = std::min(to_wall + cell.beyond, to_border);
     if (cell.closed) return -solid;
     const double outside = excess(cell, q) - cell.corner;

@@ -53,6 +53,12 @@ class SurfaceWindows : public WindowPattern {
 
     Cell make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own, double half, double least_room);
     double excess(const Cell& cell, dvec3 q) const;
+    /// How far a point (from the seed) is from the planes of a cell's faces, mm.
+    struct Ways {
+        double wall = infinity, border = infinity;
+        bool inside = false;  ///< surely in the cell, so that no other seed is nearer
+    };
+    Ways ways_out(const Cell& cell, dvec3 q) const;
 
     PointTree tree_;
     double reach_;                   ///< half side of the cube that a cell is cut from, mm
