@@ -105,17 +105,12 @@ class PatternedShell : public Field {
     PatternedShell(FieldPtr shell, std::shared_ptr<const WindowPattern> pattern)
         : shell_(std::move(shell)), pattern_(std::move(pattern)) {}
 
-    double value(dvec3 p) const override {
-        // Off the shell the pattern does not matter, and may not be known.
-        const double v = shell_->value(p);
-        return v > 0 ? v : std::max(v, pattern_->value(p));
-    }
+    double value(dvec3 p) const override { return std::max(shell_->value(p), pattern_->value(p)); }
     Interval range(const Box& box) const override {
         const Interval shell = shell_->range(box);
         if (shell.lo > 0) return shell;
         const Interval pattern = pattern_->range(box);
-        const double inside = std::max(shell.lo, pattern.lo);
-        return {shell.hi > 0 ? std::min(inside, 0.0) : inside, std::max(shell.hi, pattern.hi)};
+        return {std::max(shell.lo, pattern.lo), std::max(shell.hi, pattern.hi)};
     }
     Metric metric() const override { return shell_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override {
