@@ -55,8 +55,8 @@ class Field : public std::enable_shared_from_this<Field> {
     /// The value where its magnitude is below `limit` (> 0); elsewhere any number of the same sign and at
     /// least that magnitude. For fields that find out sooner that a surface is far than how far.
     virtual double value_within(dvec3 p, double /*limit*/) const { return value(p); }
-    /// Whether no point of the surface is nearer to p than `distance` (> 0); false where that is not known. For
-    /// fields that find something near sooner than the nearest.
+    /// Whether no point of the surface is nearer to p than `distance` (> 0); false where that is not known.
+    /// For fields that find something near sooner than the nearest.
     virtual bool clear_of_surface(dvec3 p, double distance) const;
     /// Encloses every value over the box. The default derives it from the centre's value and the metric.
     virtual Interval range(const Box& box) const;

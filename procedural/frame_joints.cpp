@@ -150,7 +150,8 @@ struct FrameJoints::Lattice {
         return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, size));
     }
     std::size_t index(glm::ivec3 at) const {
-        return static_cast<std::size_t>((at.z * size.y + at.y) * size.x + at.x);
+        const auto n = [](int v) { return static_cast<std::size_t>(v); };
+        return (n(at.z) * n(size.y) + n(at.y)) * n(size.x) + n(at.x);
     }
     glm::ivec3 at(std::size_t i) const {
         const auto n = static_cast<int>(i);

@@ -10,6 +10,7 @@ namespace lamella {
 namespace {
 
 constexpr int steps = SurfaceTracer::steps;
+constexpr std::size_t points_along = steps + 1;
 constexpr double narrow = 1e-3;  // share of a step
 constexpr std::size_t most_edges = 20000;
 
@@ -122,7 +123,8 @@ dvec3 SurfaceTracer::at(Place place) const {
 }
 
 bool SurfaceTracer::inside(Place place) {
-    std::int8_t& held = inside_[static_cast<std::size_t>(place.j * (steps + 1) + place.i)];
+    std::int8_t& held =
+        inside_[static_cast<std::size_t>(place.j) * points_along + static_cast<std::size_t>(place.i)];
     if (held < 0) held = inside(at(place)) ? 1 : 0;
     return held > 0;
 }
@@ -183,7 +185,7 @@ void SurfaceTracer::trace(std::span<const dvec3> ring, std::vector<SurfaceCurve>
         triangle_[0] = middle;
         triangle_[1] = ring[i];
         triangle_[2] = ring[(i + 1) % ring.size()];
-        inside_.assign(static_cast<std::size_t>((steps + 1) * (steps + 1)), -1);
+        inside_.assign(points_along * points_along, -1);
         divide({0, 0}, steps);
     }
     link(curves);
