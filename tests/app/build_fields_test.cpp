@@ -4,36 +4,20 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "app/build_job.h"
-#include "app/recipe_draft.h"
-#include "engine/error.h"
+#include "tests/app/recipes.h"
 #include "tests/engine/plane_runs.h"
 
 using namespace lamella;
 
 namespace {
 
-Recipe read(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(text, LAMELLA_SOURCE_DIR "/examples/test.toml");
-    return draft.finish();
-}
+const std::string path = LAMELLA_SOURCE_DIR "/examples/test.toml";
+
+Recipe read(const std::string& text) { return recipe_of(text, path); }
 
 FieldPtr part(const std::string& field) { return build_job(read("[[field]]\nname = \"it\"\n" + field)).body; }
 
-std::string complaint(const std::string& text) {
-    try {
-        build_job(read(text));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
-}
+std::string complaint(const std::string& text) { return complaint_about(text, path); }
 
 double length(dvec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 

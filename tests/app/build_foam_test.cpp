@@ -4,35 +4,18 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "app/build_job.h"
 #include "app/grading_report.h"
-#include "app/recipe_draft.h"
-#include "engine/error.h"
+#include "tests/app/recipes.h"
 
 using namespace lamella;
 
 namespace {
 
-Recipe read(const std::string& foam) {
-    RecipeDraft draft;
-    draft.read_text("[part]\nshape = \"sphere\"\nradius = 10\n[foam]\ncell = 3\nbeam = 0.2\n" + foam,
-                    "test.toml");
-    return draft.finish();
-}
+const std::string ball = "[part]\nshape = \"sphere\"\nradius = 10\n[foam]\ncell = 3\nbeam = 0.2\n";
 
-std::string complaint(const std::string& foam) {
-    try {
-        build_job(read(foam));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
+Recipe read(const std::string& foam) { return recipe_of(ball + foam); }
 
-bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
-}
+std::string complaint(const std::string& foam) { return complaint_about(ball + foam); }
 
 const Box region{dvec3(-6), dvec3(6)};
 

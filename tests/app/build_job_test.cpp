@@ -4,35 +4,22 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "app/recipe_draft.h"
-#include "engine/error.h"
+#include "tests/app/recipes.h"
 
 using namespace lamella;
 
 namespace {
 
-Recipe read(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(text, "test.toml");
-    return draft.finish();
+std::string ball_recipe(double radius, const std::string& text) {
+    return "[part]\nshape = \"sphere\"\nradius = " + std::to_string(radius) + "\n" + text;
 }
 
 BuiltJob ball(double radius, const std::string& text) {
-    return build_job(read("[part]\nshape = \"sphere\"\nradius = " + std::to_string(radius) + "\n" + text));
+    return build_job(recipe_of(ball_recipe(radius, text)));
 }
 
 std::string complaint(double radius, const std::string& text) {
-    try {
-        ball(radius, text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
+    return complaint_about(ball_recipe(radius, text));
 }
 
 const std::string loose_foam =
@@ -75,8 +62,8 @@ TEST_CASE("no graded number of a foam is made up where the formula has none") {
 
 TEST_CASE("a body from a program is what the program says") {
     const BuiltJob built =
-        build_job(read(std::string("[[field]]\nname = \"torus\"\nkind = \"vm\"\nfile = \"") +
-                       LAMELLA_SOURCE_DIR + "/examples/inputs/cut_torus.vm\"\n"));
+        build_job(recipe_of(std::string("[[field]]\nname = \"torus\"\nkind = \"vm\"\nfile = \"") +
+                            LAMELLA_SOURCE_DIR + "/examples/inputs/cut_torus.vm\"\n"));
     CHECK(built.job.name == "torus");
     int inside = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -92,7 +79,7 @@ TEST_CASE("a body from a program is what the program says") {
 }
 
 TEST_CASE("after islands are dropped a second survey finds none") {
-    const Recipe recipe = read("[part]\nshape = \"sphere\"\nradius = 4\n" + loose_foam);
+    const Recipe recipe = recipe_of("[part]\nshape = \"sphere\"\nradius = 4\n" + loose_foam);
     BuiltJob built = build_job(recipe);
     drop_islands(recipe, built, {});
     const IslandReport first = *built.islands;
@@ -109,7 +96,7 @@ TEST_CASE("after islands are dropped a second survey finds none") {
 TEST_CASE("the pitch of the survey is a third of the thinnest beam's radius or the recipe's") {
     // Islands lie in boxes of whole rows: their sides across are multiples of the pitch.
     const auto pitch_fits = [](const std::string& text, double pitch) {
-        const Recipe recipe = read("[part]\nshape = \"sphere\"\nradius = 4\n" + text);
+        const Recipe recipe = recipe_of("[part]\nshape = \"sphere\"\nradius = 4\n" + text);
         BuiltJob built = build_job(recipe);
         drop_islands(recipe, built, {});
         REQUIRE(built.islands->count > 0);
@@ -121,12 +108,12 @@ TEST_CASE("the pitch of the survey is a third of the thinnest beam's radius or t
     pitch_fits(loose_foam, 0.04);
     pitch_fits(loose_foam + "islands_pitch = 0.07\n", 0.07);
     const Recipe coarse =
-        read("[part]\nshape = \"sphere\"\nradius = 4\n" + loose_foam + "islands_pitch = 3\n");
+        recipe_of("[part]\nshape = \"sphere\"\nradius = 4\n" + loose_foam + "islands_pitch = 3\n");
     BuiltJob built = build_job(coarse);
     CHECK_THROWS_WITH(drop_islands(coarse, built, {}),
                       Catch::Contains("foam.islands_pitch / --islands-pitch: 3 mm does not suit the part") &&
                           Catch::Contains("to 1.6 mm"));
     BuiltJob thin_layers =
-        build_job(read("[part]\nshape = \"sphere\"\nradius = 1\n[layers]\nheight = 0.005\n"));
-    CHECK_NOTHROW(drop_islands(read("[part]\nshape = \"sphere\"\nradius = 1\n"), thin_layers, {}));
+        build_job(recipe_of("[part]\nshape = \"sphere\"\nradius = 1\n[layers]\nheight = 0.005\n"));
+    CHECK_NOTHROW(drop_islands(recipe_of("[part]\nshape = \"sphere\"\nradius = 1\n"), thin_layers, {}));
 }

@@ -3,33 +3,18 @@
 
 #include <catch2/catch.hpp>
 
-#include "app/build_job.h"
 #include "app/identity.h"
-#include "app/recipe_draft.h"
-#include "engine/error.h"
+#include "tests/app/recipes.h"
 
 using namespace lamella;
 
 namespace {
 
-Recipe read(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(text, "test.toml");
-    return draft.finish();
-}
-
 const std::string cube = "[part]\nshape = \"box\"\nsize = [10, 10, 10]\n[layers]\nheight = 0.1\n";
 
-BuiltJob built(const std::string& text) { return build_job(read(cube + text)); }
+BuiltJob built(const std::string& text) { return build_job(recipe_of(cube + text)); }
 
-std::string complaint(const std::string& text) {
-    try {
-        built(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string complaint(const std::string& text) { return complaint_about(cube + text); }
 
 /// Widths of the layer's only run through its middle, along x and along y, mm.
 dvec2 widths(const Job& job, int index) {
@@ -129,7 +114,7 @@ TEST_CASE("islands are dropped from a scaled part as from the designed one") {
     const std::string foam =
         "[foam]\nkind = \"k-nearest\"\nneighbours = 2\ncell = 1.2\nbeam = 0.12\ndrop_islands = true\n";
     const std::string process = "[process]\nscale = [1.1, 1.1, 1]\nelephant_foot = 0.05\n";
-    const Recipe plain = read(cube + foam), processed = read(cube + foam + process);
+    const Recipe plain = recipe_of(cube + foam), processed = recipe_of(cube + foam + process);
     BuiltJob a = build_job(plain), b = build_job(processed);
     drop_islands(plain, a, {});
     drop_islands(processed, b, {});
@@ -168,7 +153,8 @@ TEST_CASE("settings of a process that change nothing leave the part as it is") {
     const BuiltJob plain = built(""), idle = built("[process]\nscale = [1, 1, 1]\nxy_compensation = 0\n");
     CHECK(idle.job.part == idle.designed.part);
     CHECK(idle.job.layer_count == plain.job.layer_count);
-    CHECK(job_identity(read(cube)) != job_identity(read(cube + "[process]\nelephant_foot = 0.2\n")));
+    CHECK(job_identity(recipe_of(cube)) !=
+          job_identity(recipe_of(cube + "[process]\nelephant_foot = 0.2\n")));
 }
 
 TEST_CASE("a process that cannot be is refused with the key and what is accepted") {
@@ -187,7 +173,7 @@ TEST_CASE("a process that cannot be is refused with the key and what is accepted
         "[part]\nshape = \"gyroid\"\nsize = [9, 9, 9]\nperiod = 3\nthickness = 0.5\n[skin]\nthickness = "
         "0.2\n";
     try {
-        build_job(read(gyroid + "side = \"outside\"\n"));
+        build_job(recipe_of(gyroid + "side = \"outside\"\n"));
         FAIL("a gyroid has no offset");
     } catch (const InputError& error) {
         CHECK(mentions(error.what(), "test.toml:7: skin.thickness: this shape has no exact 3D offset"));

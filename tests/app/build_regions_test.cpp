@@ -7,10 +7,9 @@
 #include <numeric>
 #include <thread>
 
-#include "app/build_job.h"
-#include "app/recipe_draft.h"
 #include "engine/csg.h"
 #include "engine/primitives.h"
+#include "tests/app/recipes.h"
 #include "tests/engine/plane_runs.h"
 
 using namespace lamella;
@@ -26,11 +25,7 @@ const std::string block =
     "[foam]\ncell = 2.4\nbeam = 0.25\n";
 const std::string skin = "[skin]\nthickness = 0.7\n";
 
-BuiltJob build(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(block + text, "test.toml");
-    return build_job(draft.finish());
-}
+BuiltJob build(const std::string& text) { return build_job(recipe_of(block + text)); }
 
 std::string region(const std::string& field, const std::string& rest) {
     return "[[region]]\nfield = \"" + field + "\"\nmake = " + rest + "\n";

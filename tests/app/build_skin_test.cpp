@@ -3,12 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "app/build_job.h"
 #include "app/identity.h"
-#include "app/recipe_draft.h"
 #include "engine/cavity_survey.h"
-#include "engine/error.h"
 #include "engine/slice_context.h"
+#include "tests/app/recipes.h"
 
 using namespace lamella;
 
@@ -16,14 +14,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Recipe read(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(text, "test.toml");
-    return draft.finish();
+std::string recipe(const std::string& part, const std::string& text) {
+    return "[part]\n" + part + "\n" + text + "[layers]\nheight = 0.1\n";
 }
 
 BuiltJob built(const std::string& part, const std::string& text) {
-    return build_job(read("[part]\n" + part + "\n" + text + "[layers]\nheight = 0.1\n"));
+    return build_job(recipe_of(recipe(part, text)));
 }
 
 const std::string block = "shape = \"box\"\nsize = [20, 20, 10]";
@@ -60,17 +56,7 @@ CavitySurvey cavities(const BuiltJob& job) {
 }
 
 std::string complaint(const std::string& part, const std::string& text) {
-    try {
-        built(part, text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
+    return complaint_about(recipe(part, text));
 }
 
 }  // namespace
@@ -185,7 +171,7 @@ TEST_CASE("skins that cannot be are refused with the key that is to blame") {
 
 TEST_CASE("windows, holes and drains change a job's identity") {
     const auto identity = [](const std::string& text) {
-        return job_identity(read("[part]\nshape = \"sphere\"\nradius = 10\n" + text));
+        return job_identity(recipe_of("[part]\nshape = \"sphere\"\nradius = 10\n" + text));
     };
     const std::string skin = "[skin]\nthickness = 1\n",
                       voronoi = skin + "pattern = \"voronoi\"\nwindow = 2\nstrut = 1\n";

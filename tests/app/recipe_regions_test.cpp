@@ -3,11 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "app/build_job.h"
 #include "app/identity.h"
-#include "app/recipe_draft.h"
 #include "app/recipe_formulas.h"
-#include "engine/error.h"
+#include "tests/app/recipes.h"
 
 using namespace lamella;
 
@@ -19,28 +17,10 @@ const std::string block =
     "[[field]]\nname = \"slab\"\nformula = \"abs(z) - 1\"\n";
 const std::string foam = "[foam]\ncell = 3\nbeam = 0.3\n";
 
-Recipe read(const std::string& text) {
-    RecipeDraft draft;
-    draft.read_text(text, "test.toml");
-    return draft.finish();
-}
-
-std::string complaint(const std::string& text) {
-    try {
-        build_job(read(block + text));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string complaint(const std::string& text) { return complaint_about(block + text); }
 
 std::vector<std::string> warned(const std::string& text) {
-    return build_job(read(block + text)).regions.warnings;
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
+    return build_job(recipe_of(block + text)).regions.warnings;
 }
 
 std::string region(const std::string& field, const std::string& rest) {
@@ -88,7 +68,8 @@ TEST_CASE("a region's numbers keep the limits of what they replace") {
     const std::string limited = foam + "cell_min = 2\ncell_max = 4\n";
     CHECK(mentions(complaint(limited + region("heel", "\"foam\"\ncell = 1.5")),
                    "region.cell: 1.5 lies outside foam.cell_min and foam.cell_max; accepted: 2 to 4"));
-    const BuiltJob built = build_job(read(block + limited + region("heel", "\"foam\"\ncell = \"1 + 0*x\"")));
+    const BuiltJob built =
+        build_job(recipe_of(block + limited + region("heel", "\"foam\"\ncell = \"1 + 0*x\"")));
     CHECK(built.foam->cell.made->at(dvec3(0)) == 2);
     CHECK(built.foam->cell.asked->at(dvec3(0)) == 1);
     CHECK(mentions(
@@ -134,14 +115,16 @@ TEST_CASE("values that jump cannot blend, and are told so") {
 
 TEST_CASE("fields and gradings that only regions use are used") {
     const std::string text = block + "[[grading]]\nname = \"g\"\nkind = \"constant\"\nvalue = 2\n" + foam;
-    CHECK(unused_entries(read(text)) == "nothing uses [[field]] `heel`, [[field]] `slab`, [[grading]] `g`");
-    CHECK(unused_entries(read(text + region("heel", "\"foam\"\ncell = \"g\"") + region("slab", "\"empty\"")))
+    CHECK(unused_entries(recipe_of(text)) ==
+          "nothing uses [[field]] `heel`, [[field]] `slab`, [[grading]] `g`");
+    CHECK(unused_entries(
+              recipe_of(text + region("heel", "\"foam\"\ncell = \"g\"") + region("slab", "\"empty\"")))
               .empty());
 }
 
 TEST_CASE("every key of a region is part of the job's identity") {
     const auto identity = [](const std::string& rest) {
-        return job_identity(read(block + foam + region("heel", rest)));
+        return job_identity(recipe_of(block + foam + region("heel", rest)));
     };
     const std::string plain = identity("\"foam\"\ncell = 2");
     CHECK(plain == identity("\"foam\"\ncell = 2"));

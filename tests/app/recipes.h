@@ -1,0 +1,36 @@
+// Recipes as text, for tests of what becomes of them.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "app/build_job.h"
+#include "app/recipe_draft.h"
+#include "engine/error.h"
+
+namespace lamella {
+
+/// The recipe that the text writes down, as if it stood in the file `path`.
+inline Recipe recipe_of(const std::string& text, const std::string& path = "test.toml") {
+    RecipeDraft draft;
+    draft.read_text(text, path);
+    return draft.finish();
+}
+
+/// What is wrong with the recipe or the job that it makes; empty when nothing is.
+inline std::string complaint_about(const std::string& text, const std::string& path = "test.toml") {
+    try {
+        build_job(recipe_of(text, path));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// Whether a message holds a part; shows the message when a check of that fails.
+inline bool mentions(const std::string& text, const std::string& part) {
+    UNSCOPED_INFO(text);
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace lamella
