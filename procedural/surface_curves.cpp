@@ -25,32 +25,6 @@ dvec3 on_edge(dvec3 a, dvec3 b, int i) {
     return a * (static_cast<double>(steps - i) / steps) + b * (static_cast<double>(i) / steps);
 }
 
-/// Where the surface crosses between two points on its two sides; the same point whichever comes first.
-dvec3 crossing(const Field& body, dvec3 p, dvec3 q) {
-    if (before(q, p)) std::swap(p, q);
-    double at_p = body.value(p), at_q = body.value(q);
-    const double near = narrow * glm::distance(p, q);
-    const bool inside = at_p < 0;
-    double lo = 0, hi = 1;
-    for (int turn = 0; hi - lo > narrow && turn < 60; ++turn) {
-        // Straight lines, and halves in turn for what is none.
-        double t = at_p / (at_p - at_q);
-        if (turn % 3 == 2 || !(0 <= t && t <= 1)) t = 0.5;
-        t = lo + (hi - lo) * std::min(std::max(t, 0.25 * narrow), 1 - 0.25 * narrow);
-        const dvec3 middle = p + (q - p) * t;
-        const double v = body.value(middle);
-        if (body.metric() != Metric::sign && std::abs(v) <= near) return middle;
-        if ((v < 0) == inside) {
-            lo = t;
-            at_p = v;
-        } else {
-            hi = t;
-            at_q = v;
-        }
-    }
-    return p + (q - p) * (0.5 * (lo + hi));
-}
-
 double distance_to_segment(dvec3 p, dvec3 a, dvec3 b) {
     const dvec3 along = b - a;
     const double square = glm::dot(along, along);
@@ -78,6 +52,32 @@ void keep_between(const SurfaceCurve& curve, std::size_t first, std::size_t last
 
 }  // namespace
 
+dvec3 SurfaceTracer::crossing(dvec3 p, dvec3 q) const {
+    const Field& body = *body_;
+    if (before(q, p)) std::swap(p, q);
+    double at_p = body.value(p), at_q = body.value(q);
+    const double near = narrow * glm::distance(p, q);
+    const bool inside = at_p < 0;
+    double lo = 0, hi = 1;
+    for (int turn = 0; hi - lo > narrow && turn < 60; ++turn) {
+        // Straight lines, and halves in turn for what is none.
+        double t = at_p / (at_p - at_q);
+        if (turn % 3 == 2 || !(0 <= t && t <= 1)) t = 0.5;
+        t = lo + (hi - lo) * std::min(std::max(t, 0.25 * narrow), 1 - 0.25 * narrow);
+        const dvec3 middle = p + (q - p) * t;
+        const double v = body.value(middle);
+        if (body.metric() != Metric::sign && std::abs(v) <= near) return middle;
+        if ((v < 0) == inside) {
+            lo = t;
+            at_p = v;
+        } else {
+            hi = t;
+            at_q = v;
+        }
+    }
+    return p + (q - p) * (0.5 * (lo + hi));
+}
+
 std::vector<dvec3> SurfaceTracer::inside(dvec3 a, dvec3 b) {
     // Which end comes first decides no bit.
     const bool turned = before(b, a);
@@ -103,7 +103,7 @@ std::vector<dvec3> SurfaceTracer::find_inside(dvec3 a, dvec3 b) const {
     for (int i = 1; i <= steps; ++i) {
         const dvec3 p = on_edge(a, b, i);
         const bool is_inside = inside(p);
-        if (is_inside != was_inside) ends.push_back(crossing(*body_, last, p));
+        if (is_inside != was_inside) ends.push_back(crossing(last, p));
         last = p;
         was_inside = is_inside;
     }
@@ -169,7 +169,7 @@ void SurfaceTracer::cut(Place a, Place b, Place c) {
     std::size_t found = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
-        if (inside[k] != inside[next]) ends[found++] = crossing(*body_, at(places[k]), at(places[next]));
+        if (inside[k] != inside[next]) ends[found++] = crossing(at(places[k]), at(places[next]));
     }
     if (found == 2 && ends[0] != ends[1]) segments_.push_back({ends[0], ends[1]});
 }

@@ -33,6 +33,8 @@ class SurfaceTracer {
     /// The parts of the edge from a to b that lie inside the body, by their ends: alternately where it is
     /// entered and left. Beginning and end of the edge count when they lie inside.
     std::vector<dvec3> inside(dvec3 a, dvec3 b);
+    /// Where the surface crosses between two points on its two sides; the same point whichever comes first.
+    dvec3 crossing(dvec3 p, dvec3 q) const;
     /// Whether the box surely lies on one side of the surface.
     enum class Side : std::uint8_t { inside, outside, both };
     Side side_of(const Box& box) const;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "procedural/enclosed_pieces.h"
+
 namespace lamella {
 namespace {
 
@@ -41,11 +43,14 @@ std::size_t SurfaceFrame::append(const VoronoiCell& cell, const Seed& own, std::
         if (face.other < own.key) continue;
         for (const SurfaceCurve& curve : curves) append_curve(curve, beams);
     }
-    if (curves_.empty()) return left_out;
-    for (const SurfaceCurve& joint : joints_.joints(faces_.faces(), curves_, tracer_, own, sites, stretch)) {
-        for (std::size_t i = 0; i + 1 < joint.size(); ++i)
-            append_tapered(joint[i], joint[i + 1], radius_, beams);
-    }
+    const auto append_lines = [&](const std::vector<SurfaceCurve>& lines) {
+        for (const SurfaceCurve& line : lines) {
+            for (std::size_t i = 0; i + 1 < line.size(); ++i)
+                append_tapered(line[i], line[i + 1], radius_, beams);
+        }
+    };
+    append_lines(joints_.joints(faces_.faces(), curves_, tracer_, own, sites, stretch));
+    append_lines(enclosed_pieces(faces_.faces(), curves_, tracer_, own, sites, stretch));
     for (std::size_t i = first; i < beams.size(); ++i) {
         beams[i].ra += growth_;
         beams[i].rb += growth_;

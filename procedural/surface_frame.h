@@ -25,9 +25,9 @@ struct FrameSettings {
 
 /// Makes the frame's beams that a cell owns (the armature of Martinez, Dumas and Lefebvre 2016, as curves
 /// instead of a distance): those along the curves in which its faces towards seeds of higher keys meet the
-/// surface, and its joints. Their axes lie on the surface, so half of each lies outside the body, and is the
-/// caller's to cut off. Each edge of the diagram that pierces the surface does so at a node of the frame. Not
-/// thread-safe; keeps buffers for reuse.
+/// surface, its joints, and what stands for pieces of the body within the cell. Axes on curves lie on the
+/// surface, so half of each beam lies outside the body, and is the caller's to cut off. Each edge of the
+/// diagram that pierces the surface does so at a node of the frame. Not thread-safe; keeps buffers for reuse.
 class SurfaceFrame {
   public:
     SurfaceFrame(const FieldPtr& body, NodeRadius radius, bool interior)

@@ -171,6 +171,19 @@ TEST_CASE("the bare foam of a thin body is in pieces, and its frame joins them",
     }
 }
 
+TEST_CASE("a piece of the body within one cell is not left empty", "[surface_frame]") {
+    // Balls of a few sizes beside a large one, apart from each other; cells are larger than most.
+    std::vector<FieldPtr> balls{make_sphere({0, 0, 0}, 9)};
+    for (int i = 0; i < 12; ++i)
+        balls.push_back(make_sphere({14 + 5 * (i % 4), 6 * (i / 4 - 1), i - 5}, 0.7 + 0.08 * i));
+    const FieldPtr body = make_union(balls);
+    const FoamSettings settings = framed(body, 6, 0.25, 0.3);
+    CHECK(survey(body, make_voronoi_foam(without_frame(settings)), 0.08).bodies < balls.size());
+    const IslandReport report = survey(body, make_voronoi_foam(settings), 0.08);
+    CHECK(report.bodies == balls.size());
+    CHECK(report.components == balls.size());
+}
+
 TEST_CASE("a frame without its foam is a lampshade", "[surface_frame]") {
     const FieldPtr body = make_sphere(dvec3(0), 10);
     FoamSettings settings = framed(body, 4, 0.2, 0.5);
