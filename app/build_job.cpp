@@ -164,6 +164,11 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
 }
 
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {
+    if (recipe.frame) {
+        throw InputError(
+            recipe.frame->beam.where +
+            ": a frame follows the part's surface, and there is no part; accepted: [part] with it");
+    }
     Gradings gradings(recipe);
     build_regions(recipe, region, gradings);
     return build_foam(*recipe.foam, region, gradings);

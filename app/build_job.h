@@ -38,7 +38,8 @@ BuiltJob build_job(const Recipe& recipe);
 /// Throws InputError when a pitch of the recipe does not suit the part, Interrupted when cancelled.
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options);
 
-/// The foam of a recipe without its part, cells filling at least the region.
+/// The foam of a recipe without its part, cells filling at least the region. Throws InputError when it has a
+/// frame, which needs the part.
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region);
 
 }  // namespace lamella

@@ -88,7 +88,7 @@ class InsideLeaves {
         if (side == SurfaceTracer::Side::inside) return fill(first, size);
         if (size == 1) {
             const dvec3 p = middle(first);
-            held(first) = !beyond_the_cell({p, p}) && tracer_.body().value(p) < 0;
+            held(first) = !beyond_the_cell({p, p}) && tracer_.holds(p);
             return;
         }
         for (int octant = 0; octant < 8; ++octant) {
@@ -142,11 +142,11 @@ void append_star(const InsideLeaves& leaves, const Places& piece, const SurfaceT
         dvec3 way(0);
         way[direction / 2] = direction % 2 ? -step : step;
         dvec3 last = middle, next = middle + way;
-        while (body.value(next) < 0 && leaves.box().contains(next)) {
+        while (tracer.holds(next) && leaves.box().contains(next)) {
             last = next;
             next += way;
         }
-        lines.push_back({middle, body.value(next) < 0 ? next : tracer.crossing(last, next)});
+        lines.push_back({middle, tracer.holds(next) ? next : tracer.crossing(last, next)});
     }
 }
 
@@ -174,7 +174,7 @@ std::vector<SurfaceCurve> enclosed_pieces(std::span<const CellFaces::Face> faces
     }
     for (const CellFaces::Face& face : faces) {
         for (const dvec3& corner : face.ring) {
-            if (tracer.side_of({corner, corner}) != SurfaceTracer::Side::outside) leaves.leave_out(corner);
+            if (tracer.holds(corner)) leaves.leave_out(corner);
         }
     }
     for (const Places& piece : leaves.pieces()) append_star(leaves, piece, tracer, lines);

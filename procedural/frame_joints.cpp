@@ -41,15 +41,11 @@ void FrameJoints::unite(std::size_t a, std::size_t b) {
 
 /// The parts of the cell's edges that lie in the body; an edge stands in the rings of two faces.
 void FrameJoints::add_edges(std::span<const CellFaces::Face> faces, SurfaceTracer& tracer) {
-    const auto less = [](const std::pair<dvec3, dvec3>& a, const std::pair<dvec3, dvec3>& b) {
-        return std::tie(a.first.x, a.first.y, a.first.z, a.second.x, a.second.y, a.second.z) <
-               std::tie(b.first.x, b.first.y, b.first.z, b.second.x, b.second.y, b.second.z);
-    };
-    std::set<std::pair<dvec3, dvec3>, decltype(less)> seen(less);
+    std::set<std::pair<dvec3, dvec3>, PlaceOrder> seen;
     for (const CellFaces::Face& face : faces) {
         for (std::size_t i = 0; i < face.ring.size(); ++i) {
             dvec3 a = face.ring[i], b = face.ring[(i + 1) % face.ring.size()];
-            if (Before{}(b, a)) std::swap(a, b);
+            if (PlaceOrder{}(b, a)) std::swap(a, b);
             if (!seen.insert({a, b}).second) continue;
             const std::vector<dvec3> ends = tracer.inside(a, b);
             for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {

@@ -51,15 +51,9 @@ class FrameJoints {
                                  std::span<const Seed> sites, const Stretch& stretch) const;
     SurfaceCurve shortened(const SurfaceCurve& path, const Field& body) const;
 
-    struct Before {
-        bool operator()(dvec3 a, dvec3 b) const {
-            return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-        }
-    };
-
     NodeRadius radius_;
     bool edges_hold_;
-    std::map<dvec3, std::size_t, Before> points_;
+    std::map<dvec3, std::size_t, PlaceOrder> points_;
     std::vector<dvec3> places_;
     std::vector<std::size_t> parents_;
     std::vector<std::vector<dvec3>> components_;

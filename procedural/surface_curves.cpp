@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 namespace lamella {
 namespace {
@@ -13,12 +12,6 @@ constexpr int steps = SurfaceTracer::steps;
 constexpr std::size_t points_along = steps + 1;
 constexpr double narrow = 1e-3;  // share of a step
 constexpr std::size_t most_edges = 20000;
-
-bool before(dvec3 a, dvec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
-
-struct Before {
-    bool operator()(dvec3 a, dvec3 b) const { return before(a, b); }
-};
 
 /// The point of an edge that is i steps from a; the same bits seen from b.
 dvec3 on_edge(dvec3 a, dvec3 b, int i) {
@@ -54,7 +47,7 @@ void keep_between(const SurfaceCurve& curve, std::size_t first, std::size_t last
 
 dvec3 SurfaceTracer::crossing(dvec3 p, dvec3 q) const {
     const Field& body = *body_;
-    if (before(q, p)) std::swap(p, q);
+    if (PlaceOrder{}(q, p)) std::swap(p, q);
     double at_p = body.value(p), at_q = body.value(q);
     const double near = narrow * glm::distance(p, q);
     const bool inside = at_p < 0;
@@ -80,7 +73,7 @@ dvec3 SurfaceTracer::crossing(dvec3 p, dvec3 q) const {
 
 std::vector<dvec3> SurfaceTracer::inside(dvec3 a, dvec3 b) {
     // Which end comes first decides no bit.
-    const bool turned = before(b, a);
+    const bool turned = PlaceOrder{}(b, a);
     const auto [entry, fresh] = edges_.try_emplace(turned ? std::pair(b, a) : std::pair(a, b));
     if (fresh) entry->second = find_inside(entry->first.first, entry->first.second);
     std::vector<dvec3> ends = entry->second;
@@ -98,22 +91,17 @@ std::vector<dvec3> SurfaceTracer::find_inside(dvec3 a, dvec3 b) const {
     if (side == Side::inside) return {a, b};
     std::vector<dvec3> ends;
     dvec3 last = on_edge(a, b, 0);
-    bool was_inside = inside(last);
+    bool was_inside = holds(last);
     if (was_inside) ends.push_back(a);
     for (int i = 1; i <= steps; ++i) {
         const dvec3 p = on_edge(a, b, i);
-        const bool is_inside = inside(p);
+        const bool is_inside = holds(p);
         if (is_inside != was_inside) ends.push_back(crossing(last, p));
         last = p;
         was_inside = is_inside;
     }
     if (was_inside) ends.push_back(b);
     return ends;
-}
-
-bool SurfaceTracer::EdgeOrder::operator()(const std::pair<dvec3, dvec3>& a,
-                                          const std::pair<dvec3, dvec3>& b) const {
-    return a.first == b.first ? before(a.second, b.second) : before(a.first, b.first);
 }
 
 dvec3 SurfaceTracer::at(Place place) const {
@@ -125,7 +113,7 @@ dvec3 SurfaceTracer::at(Place place) const {
 bool SurfaceTracer::inside(Place place) {
     std::int8_t& held =
         inside_[static_cast<std::size_t>(place.j) * points_along + static_cast<std::size_t>(place.i)];
-    if (held < 0) held = inside(at(place)) ? 1 : 0;
+    if (held < 0) held = holds(at(place)) ? 1 : 0;
     return held > 0;
 }
 
@@ -140,7 +128,7 @@ bool SurfaceTracer::clear(const Box& box) const {
 
 SurfaceTracer::Side SurfaceTracer::side_of(const Box& box) const {
     if (!clear(box)) return Side::both;
-    return inside(box.center()) ? Side::inside : Side::outside;
+    return holds(box.center()) ? Side::inside : Side::outside;
 }
 
 /// Divides the sub-triangle whose corner 0 is the place; of negative size, one that is turned round.
@@ -193,7 +181,7 @@ void SurfaceTracer::trace(std::span<const dvec3> ring, std::vector<SurfaceCurve>
 
 /// Joins the segments at their common ends.
 void SurfaceTracer::link(std::vector<SurfaceCurve>& curves) {
-    std::map<dvec3, std::vector<std::size_t>, Before> at_end;
+    std::map<dvec3, std::vector<std::size_t>, PlaceOrder> at_end;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
         at_end[segments_[s].a].push_back(s);
         at_end[segments_[s].b].push_back(s);

@@ -12,6 +12,16 @@
 
 namespace lamella {
 
+/// Orders points by x, y, z, and pairs of them by the first, then the second.
+struct PlaceOrder {
+    bool operator()(dvec3 a, dvec3 b) const {
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    }
+    bool operator()(const std::pair<dvec3, dvec3>& a, const std::pair<dvec3, dvec3>& b) const {
+        return a.first == b.first ? (*this)(a.second, b.second) : (*this)(a.first, b.first);
+    }
+};
+
 /// A curve on a body's surface, as points joined by straight lines; a closed one ends where it begins.
 using SurfaceCurve = std::vector<dvec3>;
 
@@ -33,6 +43,8 @@ class SurfaceTracer {
     /// The parts of the edge from a to b that lie inside the body, by their ends: alternately where it is
     /// entered and left. Beginning and end of the edge count when they lie inside.
     std::vector<dvec3> inside(dvec3 a, dvec3 b);
+    /// Whether a point lies inside the body; sooner known than how deep.
+    bool holds(dvec3 p) const { return body_->value_within(p, sign_only) < 0; }
     /// Where the surface crosses between two points on its two sides; the same point whichever comes first.
     dvec3 crossing(dvec3 p, dvec3 q) const;
     /// Whether the box surely lies on one side of the surface.
@@ -43,9 +55,6 @@ class SurfaceTracer {
 
   private:
     static constexpr double sign_only = 1e-9;  // mm, a distance that no question is about
-    struct EdgeOrder {
-        bool operator()(const std::pair<dvec3, dvec3>& a, const std::pair<dvec3, dvec3>& b) const;
-    };
     struct Segment {
         dvec3 a, b;
     };
@@ -54,7 +63,6 @@ class SurfaceTracer {
         int i, j;
     };
     dvec3 at(Place place) const;
-    bool inside(dvec3 p) const { return body_->value_within(p, sign_only) < 0; }
     bool inside(Place place);
     bool clear(const Box& box) const;
     std::vector<dvec3> find_inside(dvec3 a, dvec3 b) const;
@@ -67,7 +75,7 @@ class SurfaceTracer {
     std::vector<std::int8_t> inside_;  ///< of the triangle's lattice, below zero where not asked yet
     std::vector<Segment> segments_;
     /// What is known of edges, which several cells share.
-    std::map<std::pair<dvec3, dvec3>, std::vector<dvec3>, EdgeOrder> edges_;
+    std::map<std::pair<dvec3, dvec3>, std::vector<dvec3>, PlaceOrder> edges_;
 };
 
 /// The curve without points that lie within `tolerance` (mm) of the lines between those kept (Douglas and
