@@ -22,6 +22,7 @@ Layer::Layer(const Job& job, int index)
     : index_(index),
       z_(job.plane(index)),
       thickness_(job.layer_height),
-      part_(&context_.slice(*job.part, z_)) {}
+      part_(&context_.slice(*job.part, z_)),
+      supports_(job.supports ? &context_.slice(*job.supports, z_) : nullptr) {}
 
 }  // namespace lamella

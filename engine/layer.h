@@ -15,7 +15,8 @@ namespace lamella {
 struct Job {
     std::string name = "part";   ///< short name for file names and headers
     FieldPtr part;               ///< the solid, in its own coordinates, mm
-    Box bounds;                  ///< finite bounds of the part, mm
+    FieldPtr supports;           ///< what holds the part up and is taken off later; null for none
+    Box bounds;                  ///< finite bounds of part and supports; the bed lies at its lower side, mm
     double layer_height = 0.05;  ///< h, mm
     int layer_count = 0;
     std::string identity;  ///< hash of recipe and inputs: two jobs with equal identity make the same bytes
@@ -39,10 +40,16 @@ class Layer {
     /// Height of the layer's top over the build plate, mm.
     double top() const { return (index_ + 1) * thickness_; }
     const SliceField& part() const { return *part_; }
+    /// Null where the job has no supports.
+    const SliceField* supports() const { return supports_; }
 
     void spans(const RowBand& band, SpanRows& out) const { part_->spans(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
         return trace_contours(*part_, tolerance, scratch_);
+    }
+    /// Empty where there are no supports.
+    std::vector<Contour> support_contours(double tolerance) const {
+        return supports_ ? trace_contours(*supports_, tolerance, scratch_) : std::vector<Contour>();
     }
 
   private:
@@ -52,6 +59,7 @@ class Layer {
     SliceContext context_;
     mutable Scratch scratch_;
     const SliceField* part_;
+    const SliceField* supports_;
 };
 
 }  // namespace lamella

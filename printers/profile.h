@@ -47,6 +47,35 @@ struct FilamentProfile {
     double tolerance = 0.025;                                             ///< mm between contour and surface
 };
 
+/// What a machine can print over the void, and how its supports are shaped. Lengths in mm.
+struct SupportProfile {
+    double overhang = 0;      ///< by which a layer may stand out over the one below; 0: half a line's width,
+                              ///< for other machines than those with filament a layer's height
+    double spacing = 3;       ///< a support point holds what lies within this distance
+    double free_stretch = 1;  ///< of outline that may hang unheld
+    double own_bridge = 10;   ///< straight runs of the part up to this length, held at both ends, need none
+    double bridge = 12;       ///< longest bar between two pillars
+    double reach = 4;         ///< by which a connector may lean sideways
+    double connector = 2;     ///< least height of a connector
+    double clearance = 0.5;   ///< between part and supports, contacts apart
+    double gap = 0;           ///< between the tip of a connector and the part
+    double tip = 0.6;         ///< diameter of a connector where it meets the part
+    double pillar = 2.5;      ///< width of a pillar: of a round one its diameter, of a cross its arms
+    bool round_pillars = false;  ///< round pillars instead of crosses
+    double wall = 0;             ///< thickness of a cross's arms; 0: a line's width
+    double bar_width = 0.9;
+    double bar_height = 0.6;
+    double foot = 7;  ///< diameter of a pillar's foot on the bed
+    double foot_height = 0.4;
+    double lift = 0;         ///< by which the part is raised over the bed
+    double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds the part
+    double push = 0.1;       ///< sideways force of the nozzle, N
+    double adhesion = 0.02;  ///< of the part to the bed, MPa
+    double density = 1.24;   ///< of the material, g/cm3
+    double speed = 30;       ///< of printing supports, mm/s
+    double grey = 1;         ///< of supports in image stacks, 0 to 1
+};
+
 /// A machine: which back-end, under which name, and its numbers.
 struct PrinterProfile {
     std::string name = "generic-8k";
@@ -54,6 +83,7 @@ struct PrinterProfile {
     ImageProfile image;
     VectorProfile vector;
     FilamentProfile filament;
+    SupportProfile support;
 };
 
 }  // namespace lamella

@@ -1,0 +1,55 @@
+// The overhang survey: one streaming pass over a job's layers that finds what would hang in the air, or
+// topple, while it is printed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/layer_stream.h"
+#include "engine/support_point.h"
+
+namespace lamella {
+
+/// What can be printed without help. Lengths in mm.
+struct OverhangLimits {
+    double overhang = 0.225;  ///< by which a layer may stand out over the one below
+    double width = 0.45;      ///< of what is laid at once; paths lie half of it inside the outline
+    double spacing = 3;  ///< a support point holds what lies within this distance, at its height or above
+    double free_stretch = 1;  ///< of a path that may hang unheld
+    double bridge = 10;       ///< a straight stretch up to this length, held at both ends, needs no support
+};
+
+/// When a print stands.
+struct StabilityLimits {
+    double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds, mm
+    double push = 0.1;       ///< sideways force at the height reached, N
+    double adhesion = 0.02;  ///< of what lies on the bed, and of support points, MPa
+    double contact = 0.3;    ///< area by which a support point sticks, mm^2
+    double density = 1.24;   ///< of the material, g/cm^3
+};
+
+struct OverhangSurveyOptions {
+    OverhangLimits limits;
+    std::optional<StabilityLimits> stability = StabilityLimits{};  ///< empty: not looked at
+    bool on_bed = true;                                            ///< whether the first layer needs no hold
+    FieldPtr blocked;                                              ///< no points in it; may be null
+    FieldPtr enforced;  ///< in it all that stands out over the layer below is held; may be null
+    int threads = 0;    ///< 0: one per core
+    std::function<void(const Progress&)> on_progress{};  ///< may be empty
+    const CancelToken* cancel = nullptr;                 ///< may be null
+};
+
+struct OverhangSurvey {
+    std::vector<SupportPoint> points;  ///< by height, then in the order of the paths
+    double hanging_length = 0;         ///< of paths that nothing below holds, mm
+    std::size_t own_bridges = 0;       ///< stretches left to hang between their ends
+    std::size_t blocked = 0;           ///< points left out
+    std::optional<double> topples_at;  ///< height from which no further point helps, mm; empty: it stands
+};
+
+/// Surveys all layers of a job's part. A pure function of part, layers and options, the same by any number of
+/// threads. Memory depends on a few layers and on the points, not on the number of layers. Throws InputError
+/// when the limits make no sense, Interrupted when cancelled.
+OverhangSurvey survey_overhangs(const Job& job, const OverhangSurveyOptions& options);
+
+}  // namespace lamella
