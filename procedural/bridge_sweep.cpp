@@ -13,8 +13,18 @@ constexpr double pi = 3.14159265358979323846;
 
 }  // namespace
 
+BridgeWorth::BridgeWorth(const ScaffoldShape& shape) {
+    const double pillar = shape.round_pillars ? pi / 4 * shape.pillar * shape.pillar
+                                              : (2 * shape.pillar - shape.wall) * shape.wall;
+    const double middle = (shape.tip + shape.bar_width) / 2;
+    bar_ = shape.bar_width * shape.bar_height / pillar;
+    connector_ = pi / 4 * middle * middle / pillar;
+}
+
 BridgeSweep::BridgeSweep(const ScaffoldShape& shape)
-    : shape_(shape), reach_(std::sqrt(shape.bridge * shape.bridge + shape.reach * shape.reach)) {}
+    : shape_(shape),
+      worth_(shape),
+      reach_(std::sqrt(shape.bridge * shape.bridge + shape.reach * shape.reach)) {}
 
 dvec2 BridgeSweep::along(int direction) {
     const SineCosine angle = sine_cosine(pi * direction / directions);
