@@ -134,8 +134,8 @@ std::optional<BridgeCandidate> BridgeSweep::best(
                 const double bottom = z - shape_.bar_height;
                 const double legs = 2 * bottom - elements_[crossed[i].element].landing -
                                     elements_[crossed[j].element].landing;
-                const double gain = saved[j + 1] - saved[i] - legs - width;
-                const double score = gain - static_cast<double>(j + 1 - i) * std::max(longest[i], longest[j]);
+                const double gain = worth_.gain(saved[j + 1] - saved[i], legs, width);
+                const double score = worth_.score(gain, j + 1 - i, std::max(longest[i], longest[j]));
                 if (gain <= 0 || (best && score <= best->score)) continue;
                 const std::array<std::int64_t, 3> key{static_cast<std::int64_t>(crossed[i].element),
                                                       static_cast<std::int64_t>(crossed[j].element), level};
