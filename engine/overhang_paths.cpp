@@ -59,17 +59,19 @@ class Walker {
         if (length <= q_.limits.free_stretch) return;
         if (bridges(from, to)) {
             ++found_.own_bridges;
-            const dvec2 chord = sample(to).at - sample(from).at;
+            const dvec2 chord = sample(to - 1).at - sample(from + 1).at;
             found_.bridge_ways.push_back(chord / std::sqrt(chord.x * chord.x + chord.y * chord.y));
             return;
         }
         walk_on(from, to);
     }
 
+    /// Whether a stretch runs straight from where the layer below holds it to where it does so again.
     bool bridges(std::size_t from, std::size_t to) const {
-        const dvec2 a = sample(from).at, chord = sample(to).at - a;
+        if (hangs_[from % path_.count] != 0 || hangs_[to % path_.count] != 0) return false;
+        const dvec2 a = sample(from + 1).at, chord = sample(to - 1).at - a;
         const double length2 = chord.x * chord.x + chord.y * chord.y;
-        if (length2 == 0 || length2 > q_.limits.bridge * q_.limits.bridge) return false;
+        if (length2 == 0 || std::sqrt(length2) + 2 * path_.step > q_.limits.bridge) return false;
         const double most = q_.limits.width / 2;
         for (std::size_t k = from + 1; k < to; ++k) {
             const dvec2 p = sample(k).at - a;

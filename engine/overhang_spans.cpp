@@ -4,7 +4,8 @@
 namespace lamella {
 namespace {
 
-enum : std::uint8_t { none, hold, hanging, visited };
+/// Of a node: void, held, under the outline's own bead (which its path answers for), or hanging.
+enum : std::uint8_t { none, hold, edge, hanging, visited };
 
 struct Node {
     int x, y;
@@ -13,7 +14,7 @@ struct Node {
 /// Where the layer hangs and where it is held, about all that hangs.
 class HangingLattice {
   public:
-    HangingLattice(const SpanRows& rows, const SpanRows& hang, const SurveyResolution& by)
+    HangingLattice(const SurveyedLayer& layer, const SpanRows& hang, const SurveyResolution& by)
         : band_(by.band), pitches_(std::max(1, static_cast<int>(by.width / by.band.across_pitch + 0.5))) {
         int x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
         each_run(hang, 0, (band_.count - 1) / pitches_, [&](int y, int from, int to) {
@@ -28,8 +29,14 @@ class HangingLattice {
         nx_ = x1 - x0 + 1 + 2 * room;
         ny_ = y1 - y0 + 1 + 2 * room;
         states_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), none);
-        fill(rows, hold);
+        fill(layer.rows, hold);
         fill(hang, hanging);
+        for (int y = 0; y < ny_; ++y) {
+            for (int x = 0; x < nx_; ++x) {
+                if (at({x, y}) == hanging && layer.border.distance(place({x, y}), by.width))
+                    at({x, y}) = edge;
+            }
+        }
     }
 
     bool empty() const { return states_.empty(); }
@@ -91,11 +98,11 @@ std::vector<Node> region_of(HangingLattice& lattice, Node from) {
     return region;
 }
 
-/// Void beside what hangs still counts as on the way: a slanting way between slanting edges steps on it.
+/// Void beside what hangs still counts as on the way: a way along a slanting outline steps on it.
 bool beside_hanging(const HangingLattice& lattice, Node n) {
     for (int y = n.y - 1; y <= n.y + 1; ++y) {
         for (int x = n.x - 1; x <= n.x + 1; ++x) {
-            if (lattice.inside({x, y}) && lattice.at({x, y}) >= hanging) return true;
+            if (lattice.inside({x, y}) && lattice.at({x, y}) >= edge) return true;
         }
     }
     return false;
@@ -162,7 +169,7 @@ void hold_spans(const PathQuestion& question, const SurveyedLayer& below,
         hang = &over;
     }
     if (hang->runs().empty()) return;
-    HangingLattice lattice(layer.rows, *hang, question.by);
+    HangingLattice lattice(layer, *hang, question.by);
     if (lattice.empty()) return;
     const std::vector<dvec2> ways = ways_of(bridge_ways);
     for (int y = 0; y < lattice.lines(); ++y) {

@@ -198,9 +198,11 @@ OverhangSurvey Surveyor::result() {
 }
 
 void check_number(const char* name, double value, bool zero_too) {
-    if (std::isfinite(value) && (zero_too ? value >= 0 : value > 0)) return;
-    throw InputError(std::string("overhang survey: the ") + name + " of " + format_number(value, 9) +
-                     " makes no sense; accepted: finite numbers " +
+    if (value < 1e9 && (zero_too ? value >= 0 : value > 0)) return;
+    const bool printable = std::abs(value) < 1e9;
+    throw InputError(std::string("overhang survey: the ") + name +
+                     (printable ? " of " + format_number(value, 9) : std::string()) +
+                     " makes no sense; accepted: numbers below 1e9 " +
                      (zero_too ? "of at least 0" : "greater than 0"));
 }
 
