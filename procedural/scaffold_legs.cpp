@@ -2,19 +2,28 @@
 #include "procedural/scaffold_legs.h"
 
 #include <array>
+#include <span>
 
 #include "engine/deterministic_math.h"
 
 namespace lamella {
 namespace {
 
-constexpr int directions = 16;
-constexpr double ring_step = 1;  // mm
+/// Where detours are tried: so far away, in so many directions.
+struct Ring {
+    double share_of_reach;
+    int ways;
+};
+/// A point has to be held. A bar may be made elsewhere; fewer of its detours are worth the time.
+constexpr std::array<Ring, 5> rings_about_points{{{0, 1}, {0.25, 8}, {0.5, 8}, {1, 16}, {2, 16}}};
+constexpr std::array<Ring, 3> rings_about_bars{{{0, 1}, {0.75, 8}, {1.5, 8}}};
+constexpr std::array<Ring, 4> leans_of_struts{
+    {{0, 1}, {0.35, 8}, {0.7, 8}, {1, 16}}};  // of the steepest allowed
 constexpr double pi = 3.14159265358979323846;
 constexpr dvec3 down{0, 0, -1};
 
-dvec2 direction(int k) {
-    const SineCosine angle = sine_cosine(2 * pi * k / directions);
+dvec2 direction(int k, int ways) {
+    const SineCosine angle = sine_cosine(2 * pi * k / ways);
     return {angle.cosine, angle.sine};
 }
 
@@ -67,13 +76,18 @@ std::optional<Leg> LegFinder::upright(dvec3 top) const {
 /// A leaning piece and a pillar under it; straight down first.
 std::optional<Leg> LegFinder::best_detour(dvec3 top, double least_rise, double top_radius,
                                           bool contact) const {
+    const std::span<const Ring> rings =
+        contact ? std::span<const Ring>(rings_about_points) : std::span<const Ring>(rings_about_bars);
     const double radius = connector_radius(), needed = shape_.clearance + radius;
     std::optional<Leg> best;
-    for (double ring = 0; ring <= 2 * shape_.reach; ring += ring_step) {
-        for (int k = 0; k < (ring == 0 ? 1 : directions); ++k) {
-            const double rise = std::max(least_rise, ring / shape_.lean);
-            const dvec3 foot = top + dvec3(direction(k) * ring, -rise);
+    for (const Ring& ring : rings) {
+        const double lateral = ring.share_of_reach * shape_.reach;
+        for (int k = 0; k < ring.ways; ++k) {
+            const double rise = std::max(least_rise, lateral / shape_.lean);
+            const dvec3 foot = top + dvec3(direction(k, ring.ways) * lateral, -rise);
             if (foot.z < shape_.bed + shape_.foot_height) continue;
+            const double room_for_pillar = shape_.clearance + shape_.pillar / 2;
+            if (space_.room(foot, room_for_pillar) < room_for_pillar) continue;
             if (rise > 0 &&
                 !(contact ? space_.clear_from_contact(top, foot, needed) : space_.clear(top, foot, needed))) {
                 continue;
@@ -95,12 +109,13 @@ std::optional<Leg> LegFinder::best_detour(dvec3 top, double least_rise, double t
 std::optional<Leg> LegFinder::strut(dvec3 top, double top_radius, bool contact) const {
     const double radius = connector_radius();
     std::optional<Leg> best;
-    for (int ring = 0; ring <= 4; ++ring) {
-        const double lean = shape_.lean * ring / 4;
-        for (int k = 0; k < (ring == 0 ? 1 : directions); ++k) {
-            const dvec3 way = dvec3(direction(k) * lean, -1) / std::sqrt(1 + lean * lean);
-            const dvec3 start = contact ? top + way * (2 * shape_.tip) : top;
-            if (start.z <= shape_.bed || space_.room(start, radius) <= 0) continue;
+    for (const Ring& ring : leans_of_struts) {
+        const double lean = shape_.lean * ring.share_of_reach;
+        for (int k = 0; k < ring.ways; ++k) {
+            const dvec3 way = dvec3(direction(k, ring.ways) * lean, -1) / std::sqrt(1 + lean * lean);
+            const double left = (top.z - shape_.bed) / -way.z;
+            const dvec3 start = contact ? top + way * std::min(2 * shape_.tip, left / 2) : top;
+            if (!(left > 0) || space_.room(start, radius) <= 0) continue;
             const FreeSpace::Fall fall = space_.fall(start, way, 0);
             const double reached =
                 glm::distance(top, start) + fall.hits.value_or((start.z - shape_.bed) / -way.z);
