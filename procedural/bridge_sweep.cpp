@@ -131,9 +131,8 @@ std::optional<BridgeCandidate> BridgeSweep::best(
                 const double width = crossed[j].along - crossed[i].along;
                 if (width > shape_.bridge) break;
                 if (width < shape_.pillar) continue;
-                const double bottom = z - shape_.bar_height;
-                const double legs = 2 * bottom - elements_[crossed[i].element].landing -
-                                    elements_[crossed[j].element].landing;
+                const double legs =
+                    2 * z - elements_[crossed[i].element].landing - elements_[crossed[j].element].landing;
                 const double gain = worth_.gain(saved[j + 1] - saved[i], legs, width);
                 const double score = worth_.score(gain, j + 1 - i, std::max(longest[i], longest[j]));
                 if (gain <= 0 || (best && score <= best->score)) continue;

@@ -9,7 +9,6 @@ namespace {
 constexpr double least_step = 0.1;  // mm; between two points so far apart the room is at most half less
 constexpr double far_enough =
     4;  // mm of room beyond what is needed; to know of more costs more than it saves
-constexpr double contact_slope = 0.4;
 constexpr double on_surface = 0.02;  // mm
 
 /// The corners, edges and faces of a cube as directions of length 1.
@@ -41,17 +40,18 @@ double FreeSpace::room(dvec3 p, double limit) const {
 }
 
 double FreeSpace::probed_room(dvec3 p, double limit) const {
-    if (part_.value(p) <= 0) return -on_surface;
     constexpr int shells = 16;
     constexpr double growth = 1.189207115002721;  // 2^(1/4), so the last shell is sixteen times the first
-    double clear = 0, radius = limit / 16;
+    const bool inside = part_.value(p) <= 0;
+    double same = on_surface, radius = limit / 16;
     for (int shell = 0; shell <= shells; ++shell, radius *= growth) {
-        for (const dvec3& direction : directions_about()) {
-            if (part_.value(p + direction * radius) <= 0) return clear;
-        }
-        clear = radius;
+        const bool all = std::all_of(
+            directions_about().begin(), directions_about().end(),
+            [&](dvec3 direction) { return (part_.value(p + direction * radius) <= 0) == inside; });
+        if (!all) break;
+        same = radius;
     }
-    return clear;
+    return inside ? -same : same;
 }
 
 bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
@@ -66,17 +66,17 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
     }
 }
 
-bool FreeSpace::clear_from_contact(dvec3 contact, dvec3 end, double distance) const {
+bool FreeSpace::clear_from_contact(dvec3 contact, dvec3 end, double distance, double slope) const {
     const double length = glm::distance(contact, end);
     if (!(length > 0)) return true;
     const dvec3 way = (end - contact) / length;
     double at = std::min(3 * least_step, length);
     while (true) {
-        const double needed = std::min(distance, contact_slope * (at - least_step));
+        const double needed = std::min(distance, slope * (at - least_step));
         const double here = room(contact + way * at, distance + far_enough);
         if (here < needed) return false;
         if (at >= length) return true;
-        at = std::min(length, at + std::max((here - needed) / (1 + contact_slope), least_step));
+        at = std::min(length, at + std::max((here - needed) / (1 + slope), least_step));
     }
 }
 

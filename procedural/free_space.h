@@ -20,10 +20,10 @@ class FreeSpace {
     double room(dvec3 p, double limit) const;
     /// Whether the line from a to b stays `distance` (mm) away from the part.
     bool clear(dvec3 a, dvec3 b, double distance) const;
-    /// Whether a line that leaves the part at `contact` soon is, and at `end` still is, `distance` away: near
-    /// the contact it need only have 0.4 mm of room for each mm of its way, as beside a surface at 24 degrees
-    /// to it.
-    bool clear_from_contact(dvec3 contact, dvec3 end, double distance) const;
+    /// Whether a line that leaves the part at `contact` soon is `distance` away and stays so: near the
+    /// contact it need only have `slope` mm of room for each mm of its way. There are 0.4 beside a surface at
+    /// 24 degrees to it.
+    bool clear_from_contact(dvec3 contact, dvec3 end, double distance, double slope = 0.4) const;
     /// How far a line from p in a direction (of length 1, downward) goes.
     struct Fall {
         double clear = 0;  ///< mm of it that are `distance` away from the part

@@ -19,6 +19,18 @@ constexpr std::array<Ring, 5> rings_about_points{{{0, 1}, {0.25, 8}, {0.5, 8}, {
 constexpr std::array<Ring, 3> rings_about_bars{{{0, 1}, {0.75, 8}, {1.5, 8}}};
 constexpr std::array<Ring, 4> leans_of_struts{
     {{0, 1}, {0.35, 8}, {0.7, 8}, {1, 16}}};  // of the steepest allowed
+/// For points that these do not help.
+constexpr std::array<Ring, 10> many_leans{{{0, 1},
+                                           {0.1, 8},
+                                           {0.2, 16},
+                                           {0.3, 16},
+                                           {0.4, 24},
+                                           {0.5, 24},
+                                           {0.6, 32},
+                                           {0.7, 32},
+                                           {0.85, 32},
+                                           {1, 32}}};
+constexpr double contact_slope = 0.4;  // of struts between what they touch, mm of room for each mm of way
 constexpr double pi = 3.14159265358979323846;
 constexpr dvec3 down{0, 0, -1};
 
@@ -37,11 +49,15 @@ dvec3 LegFinder::tip_center(dvec3 point) const {
 }
 
 /// The foot shrinks where the part is near.
-double LegFinder::foot_radius(dvec2 at) const {
+double LegFinder::foot_room(dvec2 at) const {
     const dvec3 middle(at, shape_.bed + shape_.foot_height / 2);
-    const double wanted = shape_.foot / 2;
-    const double room = space_.room(middle, wanted + shape_.clearance) - shape_.clearance;
-    return std::max(std::min(wanted, room), shape_.pillar / 2);
+    return space_.room(middle, shape_.foot / 2 + shape_.clearance) - shape_.clearance;
+}
+
+/// Whether the part's surface at a place is a floor to stand on rather than a wall.
+bool LegFinder::level_enough(dvec3 place) const {
+    const double below = connector_radius();
+    return space_.room(place - dvec3(0, 0, below), below) < -0.5 * below;
 }
 
 /// A pillar straight down from a place that is clear of the part.
@@ -53,18 +69,20 @@ std::optional<Leg> LegFinder::upright(dvec3 top) const {
     Leg leg;
     const dvec2 at(top);
     if (!fall.hits) {
-        leg.pillar = ScaffoldPillar{at, shape_.bed, top.z, foot_radius(at)};
+        leg.pillar = ScaffoldPillar{at, shape_.bed, top.z, std::max(foot_room(at), half)};
         leg.landing = shape_.bed;
         leg.length = top.z - shape_.bed;
         return leg;
     }
     const double surface = top.z - *fall.hits;
-    // The cone on which the pillar stands widens no faster than layers can follow.
+    if (!level_enough({at, surface})) return std::nullopt;
+    // The cone on which the pillar stands widens no faster than layers can follow, and stands on what is
+    // level enough.
     const double widening = std::max(shape_.connector, (half - shape_.tip / 2) / shape_.lean);
     const double bottom = std::max(top.z - fall.clear, surface + widening);
-    if (bottom > top.z - shape_.connector) return std::nullopt;
+    if (bottom > top.z - shape_.connector || bottom > surface + 2 * widening) return std::nullopt;
     const Beam cone{dvec3(at, surface), shape_.tip / 2, dvec3(at, bottom), half};
-    if (!space_.clear_from_contact(cone.a, cone.b, shape_.clearance)) return std::nullopt;
+    if (!space_.clear_from_contact(cone.a, cone.b, needed, 0.7)) return std::nullopt;
     leg.connectors.push_back(cone);
     leg.pillar = ScaffoldPillar{at, bottom, top.z, 0};
     leg.landing = surface;
@@ -105,65 +123,95 @@ std::optional<Leg> LegFinder::best_detour(dvec3 top, double least_rise, double t
     return best;
 }
 
-/// A thin piece, straight or leaning, to whatever lies next below.
-std::optional<Leg> LegFinder::strut(dvec3 top, double top_radius, bool contact) const {
-    const double radius = connector_radius();
+/// The way from a contact to where there is surely room; nothing where that does not come soon.
+std::optional<double> LegFinder::leaves_part(dvec3 contact, dvec3 way, double longest) const {
+    for (const double left : {0.2, 0.5, 1.0}) {
+        const double at = std::min(left, longest / 2);
+        if (space_.room(contact + way * at, 0.2) > 0.1 * left) return at;
+    }
+    return std::nullopt;
+}
+
+/// A thin piece from a place in a direction (of length 1, downward) to whatever comes first.
+std::optional<Leg> LegFinder::strut_along(dvec3 top, dvec3 way, bool contact) const {
+    const double radius = connector_radius(), away = shape_.clearance + radius;
+    const double to_bed = (top.z - shape_.bed) / -way.z;
+    if (!(to_bed > 0)) return std::nullopt;
+    const std::optional<double> left = contact ? leaves_part(top, way, to_bed) : 0;
+    if (!left) return std::nullopt;
+    const dvec3 start = top + way * *left;
+    const FreeSpace::Fall fall = space_.fall(start, way, 0);
+    const double length = fall.hits ? *left + *fall.hits : to_bed;
+    const dvec3 end = top + way * length, middle = top + way * (length / 2);
+    if (fall.hits && !level_enough(end)) return std::nullopt;
+    const double near_ends = std::min(away, contact_slope * length / 2);
+    const bool clear =
+        (contact ? space_.clear_from_contact(top, middle, away) : space_.clear(top, middle, near_ends)) &&
+        (fall.hits ? space_.clear_from_contact(end, middle, away) : space_.clear(end, middle, near_ends));
+    if (!clear) return std::nullopt;
+    Leg leg;
+    const double top_radius = contact ? shape_.tip / 2 : radius;
+    const double end_radius = fall.hits ? shape_.tip / 2 : radius;
+    if (length > 2 * shape_.connector) {
+        leg.connectors = {{top, top_radius, middle, radius}, {middle, radius, end, end_radius}};
+    } else {
+        leg.connectors = {{top, top_radius, end, end_radius}};
+    }
+    leg.landing = end.z;
+    leg.on_bed = !fall.hits;
+    leg.length = length;
+    if (leg.on_bed && length > 2 * shape_.connector) {
+        const double foot = foot_room(dvec2(end));
+        const double top_of_foot = shape_.bed + shape_.foot_height;
+        if (foot >= shape_.pillar / 2) leg.pillar = ScaffoldPillar{dvec2(end), shape_.bed, top_of_foot, foot};
+    }
+    return leg;
+}
+
+/// The shortest thin piece, straight or leaning, no longer than told; one that reaches the bed if any does.
+std::optional<Leg> LegFinder::strut(dvec3 top, double longest, bool contact) const {
     std::optional<Leg> best;
-    for (const Ring& ring : leans_of_struts) {
+    const std::span<const Ring> rings =
+        longest < infinity ? std::span<const Ring>(leans_of_struts) : std::span<const Ring>(many_leans);
+    for (const Ring& ring : rings) {
         const double lean = shape_.lean * ring.share_of_reach;
         for (int k = 0; k < ring.ways; ++k) {
             const dvec3 way = dvec3(direction(k, ring.ways) * lean, -1) / std::sqrt(1 + lean * lean);
-            const double left = (top.z - shape_.bed) / -way.z;
-            const dvec3 start = contact ? top + way * std::min(2 * shape_.tip, left / 2) : top;
-            if (!(left > 0) || space_.room(start, radius) <= 0) continue;
-            const FreeSpace::Fall fall = space_.fall(start, way, 0);
-            const double reached =
-                glm::distance(top, start) + fall.hits.value_or((start.z - shape_.bed) / -way.z);
-            const dvec3 end = top + way * reached, middle = top + way * (reached / 2);
-            const double away = shape_.clearance + radius;
-            if (contact && !space_.clear_from_contact(top, middle, away)) continue;
-            if (!contact && !space_.clear(top, middle, std::min(away, 0.4 * reached / 2))) continue;
-            if (fall.hits ? !space_.clear_from_contact(end, middle, away)
-                          : !space_.clear(end, middle, std::min(away, 0.4 * reached / 2))) {
-                continue;
-            }
-            Leg leg;
-            const double end_radius = fall.hits ? shape_.tip / 2 : radius;
-            if (reached > 2 * shape_.connector) {
-                leg.connectors.push_back({top, top_radius, middle, radius});
-                leg.connectors.push_back({middle, radius, end, end_radius});
-            } else {
-                leg.connectors.push_back({top, top_radius, end, end_radius});
-            }
-            leg.landing = end.z;
-            leg.on_bed = !fall.hits;
-            leg.length = reached;
-            if (!best || (leg.on_bed && !best->on_bed) ||
-                (leg.on_bed == best->on_bed && leg.length < best->length)) {
-                best = std::move(leg);
-            }
+            std::optional<Leg> leg = strut_along(top, way, contact);
+            if (!leg || leg->length > longest) continue;
+            const bool better =
+                !best || (leg->on_bed == best->on_bed ? leg->length < best->length : leg->on_bed);
+            if (better) best = std::move(leg);
         }
         if (best && best->on_bed) break;
     }
     return best;
 }
 
+/// Straight down to the bed from a layer or two above it, where nothing can be in between.
+Leg LegFinder::stub(dvec3 top) const {
+    Leg leg;
+    const dvec3 end(top.x, top.y, shape_.bed);
+    leg.connectors = {{top, shape_.tip / 2, end, shape_.tip / 2}};
+    leg.landing = shape_.bed;
+    leg.length = top.z - shape_.bed;
+    return leg;
+}
+
 std::optional<Leg> LegFinder::under_point(dvec3 point) const {
     const dvec3 top = tip_center(point);
-    if (auto leg = best_detour(top, shape_.connector, shape_.tip / 2, true); leg && leg->on_bed) {
-        return leg;
-    } else if (leg) {
-        // Thin struts leave smaller marks on the part, where they are short.
-        auto thin = strut(top, shape_.tip / 2, true);
-        const double short_way = 4 * shape_.connector;
-        return thin && (thin->on_bed || thin->length < short_way) ? thin : leg;
-    }
-    return strut(top, shape_.tip / 2, true);
+    if (top.z - shape_.bed <= 2 * shape_.layer_height) return stub(top);
+    std::optional<Leg> leg = best_detour(top, shape_.connector, shape_.tip / 2, true);
+    if (leg && leg->on_bed) return leg;
+    // Where short, thin struts leave smaller marks on the part than pillars.
+    std::optional<Leg> thin = strut(top, 2 * shape_.longest_connector, true);
+    if (thin && (!leg || thin->length < shape_.longest_connector)) return thin;
+    return leg ? leg : strut(top, infinity, true);
 }
 
 std::optional<Leg> LegFinder::under_bar(dvec3 place) const {
     if (auto leg = best_detour(place, 0, connector_radius(), false)) return leg;
-    return strut(place, connector_radius(), false);
+    return strut(place, 2 * shape_.longest_connector, false);
 }
 
 }  // namespace lamella

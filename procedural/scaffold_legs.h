@@ -38,8 +38,12 @@ class LegFinder {
   private:
     std::optional<Leg> upright(dvec3 top) const;
     std::optional<Leg> best_detour(dvec3 top, double least_rise, double top_radius, bool contact) const;
-    std::optional<Leg> strut(dvec3 top, double top_radius, bool contact) const;
-    double foot_radius(dvec2 at) const;
+    std::optional<double> leaves_part(dvec3 contact, dvec3 way, double longest) const;
+    std::optional<Leg> strut_along(dvec3 top, dvec3 way, bool contact) const;
+    std::optional<Leg> strut(dvec3 top, double longest, bool contact) const;
+    bool level_enough(dvec3 place) const;
+    Leg stub(dvec3 top) const;
+    double foot_room(dvec2 at) const;
 
     const FreeSpace& space_;
     ScaffoldShape shape_;

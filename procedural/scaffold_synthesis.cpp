@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <queue>
 #include <string>
 
@@ -87,6 +88,7 @@ class Synthesis {
     }
 
   private:
+    static constexpr std::size_t most_refused = 12;  // bars of an anchor; where so many fail, the rest will
     static constexpr auto directions = static_cast<std::size_t>(BridgeSweep::directions);
 
     template <typename Work>
@@ -101,7 +103,8 @@ class Synthesis {
     void make_bars();
     void look_again(const std::vector<std::size_t>& elements);
     void look_again_at(std::size_t anchor_number);
-    std::optional<CheckedBar> check(const BridgeCandidate& candidate) const;
+    std::optional<CheckedBar> check(const BridgeCandidate& candidate);
+    const std::optional<Leg>& leg_under(dvec3 end);
     bool reaches(std::size_t element, dvec3 bar_point) const;
     dvec3 under(const BridgeCandidate& bar, std::size_t element) const {
         return nearest_on({bar.a, bar.b}, sweep_.elements()[element].touch);
@@ -120,6 +123,7 @@ class Synthesis {
     std::vector<std::optional<Leg>> leg_of_;  ///< by element
     std::vector<Anchor> anchors_;             ///< by element, then direction
     std::priority_queue<Entry> queue_;
+    std::map<std::array<double, 3>, std::optional<Leg>> legs_of_ends_;  ///< by place; bars are offered again
 };
 
 void Synthesis::find_legs() {
@@ -147,7 +151,10 @@ void Synthesis::look_again(const std::vector<std::size_t>& elements) {
     in_parallel(elements.size() * directions, [&](std::size_t k) {
         const std::size_t element = elements[k / directions];
         Anchor& anchor = anchors_[element * directions + k % directions];
-        anchor.best = sweep_.best(element, static_cast<int>(k % directions), anchor.refused);
+        anchor.best.reset();
+        if (anchor.refused.size() < most_refused) {
+            anchor.best = sweep_.best(element, static_cast<int>(k % directions), anchor.refused);
+        }
         anchor.checked.reset();
         ++anchor.version;
     });
@@ -167,9 +174,15 @@ bool Synthesis::reaches(std::size_t element, dvec3 bar_point) const {
                        : space_.clear_from_contact(held.touch, bar_point, needed);
 }
 
+const std::optional<Leg>& Synthesis::leg_under(dvec3 end) {
+    const auto [found, fresh] = legs_of_ends_.try_emplace({end.x, end.y, end.z});
+    if (fresh) found->second = legs_.under_bar(end);
+    return found->second;
+}
+
 /// Whether the bar has room, its ends stand, and what it holds can be reached. Elements between the ends that
 /// cannot are left to others; gain and score become those of what is held by the legs there really are.
-std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) const {
+std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) {
     const ScaffoldShape& shape = scaffold_.shape;
     CheckedBar checked{candidate, {}, {}};
     BridgeCandidate& bar = checked.bar;
@@ -188,9 +201,9 @@ std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) con
         return element != ends[0] && element != ends[1] && !reaches(element, under(bar, element));
     });
     for (const auto& [end, leg] : {std::pair(bar.a, &checked.first), std::pair(bar.b, &checked.last)}) {
-        std::optional<Leg> found = legs_.under_bar(end + bottom);
+        const std::optional<Leg>& found = leg_under(end + bottom);
         if (!found) return {};
-        *leg = std::move(*found);
+        *leg = *found;
     }
     double saved = 0, longest = 0;
     for (const std::size_t element : bar.held) {
@@ -199,7 +212,7 @@ std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) con
         longest = std::max(longest, glm::distance(held.touch, under(bar, element)));
     }
     const BridgeWorth worth(shape);
-    bar.gain = worth.gain(saved, checked.first.length + checked.last.length, length);
+    bar.gain = worth.gain(saved, checked.first.length + checked.last.length + 2 * shape.bar_height, length);
     bar.score = worth.score(bar.gain, bar.held.size(), longest);
     if (bar.gain <= 0) return {};
     return checked;
@@ -219,7 +232,7 @@ void Synthesis::make_bars() {
             anchor.checked = check(*anchor.best);
             if (!anchor.checked) {
                 anchor.refused.push_back(anchor.best->key);
-                look_again_at(entry.anchor);
+                if (anchor.refused.size() < most_refused) look_again_at(entry.anchor);
                 continue;
             }
             // A bar worth less than it seemed has to wait for its turn.

@@ -66,7 +66,7 @@ double best_score(const std::vector<ScaffoldElement>& elements, const ScaffoldSh
                     ++held;
                     holds_self = holds_self || on.number == self;
                 }
-                const double legs = 2 * (z - shape.bar_height) - first.landing - last.landing;
+                const double legs = 2 * z - first.landing - last.landing;
                 const double gain = saved - legs - bar_share * width;
                 if (!holds_self || gain <= 0) continue;
                 best = std::max(best, gain - connector_share * static_cast<double>(held) * longest);
