@@ -197,10 +197,18 @@ TEST_CASE("a mushroom on a thin stem is steadied under its cap") {
 }
 
 TEST_CASE("a thin tower without a face to hold says where it topples") {
-    const OverhangSurvey survey =
-        surveyed(make_box({{0, 0, 0}, {2, 2, 30}}), {{0, 0, 0}, {2, 2, 30}}, StabilityLimits{});
+    const FieldPtr tower = make_box({{0, 0, 0}, {4, 4, 30}});
+    const Box bounds{{0, 0, 0}, {4, 4, 30}};
+    StabilityLimits limits;
+    limits.density = 0;
+    const OverhangSurvey survey = surveyed(tower, bounds, limits);
     REQUIRE(survey.points.empty());
     REQUIRE(survey.topples_at);
-    // The foot sticks with 0.08 N at 1 mm, the weight adds nothing (its margin is all it has).
-    REQUIRE(*survey.topples_at == Approx(0.8).margin(0.25));
+    // The foot sticks with 0.32 N at 2 mm.
+    REQUIRE(*survey.topples_at == Approx(6.4).margin(0.4));
+    // What is no higher than a stub is not looked at.
+    limits.stub = 8;
+    REQUIRE(*surveyed(tower, bounds, limits).topples_at == Approx(8).margin(0.21));
+    limits.stub = 30.5;
+    REQUIRE_FALSE(surveyed(tower, bounds, limits).topples_at);
 }
