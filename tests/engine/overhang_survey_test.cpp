@@ -230,6 +230,46 @@ TEST_CASE("a room's ceiling is bridged when one direction is short enough, and h
     for (const SupportPoint& p : wide.points) REQUIRE(p.at.z == Approx(10));
 }
 
+TEST_CASE("a tunnel's vault is held from its critical height on, unless it is short enough to be bridged") {
+    constexpr double radius = 7.05, limit = 0.225;
+    const auto tunnel = [](double length) {
+        return make_difference(box({-12, 0, 0}, {12, length, 12}),
+                               make_cylinder({0, -1, 0}, {0, length + 1, 0}, radius));
+    };
+    const Box bounds{{-12, 0, 0}, {12, 30, 12}};
+    const OverhangSurvey survey = surveyed(tunnel(30), bounds);
+    const auto side = [&](int layer) {
+        const double z = (layer + 0.5) * height;
+        return z < radius ? std::sqrt(radius * radius - z * z) : 0.0;
+    };
+    const auto step_in = [&](const SupportPoint& p) {
+        const int layer = static_cast<int>(std::lround(p.at.z / height));
+        return side(layer - 1) - side(layer);
+    };
+    // An outline that turns a corner in the air is no straight run, however short it is.
+    const OverhangSurvey shortened = surveyed(tunnel(8), bounds);
+    for (const SupportPoint& p : shortened.points) REQUIRE(step_in(p) > limit + 0.45 / 2 - 0.02);
+    REQUIRE(shortened.own_bridges > 4);
+    REQUIRE(survey.points.size() >= 14);
+    for (const SupportPoint& p : survey.points) REQUIRE(step_in(p) > limit - 0.02);
+    for (int layer = 1; side(layer - 1) > 0; ++layer) {
+        if (side(layer - 1) - side(layer) < limit + 0.02) continue;
+        for (double y = 0.5; y < 30; y += 0.5) {
+            REQUIRE(near_point(survey, {side(layer), y, layer * height}, 4.3));
+            REQUIRE(near_point(survey, {-side(layer), y, layer * height}, 4.3));
+        }
+    }
+}
+
+TEST_CASE("a closed cavity is held under its vault, from inside") {
+    const FieldPtr part = make_difference(box({-12, -12, 0}, {12, 12, 24}), make_sphere({0, 0, 12}, 9));
+    const OverhangSurvey survey = surveyed(part, {{-12, -12, 0}, {12, 12, 24}});
+    REQUIRE(survey.points.size() >= 8);
+    const double critical = 12 + 9 * (0.225 / height) / std::sqrt(1 + 0.225 * 0.225 / (height * height));
+    for (const SupportPoint& p : survey.points) REQUIRE(p.at.z > critical - 2 * height);
+    REQUIRE(near_point(survey, {0, 0, 20.8}, 4.3));
+}
+
 TEST_CASE("the lowest tip of what begins in the air has a point, however small it is") {
     const FieldPtr part = make_union({box({-2, -2, 0}, {2, 2, 12}), box({-2, -2, 10}, {12, 2, 12}),
                                       make_cylinder({10, 0, 6}, {10, 0, 11}, 0.3)});
