@@ -29,7 +29,7 @@ ContourIndex::ContourIndex(const std::vector<Contour>& contours, double cell) : 
     const auto each_cell = [&](const Piece& piece, const auto& act) {
         const Cells c = cells({glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)});
         for (int y = c.y0; y <= c.y1; ++y) {
-            for (int x = c.x0; x <= c.x1; ++x) act(static_cast<std::size_t>(y * nx_ + x));
+            for (int x = c.x0; x <= c.x1; ++x) act(number(x, y));
         }
     };
     for (const Piece& piece : pieces_) each_cell(piece, [&](std::size_t c) { ++starts_[c + 1]; });
@@ -70,7 +70,7 @@ void ContourIndex::visit(const Rect& r, const Visit& visit) const {
     const Cells c = cells(r);
     for (int y = c.y0; y <= c.y1; ++y) {
         for (int x = c.x0; x <= c.x1; ++x) {
-            const auto at = static_cast<std::size_t>(y * nx_ + x);
+            const std::size_t at = number(x, y);
             for (std::uint32_t k = starts_[at]; k < starts_[at + 1]; ++k) visit(pieces_[items_[k]]);
         }
     }

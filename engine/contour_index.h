@@ -31,6 +31,9 @@ class ContourIndex {
         int x0, x1, y0, y1;
     };
     Cells cells(const Rect& r) const;
+    std::size_t number(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
+    }
     void add_pieces(const Contour& contour);
     template <typename Visit>
     void visit(const Rect& r, const Visit& visit) const;

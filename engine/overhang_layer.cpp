@@ -33,8 +33,9 @@ SpanRows grown_by_disc(const SpanRows& rows, double radius) {
         line.clear();
         for (int k = std::max(-reach, -r); k <= std::min(reach, count - 1 - r); ++k) {
             const std::int32_t width = widths[static_cast<std::size_t>(std::abs(k))];
+            const int near = r + k;
             const auto sorted = static_cast<std::ptrdiff_t>(line.size());
-            for (const Run& run : rows.line(static_cast<std::size_t>(r + k))) {
+            for (const Run& run : rows.line(static_cast<std::size_t>(near))) {
                 line.push_back({run.begin - width, run.end + width});
             }
             std::inplace_merge(line.begin(), line.begin() + sorted, line.end(), begins_first);

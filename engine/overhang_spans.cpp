@@ -15,7 +15,8 @@ struct Node {
 class HangingLattice {
   public:
     HangingLattice(const SurveyedLayer& layer, const SpanRows& hang, const SurveyResolution& by)
-        : band_(by.band), pitches_(std::max(1, static_cast<int>(by.width / by.band.across_pitch + 0.5))) {
+        : band_(by.band),
+          pitches_(std::max(1, static_cast<int>(std::lround(by.width / by.band.across_pitch)))) {
         int x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
         each_run(hang, 0, (band_.count - 1) / pitches_, [&](int y, int from, int to) {
             x0 = std::min(x0, from);
@@ -44,13 +45,16 @@ class HangingLattice {
     int lines() const { return ny_; }
     double step() const { return pitches_ * band_.across_pitch; }
     bool inside(Node n) const { return n.x >= 0 && n.x < nx_ && n.y >= 0 && n.y < ny_; }
-    std::uint8_t& at(Node n) { return states_[static_cast<std::size_t>(n.y * nx_ + n.x)]; }
-    std::uint8_t at(Node n) const { return states_[static_cast<std::size_t>(n.y * nx_ + n.x)]; }
+    std::uint8_t& at(Node n) { return states_[number(n)]; }
+    std::uint8_t at(Node n) const { return states_[number(n)]; }
     dvec2 place(Node n) const {
         return {band_.along(unit_of(n.x + first_.x)), band_.line(row_of(n.y + first_.y))};
     }
 
   private:
+    std::size_t number(Node n) const {
+        return static_cast<std::size_t>(n.y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(n.x);
+    }
     int row_of(int y) const { return y * pitches_ + pitches_ / 2; }
     double unit_of(int x) const { return (x + 0.5) * pitches_ * run_unit; }
 

@@ -40,9 +40,20 @@ struct OverhangSurvey {
                                        ///< it stands
 };
 
-/// Surveys all layers of a job's part. A pure function of part, layers and options, the same by any number of
-/// threads. Memory depends on a few layers and on the points, not on the number of layers. Throws InputError
-/// when the limits make no sense, Interrupted when cancelled.
+/// Surveys all layers of a job's part, each against the one below.
+///
+/// A place of an outline is held when it stands out by at most `overhang`, or when a point within `spacing`,
+/// not above it, holds it. Where an outline is not held for longer than the free stretch, points come half a
+/// width inside it; but for a run that the layer below holds at both ends, and that in between lies within
+/// half a width of a straight line no longer than a bridge. What begins with nothing below has a point at
+/// least. Ceilings further than a width from the outline have points a spacing apart, unless one direction
+/// leads everywhere from hold to hold within the length of a bridge. Outlines are known to an eighth of the
+/// width; what is thinner than a quarter of it may be missed as a piece of its own.
+///
+/// When the print would topple, points are added where the outline faces down and reaches furthest out, in 16
+/// directions; they may lie below the layer that needs them. A pure function of part, layers and options, the
+/// same by any number of threads. Memory depends on a few layers and on the points, not on the number of
+/// layers. Throws InputError when the limits make no sense, Interrupted when cancelled.
 OverhangSurvey survey_overhangs(const Job& job, const OverhangSurveyOptions& options);
 
 }  // namespace lamella

@@ -19,16 +19,17 @@ struct StabilityLimits {
     double bond = 1;         ///< of the part to a support point, MPa: fused, not merely laid on a plate
     double contact = 0.3;    ///< area by which a support point sticks, mm^2
     double density = 1.24;   ///< of the material, g/cm^3
+    double stub = 1;  ///< what reaches no higher over its hold does not tip: the nozzle is above it, mm
 };
 
 /// The components of a print that nothing joins yet, each with its mass and with what holds it. A component
-/// stands when about no edge of its hull, that of its contact with the bed and of its support points, its
-/// weight and what sticks are outdone by the push: the moments about the edge, in N mm,
+/// stands when it tips over no edge of its hull, the convex hull of its contact with the bed and of its
+/// support points. For every edge, with distances inward from it, in N mm:
 ///     weight (distance of its centre of mass - margin) + adhesion area (distance of the contact's centre)
 ///     + bond contact (sum of the distances of its points) >= push (height reached - height of its lowest
-///     hold),
-/// distances inward from the edge. A support point holds by a disc of the area `contact`. After Dumas, Hergel
-/// and Lefebvre 2014, where the weight alone counts.
+///     hold).
+/// A support point holds by a disc of the area `contact`. After Dumas, Hergel and Lefebvre 2014, where the
+/// weight alone counts.
 class PrintStability {
   public:
     /// A point closer than half of `spacing` (mm) to another one adds nothing, unless it widens the hull.

@@ -20,33 +20,26 @@ void PointCells::add(dvec3 p) {
     cells_[cell_key(c.x, c.y, c.z)].push_back(p);
 }
 
-bool PointCells::any_below(dvec3 p, double distance) const { return any(p, distance, false); }
-bool PointCells::any_near(dvec3 p, double distance) const { return any(p, distance, true); }
-
-bool PointCells::any(dvec3 p, double distance, bool above) const {
+bool PointCells::any_below(dvec3 p) const {
     const dvec3 c = glm::floor(p / size_);
-    for (int k = -1; k <= (above ? 1 : 0); ++k) {
-        for (int j = -1; j <= 1; ++j) {
-            for (int i = -1; i <= 1; ++i) {
-                const auto found = cells_.find(cell_key(c.x + i, c.y + j, c.z + k));
-                if (found == cells_.end()) continue;
-                for (const dvec3 q : found->second) {
-                    const dvec3 d = q - p;
-                    if (!above && d.z > 0) continue;
-                    if (d.x * d.x + d.y * d.y + d.z * d.z <= distance * distance) return true;
-                }
-            }
+    for (int cell = 0; cell < 18; ++cell) {
+        const auto found =
+            cells_.find(cell_key(c.x + cell % 3 - 1, c.y + cell / 3 % 3 - 1, c.z - (cell / 9 % 2)));
+        if (found == cells_.end()) continue;
+        for (const dvec3 q : found->second) {
+            const dvec3 d = q - p;
+            if (d.z <= 0 && d.x * d.x + d.y * d.y + d.z * d.z <= size_ * size_) return true;
         }
     }
     return false;
 }
 
 SupportPlacer::SupportPlacer(double spacing, FieldPtr blocked)
-    : spacing_(spacing), blocked_(std::move(blocked)), placed_(spacing), missing_(spacing) {}
+    : blocked_(std::move(blocked)), placed_(spacing), missing_(spacing) {}
 
 bool SupportPlacer::held(dvec3 p) const {
-    if (placed_.any_below(p, spacing_)) return true;
-    return blocked(p) && missing_.any_below(p, spacing_);
+    if (placed_.any_below(p)) return true;
+    return blocked(p) && missing_.any_below(p);
 }
 
 bool SupportPlacer::place(dvec3 p, SupportReason reason) {

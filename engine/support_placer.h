@@ -15,14 +15,10 @@ class PointCells {
   public:
     explicit PointCells(double size) : size_(size) {}
     void add(dvec3 p);
-    /// Whether a point lies within `distance` (at most the cells' size) of p and not above it.
-    bool any_below(dvec3 p, double distance) const;
-    /// Whether a point lies within `distance` (at most the cells' size) of p.
-    bool any_near(dvec3 p, double distance) const;
+    /// Whether a point lies within the cells' size of p and not above it.
+    bool any_below(dvec3 p) const;
 
   private:
-    bool any(dvec3 p, double distance, bool above) const;
-
     double size_;
     std::unordered_map<std::uint64_t, std::vector<dvec3>> cells_;
 };
@@ -39,14 +35,11 @@ class SupportPlacer {
     bool blocked(dvec3 p) const { return blocked_ && blocked_->value(p) < 0; }
     /// False where the place is blocked.
     bool place(dvec3 p, SupportReason reason);
-    /// Whether a point lies within half the spacing of p.
-    bool crowded(dvec3 p) const { return placed_.any_near(p, spacing_ / 2); }
 
     const std::vector<SupportPoint>& points() const { return points_; }
     std::size_t left_out() const { return left_out_; }
 
   private:
-    double spacing_;
     FieldPtr blocked_;
     PointCells placed_, missing_;
     std::vector<SupportPoint> points_;

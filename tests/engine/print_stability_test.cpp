@@ -35,8 +35,8 @@ PrintStability block(const StabilityLimits& limits, double volume, double center
 }
 
 /// A prism on a foot of 6 by 6 mm that leans by `slope` mm per mm in x, up to height h.
-FieldPtr leaning(double slope, double h) {
-    const FieldPtr upright = make_box({{-3, -3, -1}, {3, 3, h}});
+FieldPtr leaning(double slope, double h, double x = 0) {
+    const FieldPtr upright = make_box({{x - 3, -3, -1}, {x + 3, 3, h}});
     const glm::dmat3 shear(dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(slope, 0, 1));
     return make_intersection(
         {make_transform(upright, shear, dvec3(0)), make_box({{-10, -10, 0}, {100, 10, h}})});
@@ -169,6 +169,20 @@ TEST_CASE("a leaning prism is held on its falling side from the height where its
     REQUIRE(survey.points.front().at.z == Approx(critical).margin(0.8));
 }
 
+TEST_CASE("two prisms that lean on each other stand, if each stands until they meet") {
+    // They meet at a height of 10; each alone would stand up to 13 and 7.
+    constexpr double h = 20;
+    for (const double slope : {0.3, 0.57}) {
+        const double apart = 6 + 2 * slope * 10;
+        const FieldPtr pair = make_union({leaning(slope, h), leaning(-slope, h, apart)});
+        const OverhangSurvey survey = surveyed(pair, {{-10, -10, 0}, {30, 10, h}}, weight_alone());
+        INFO("slope " << slope);
+        REQUIRE_FALSE(survey.topples_at);
+        REQUIRE(survey.points.empty() == (slope < 0.5));
+        for (const SupportPoint& p : survey.points) REQUIRE(p.at.z < 10);
+    }
+}
+
 TEST_CASE("a mushroom on a thin stem is steadied under its cap") {
     const FieldPtr mushroom = make_union(
         {make_cylinder({0, 0, 0}, {0, 0, 12}, 1.5), make_round_cone({{0, 0, 14}, 3, {0, 0, 24}, 12})});
@@ -197,10 +211,18 @@ TEST_CASE("a mushroom on a thin stem is steadied under its cap") {
 }
 
 TEST_CASE("a thin tower without a face to hold says where it topples") {
-    const OverhangSurvey survey =
-        surveyed(make_box({{0, 0, 0}, {2, 2, 30}}), {{0, 0, 0}, {2, 2, 30}}, StabilityLimits{});
+    const FieldPtr tower = make_box({{0, 0, 0}, {4, 4, 30}});
+    const Box bounds{{0, 0, 0}, {4, 4, 30}};
+    StabilityLimits limits;
+    limits.density = 0;
+    const OverhangSurvey survey = surveyed(tower, bounds, limits);
     REQUIRE(survey.points.empty());
     REQUIRE(survey.topples_at);
-    // The foot sticks with 0.08 N at 1 mm, the weight adds nothing (its margin is all it has).
-    REQUIRE(*survey.topples_at == Approx(0.8).margin(0.25));
+    // The foot sticks with 0.32 N at 2 mm.
+    REQUIRE(*survey.topples_at == Approx(6.4).margin(0.4));
+    // What is no higher than a stub is not looked at.
+    limits.stub = 8;
+    REQUIRE(*surveyed(tower, bounds, limits).topples_at == Approx(8).margin(0.21));
+    limits.stub = 30.5;
+    REQUIRE_FALSE(surveyed(tower, bounds, limits).topples_at);
 }
