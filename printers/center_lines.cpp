@@ -244,7 +244,9 @@ bool ends_at_line(std::size_t index, const std::vector<CenterLine>& lines, doubl
         const std::vector<dvec2>& other = lines[j].points;
         const std::size_t n = j == index ? last + 1 : other.size();
         for (std::size_t i = 1; i < n; ++i) {
-            if (distance_to(end, other[i - 1], other[i]) < thickness) return true;
+            const auto [lo, hi] = std::minmax(other[i - 1].y, other[i].y);
+            const bool level = lo - thickness < end.y && end.y < hi + thickness;
+            if (level && distance_to(end, other[i - 1], other[i]) < thickness) return true;
         }
         if (lines[j].closed && distance_to(end, other.back(), other.front()) < thickness) return true;
     }
@@ -304,7 +306,7 @@ std::vector<CenterLine> center_lines(const Polygons& piece, double thickness, do
         center(line, ribbon);
     }
     std::erase_if(lines, [](const CenterLine& line) { return line.points.size() < 2; });
-    join(lines, 3 * half_ribbon);
+    join(lines, thickness / 2);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].closed) continue;
         for (int end = 0; end < 2; ++end) {

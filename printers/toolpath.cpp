@@ -142,6 +142,7 @@ class IslandPlanner {
         if (area_of(island) - area_of(reached) + perimeter_of(wall) * settings_.tolerance < least) return;
         for (const Polygons& arm : split_pieces(subtract_polygons(island, reached))) {
             if (area_of(arm) < least) continue;
+            if (lay_center_lines(arm, wall_thickness(arm), area_of(arm), Role::gap_fill)) continue;
             for (const double share : {0.75, 0.5}) {
                 if (lay_loops(arm, share * width_ / 2, area_of(arm), Role::gap_fill)) break;
             }
