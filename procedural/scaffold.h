@@ -13,18 +13,20 @@ namespace lamella {
 
 /// How a scaffold is shaped. Lengths in mm.
 struct ScaffoldShape {
-    double bed = 0;              ///< height of the bed
-    double layer_height = 0.2;   ///< flat faces lie between layers, counted from the bed
-    bool bridges = true;         ///< false: a pillar under every point
-    double bridge = 12;          ///< longest bar
-    double reach = 4;            ///< by which a connector may lean sideways
-    double connector = 2;        ///< least height of a connector
-    double clearance = 0.5;      ///< from the part, contacts apart
-    double gap = 0;              ///< between the tip of a connector and the part
-    double tip = 0.6;            ///< diameter of a connector where it meets the part
-    double pillar = 2.5;         ///< width of a pillar
-    bool round_pillars = false;  ///< round instead of a cross of two walls
-    double wall = 0.45;          ///< thickness of a cross's walls
+    double bed = 0;                ///< height of the bed
+    double layer_height = 0.2;     ///< flat faces lie between layers, counted from the bed
+    bool bridges = true;           ///< false: a pillar under every point
+    double bridge = 12;            ///< longest bar
+    double reach = 4;              ///< by which a connector may lean sideways
+    double lean = 1;               ///< sideways for each mm of height, at most, of leaning pieces
+    double connector = 2;          ///< least height of a connector
+    double longest_connector = 8;  ///< height of what stands on a bar
+    double clearance = 0.5;        ///< from the part, contacts apart
+    double gap = 0;                ///< between the tip of a connector and the part
+    double tip = 0.6;              ///< diameter of a connector where it meets the part
+    double pillar = 2.5;           ///< width of a pillar
+    bool round_pillars = false;    ///< round instead of a cross of two walls
+    double wall = 0.45;            ///< thickness of a cross's walls
     double bar_width = 0.9;
     double bar_height = 0.6;
     double foot = 7;  ///< diameter of a pillar's foot on the bed
@@ -43,6 +45,7 @@ struct ScaffoldPillar {
     dvec2 at{0};
     double bottom = 0;
     double top = 0;
+    double foot = 0;  ///< radius of its foot; 0 where it does not stand on the bed
     friend bool operator==(const ScaffoldPillar&, const ScaffoldPillar&) = default;
 };
 
