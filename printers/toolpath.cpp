@@ -52,9 +52,19 @@ class IslandPlanner {
             fill_thin(exact, !wall.empty());  // simplified, a sliver could leave its own outline
             return std::move(beads_);
         }
-        add_loops(wall, width_, Role::external_perimeter);
+        std::vector<Polygons> regions = split_pieces(inside);
+        // What is too narrow for a bead of its own comes with the wall.
+        double narrow = 0;
+        std::erase_if(regions, [&](const Polygons& region) {
+            if (wall_thickness(region) >= width_ * narrowest) return false;
+            narrow += area_of(region);
+            return true;
+        });
+        if (!(settings_.density > densest_lattice)) narrow = 0;
+        const double length = perimeter_of(wall);
+        add_loops(wall, width_for(length * spacing_ + narrow, length), Role::external_perimeter);
         fill_arms(island, wall);
-        for (const Polygons& region : split_pieces(inside)) fill_region(region);
+        for (const Polygons& region : regions) fill_region(region);
         return std::move(beads_);
     }
 
@@ -200,6 +210,7 @@ class IslandPlanner {
 
     static constexpr double densest_lattice = 0.999;  // from here on regions are filled solid
     static constexpr double most_extra_flow = 1.3;    // more would bulge over the layer
+    static constexpr double narrowest = 0.3;          // thinner threads, in widths, tear
     static constexpr double shortest_loop = 1;        // shorter islands, in thicknesses, get a chord
 
     ToolpathSettings settings_;
