@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/layer_stream.h"
+#include "engine/print_stability.h"
 #include "engine/support_point.h"
 
 namespace lamella {
@@ -17,15 +18,6 @@ struct OverhangLimits {
     double spacing = 3;  ///< a support point holds what lies within this distance, at its height or above
     double free_stretch = 1;  ///< of a path that may hang unheld
     double bridge = 10;       ///< a straight stretch up to this length, held at both ends, needs no support
-};
-
-/// When a print stands.
-struct StabilityLimits {
-    double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds, mm
-    double push = 0.1;       ///< sideways force at the height reached, N
-    double adhesion = 0.02;  ///< of what lies on the bed, and of support points, MPa
-    double contact = 0.3;    ///< area by which a support point sticks, mm^2
-    double density = 1.24;   ///< of the material, g/cm^3
 };
 
 struct OverhangSurveyOptions {
@@ -44,7 +36,8 @@ struct OverhangSurvey {
     double hanging_length = 0;         ///< of paths that nothing below holds, mm
     std::size_t own_bridges = 0;       ///< stretches left to hang between their ends
     std::size_t blocked = 0;           ///< points left out
-    std::optional<double> topples_at;  ///< height from which no further point helps, mm; empty: it stands
+    std::optional<double> topples_at;  ///< height over the bed from which no further point helps, mm; empty:
+                                       ///< it stands
 };
 
 /// Surveys all layers of a job's part. A pure function of part, layers and options, the same by any number of

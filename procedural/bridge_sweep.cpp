@@ -13,8 +13,18 @@ constexpr double pi = 3.14159265358979323846;
 
 }  // namespace
 
+BridgeWorth::BridgeWorth(const ScaffoldShape& shape) {
+    const double pillar = shape.round_pillars ? pi / 4 * shape.pillar * shape.pillar
+                                              : (2 * shape.pillar - shape.wall) * shape.wall;
+    const double middle = (shape.tip + shape.bar_width) / 2;
+    bar_ = shape.bar_width * shape.bar_height / pillar;
+    connector_ = pi / 4 * middle * middle / pillar;
+}
+
 BridgeSweep::BridgeSweep(const ScaffoldShape& shape)
-    : shape_(shape), reach_(std::sqrt(shape.bridge * shape.bridge + shape.reach * shape.reach)) {}
+    : shape_(shape),
+      worth_(shape),
+      reach_(std::sqrt(shape.bridge * shape.bridge + shape.reach * shape.reach)) {}
 
 dvec2 BridgeSweep::along(int direction) {
     const SineCosine angle = sine_cosine(pi * direction / directions);
@@ -124,8 +134,8 @@ std::optional<BridgeCandidate> BridgeSweep::best(
                 const double bottom = z - shape_.bar_height;
                 const double legs = 2 * bottom - elements_[crossed[i].element].landing -
                                     elements_[crossed[j].element].landing;
-                const double gain = saved[j + 1] - saved[i] - legs - width;
-                const double score = gain - static_cast<double>(j + 1 - i) * std::max(longest[i], longest[j]);
+                const double gain = worth_.gain(saved[j + 1] - saved[i], legs, width);
+                const double score = worth_.score(gain, j + 1 - i, std::max(longest[i], longest[j]));
                 if (gain <= 0 || (best && score <= best->score)) continue;
                 const std::array<std::int64_t, 3> key{static_cast<std::int64_t>(crossed[i].element),
                                                       static_cast<std::int64_t>(crossed[j].element), level};

@@ -30,6 +30,22 @@ struct BridgeCandidate {
     std::array<std::int64_t, 3> key{};  ///< tells apart the candidates of one anchor: first, last, height
 };
 
+/// What lengths are worth. The published gain of a bar is the length of the legs' parts below it that it
+/// saves, less its own two legs and its length; the score takes off the longest connector for each element.
+/// Here bars and connectors count by their sections against a pillar's, so that what is saved is material;
+/// with equal sections it is the published one.
+class BridgeWorth {
+  public:
+    explicit BridgeWorth(const ScaffoldShape& shape);
+    double gain(double saved, double legs, double bar) const { return saved - legs - bar_ * bar; }
+    double score(double gain, std::size_t held, double longest_connector) const {
+        return gain - connector_ * static_cast<double>(held) * longest_connector;
+    }
+
+  private:
+    double bar_, connector_;
+};
+
 /// Finds the best bar through an element for each direction of a half circle. A strip as wide as connectors
 /// reach runs along the direction, and the elements in it are what a sweep line there would cross.
 class BridgeSweep {
@@ -72,6 +88,7 @@ class BridgeSweep {
     void visit_near(dvec2 place, const Visit& visit) const;
 
     ScaffoldShape shape_;
+    BridgeWorth worth_;
     double reach_;  ///< mm within which elements can share a bar
     std::vector<ScaffoldElement> elements_;
     std::unordered_map<std::int64_t, std::vector<std::size_t>> grid_;

@@ -42,8 +42,10 @@ double FreeSpace::room(dvec3 p, double limit) const {
 
 double FreeSpace::probed_room(dvec3 p, double limit) const {
     if (part_.value(p) <= 0) return -on_surface;
-    double clear = 0;
-    for (double radius = limit / 16; radius <= limit; radius *= 2) {
+    constexpr int shells = 16;
+    constexpr double growth = 1.189207115002721;  // 2^(1/4), so the last shell is sixteen times the first
+    double clear = 0, radius = limit / 16;
+    for (int shell = 0; shell <= shells; ++shell, radius *= growth) {
         for (const dvec3& direction : directions_about()) {
             if (part_.value(p + direction * radius) <= 0) return clear;
         }

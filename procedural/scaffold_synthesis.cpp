@@ -42,6 +42,13 @@ struct Entry {
     }
 };
 
+/// Where on a bar's upper side the connector to something above it stands.
+dvec3 nearest_on(const ScaffoldBar& bar, dvec3 above) {
+    const dvec2 way = dvec2(bar.b) - dvec2(bar.a);
+    const double share = glm::dot(dvec2(above) - dvec2(bar.a), way) / glm::dot(way, way);
+    return bar.a + dvec3(way * std::min(std::max(share, 0.0), 1.0), 0);
+}
+
 void check_shape(const ScaffoldShape& shape) {
     const auto require = [](bool holds, const char* message) {
         if (!holds) throw InputError(std::string("scaffold: ") + message);
@@ -96,9 +103,12 @@ class Synthesis {
     void look_again_at(std::size_t anchor_number);
     std::optional<CheckedBar> check(const BridgeCandidate& candidate) const;
     bool reaches(std::size_t element, dvec3 bar_point) const;
-    dvec3 under(const BridgeCandidate& bar, std::size_t element) const;
+    dvec3 under(const BridgeCandidate& bar, std::size_t element) const {
+        return nearest_on({bar.a, bar.b}, sweep_.elements()[element].touch);
+    }
     void accept(const CheckedBar& checked);
     void append_near(dvec3 place, std::vector<std::size_t>& elements) const;
+    std::optional<Beam> lean_on(std::size_t element) const;
     void stand();
 
     FreeSpace space_;
@@ -150,14 +160,6 @@ void Synthesis::look_again(const std::vector<std::size_t>& elements) {
     }
 }
 
-/// Where on the bar's upper side the connector to an element stands.
-dvec3 Synthesis::under(const BridgeCandidate& bar, std::size_t element) const {
-    const dvec3 way = bar.b - bar.a;
-    const double length = std::sqrt(glm::dot(way, way));
-    const double along = glm::dot(sweep_.elements()[element].touch - bar.a, way / length);
-    return bar.a + way * (std::min(std::max(along, 0.0), length) / length);
-}
-
 bool Synthesis::reaches(std::size_t element, dvec3 bar_point) const {
     const double needed = scaffold_.shape.clearance + legs_.connector_radius();
     const ScaffoldElement& held = sweep_.elements()[element];
@@ -196,8 +198,9 @@ std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) con
         saved += bar.a.z - held.landing;
         longest = std::max(longest, glm::distance(held.touch, under(bar, element)));
     }
-    bar.gain = saved - checked.first.length - checked.last.length - length;
-    bar.score = bar.gain - static_cast<double>(bar.held.size()) * longest;
+    const BridgeWorth worth(shape);
+    bar.gain = worth.gain(saved, checked.first.length + checked.last.length, length);
+    bar.score = worth.score(bar.gain, bar.held.size(), longest);
     if (bar.gain <= 0) return {};
     return checked;
 }
@@ -258,19 +261,59 @@ void Synthesis::append_near(dvec3 place, std::vector<std::size_t>& elements) con
     elements.insert(elements.end(), found.begin(), found.end());
 }
 
-/// Everything still open stands on its leg, or where one of the bars lies in the leg's way, on that.
-void Synthesis::stand() {
-    for (std::size_t element = 0; element < sweep_.elements().size(); ++element) {
-        if (!sweep_.elements()[element].open) continue;
-        const std::optional<Leg>& leg = leg_of_[element];
-        if (!leg) {
-            scaffold_.unheld.push_back(element);
-            continue;
-        }
-        scaffold_.connectors.insert(scaffold_.connectors.end(), leg->connectors.begin(),
-                                    leg->connectors.end());
-        if (leg->pillar) scaffold_.pillars.push_back(*leg->pillar);
+/// A connector from an open element down to the bar or pillar that takes least; none where its own leg does.
+std::optional<Beam> Synthesis::lean_on(std::size_t element) const {
+    const ScaffoldShape& shape = scaffold_.shape;
+    const ScaffoldElement& open = sweep_.elements()[element];
+    const double radius = legs_.connector_radius();
+    const double least = open.is_end ? 2 * shape.layer_height : shape.connector;
+    double shortest = leg_of_[element] ? leg_of_[element]->length : infinity;
+    std::optional<Beam> best;
+    const auto offer = [&](dvec3 foot) {
+        const double length = glm::distance(foot, open.touch);
+        if (length >= shortest || !reaches(element, foot)) return;
+        shortest = length;
+        best = Beam{open.touch, open.is_end ? radius : shape.tip / 2, foot, radius};
+    };
+    for (const ScaffoldBar& bar : scaffold_.bars) {
+        const double rise = open.touch.z - bar.a.z;
+        if (rise < least || rise > shape.longest_connector) continue;
+        const dvec3 foot = nearest_on(bar, open.touch);
+        const double lateral = glm::distance(dvec2(foot), dvec2(open.touch));
+        if (lateral <= std::min(shape.reach, rise * shape.lean)) offer(foot);
     }
+    for (const ScaffoldPillar& pillar : scaffold_.pillars) {
+        const double lateral = glm::distance(pillar.at, dvec2(open.touch));
+        const double z = std::min(open.touch.z - std::max(least, lateral / shape.lean), pillar.top);
+        if (!open.is_end && lateral > shape.reach) continue;
+        if (open.touch.z - z > shape.longest_connector) continue;
+        if (z > pillar.bottom + shape.foot_height) offer({pillar.at, z});
+    }
+    return best;
+}
+
+/// Everything still open, the highest first, leans on what is there already or stands on a leg of its own.
+void Synthesis::stand() {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < sweep_.elements().size(); ++i) {
+        if (sweep_.elements()[i].open) open.push_back(i);
+    }
+    std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+        return sweep_.elements()[a].touch.z > sweep_.elements()[b].touch.z;
+    });
+    for (const std::size_t element : open) {
+        const auto connector = scaffold_.shape.bridges ? lean_on(element) : std::nullopt;
+        if (connector) {
+            scaffold_.connectors.push_back(*connector);
+        } else if (const std::optional<Leg>& leg = leg_of_[element]) {
+            scaffold_.connectors.insert(scaffold_.connectors.end(), leg->connectors.begin(),
+                                        leg->connectors.end());
+            if (leg->pillar) scaffold_.pillars.push_back(*leg->pillar);
+        } else {
+            scaffold_.unheld.push_back(element);
+        }
+    }
+    std::sort(scaffold_.unheld.begin(), scaffold_.unheld.end());
 }
 
 }  // namespace
