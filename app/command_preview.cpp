@@ -61,7 +61,9 @@ void run(PreviewCommand& options) {
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
-    save(render_preview(*built.designed.part, built.designed.bounds, options.picture), path);
+    const FieldPtr& supports = built.job.supports;
+    const Box bounds = supports ? unite(built.designed.bounds, supports->bounds()) : built.designed.bounds;
+    save(render_preview(built.designed.part, supports, bounds, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(

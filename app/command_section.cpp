@@ -43,11 +43,12 @@ std::string section(const SectionOptions& options, const std::string& format) {
                                      options.z, bounds.lo.z, bounds.hi.z));
     }
     SliceContext context;
-    const SliceField& slice = context.slice(*built.job.part, options.z);
-    if (format == "png") return section_png(slice, bounds.rect(), recipe.printer.image);
-    Scratch scratch;
-    const auto contours = trace_contours(slice, recipe.printer.vector.tolerance, scratch);
-    return format == "svg" ? section_svg(contours, bounds.rect()) : section_json(contours, options.z);
+    const FieldPtr& supports = built.job.supports;
+    const PlaneCut cut{context.slice(*built.job.part, options.z),
+                       supports ? &context.slice(*supports, options.z) : nullptr, options.z, bounds.rect()};
+    if (format == "png") return section_png(cut, recipe.printer);
+    const double tolerance = recipe.printer.vector.tolerance;
+    return format == "svg" ? section_svg(cut, tolerance) : section_json(cut, tolerance);
 }
 
 void run(const SectionOptions& options) {
@@ -64,7 +65,8 @@ void run(const SectionOptions& options) {
 
 void add_section_command(CLI::App& root) {
     auto options = std::make_shared<SectionOptions>();
-    CLI::App& command = *root.add_subcommand("section", "Cut the part at one height: contours or pixels");
+    CLI::App& command =
+        *root.add_subcommand("section", "Cut part and supports at one height: contours or pixels");
     options->recipe.add_to(command);
     command
         .add_option("--z", options->z,

@@ -100,6 +100,7 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                                        {"first_layer_seconds", display.first_layer_seconds()},
                                        {"peak_memory_bytes", peak_memory_bytes()},
                                        {"volume_mm3", report.volume}};
+        if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
         if (beams) {
@@ -114,9 +115,11 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
     }
     if (options.quiet) return;
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
+    const std::string supports =
+        built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
     std::fputs(
-        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material, {} MiB at most\n", options.output,
-                    report.layers_written, kept, seconds, report.volume, peak_memory_bytes() >> 20)
+        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", options.output,
+                    report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
             .c_str(),
         stderr);
     if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);

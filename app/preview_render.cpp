@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "app/voxel_grid.h"
+#include "engine/csg.h"
 
 namespace lamella {
 
@@ -19,6 +20,8 @@ constexpr double half_view =
 constexpr double margin = 0.86;   // share of the picture that the part may take
 constexpr dvec3 part_colour{0.42, 0.52, 0.60};
 constexpr dvec3 cut_colour{0.86, 0.30, 0.09};
+constexpr dvec3 support_colour{0.82, 0.63, 0.28};
+constexpr dvec3 support_cut_colour{0.95, 0.82, 0.45};
 constexpr dvec3 sky_top{0.80, 0.84, 0.88};
 constexpr dvec3 sky_bottom{0.93, 0.93, 0.92};
 constexpr dvec3 key_light{1.00, 0.95, 0.88};
@@ -112,13 +115,15 @@ struct Hit {
     dvec3 point;
     dvec3 normal;
     bool on_cut = false;
+    bool on_support = false;
 };
 
 class Scene {
   public:
-    Scene(const Field& part, const Box& bounds, const CutAway& cut, const Camera& camera,
+    /// `all` is part and supports together; part is null where there is nothing to tell apart.
+    Scene(const Field& all, const Field* part, const Box& bounds, const CutAway& cut, const Camera& camera,
           const VoxelGrid& grid)
-        : part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(grid) {
+        : all_(all), part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(grid) {
         const dvec3 side = camera.right * 0.35 - camera.forward * 0.6;
         key_ = glm::normalize(dvec3(side.x, side.y, 0) + dvec3(0, 0, 0.95));
         reach_ = grid_.size().x + grid_.size().y + grid_.size().z;
@@ -147,8 +152,8 @@ class Scene {
             from = cell->hi;
             at = std::max(at, cell->lo - h);
             if (const auto t = surface(direction, at, std::min(cell->hi + h, inside.hi))) {
-                const dvec3 p = camera_.eye + direction * *t;
-                return Hit{p, normal(p, direction)};
+                const dvec3 p = camera_.eye + direction * t->lo;
+                return Hit{p, normal(p, direction), false, of_support(camera_.eye + direction * t->hi)};
             }
         }
     }
@@ -158,20 +163,24 @@ class Scene {
         dvec3 p = camera_.eye + direction * t;
         if (std::abs(p[cut_.axis] - cut_.at) > 1e-6 * grid_.pitch() * 1024) return std::nullopt;
         p[cut_.axis] = cut_.at;
-        if (!(part_.value(p) < 0)) return std::nullopt;
-        Hit hit{p, dvec3(0), true};
+        if (!(all_.value(p) < 0)) return std::nullopt;
+        Hit hit{p, dvec3(0), true, of_support(p)};
         hit.normal[cut_.axis] = cut_.side;
         return hit;
     }
 
-    /// The first change from void to solid on a stretch of the ray; `at` moves to where void is certain.
-    std::optional<double> surface(dvec3 direction, double& at, double end) const {
+    /// Of a place within the solid.
+    bool of_support(dvec3 inside) const { return part_ != nullptr && !(part_->value(inside) < 0); }
+
+    /// Fences in the first change from void to solid on a stretch of the ray; `at` moves to where void is
+    /// certain.
+    std::optional<Interval> surface(dvec3 direction, double& at, double end) const {
         const double least = grid_.pitch() / 4;
-        const bool distances = part_.metric() != Metric::sign;
+        const bool distances = all_.metric() != Metric::sign;
         double before = at;
         double v_before = grid_.pitch();
         while (at <= end) {
-            const double v = part_.value(camera_.eye + direction * at);
+            const double v = all_.value(camera_.eye + direction * at);
             if (v < 0) return crossing(direction, before, v_before, at, v);
             before = at;
             v_before = v;
@@ -182,16 +191,17 @@ class Scene {
 
     /// The crossing between two points of the ray: where a straight line through the two values crosses, kept
     /// off the ends, so that each step at least fences it in.
-    double crossing(dvec3 direction, double outside, double v_outside, double inside, double v_inside) const {
+    Interval crossing(dvec3 direction, double outside, double v_outside, double inside,
+                      double v_inside) const {
         for (int i = 0; i < 3; ++i) {
             const double line = v_outside / (v_outside - v_inside);
             const double share = std::isfinite(line) ? std::clamp(line, 0.1, 0.9) : 0.5;
             const double t = outside + share * (inside - outside);
-            const double v = part_.value(camera_.eye + direction * t);
+            const double v = all_.value(camera_.eye + direction * t);
             (v < 0 ? inside : outside) = t;
             (v < 0 ? v_inside : v_outside) = v;
         }
-        return outside;
+        return {outside, inside};
     }
 
     /// Central differences over the corners of a tetrahedron: four values instead of six.
@@ -199,7 +209,7 @@ class Scene {
         const double e = 0.15 * grid_.pitch();
         const dvec3 corners[4]{{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}};
         dvec3 sum(0);
-        for (const dvec3& c : corners) sum += c * part_.value(p + c * e);
+        for (const dvec3& c : corners) sum += c * all_.value(p + c * e);
         const double length = glm::length(sum);
         return length > 0 && std::isfinite(length) ? sum / length : -direction;
     }
@@ -223,7 +233,9 @@ class Scene {
 
     dvec3 shade(const Hit& hit, dvec3 direction) const {
         const dvec3 n = glm::dot(hit.normal, direction) > 0 ? -hit.normal : hit.normal;
-        const dvec3 albedo = hit.on_cut ? cut_colour : part_colour;
+        const dvec3 albedo = hit.on_support ? (hit.on_cut ? support_cut_colour : support_colour)
+                             : hit.on_cut   ? cut_colour
+                                            : part_colour;
         const double open = openness(hit.point, n, reach_ * 0.15);
         const double facing = glm::dot(n, key_);
         const double sun = facing > 0 ? facing * lit(hit.point, n) : 0;
@@ -248,7 +260,8 @@ class Scene {
         return sky * ((1 - 0.38 * shadow) * (1 - 0.55 * contact));
     }
 
-    const Field& part_;
+    const Field& all_;
+    const Field* part_;
     Box bounds_;
     CutAway cut_;
     Camera camera_;
@@ -324,17 +337,19 @@ class Picture {
 
 }  // namespace
 
-Image render_preview(const Field& part, const Box& bounds, const PreviewOptions& options) {
+Image render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
+                     const PreviewOptions& options) {
     constexpr int most_cells = 512;
+    const FieldPtr all = supports ? make_union({part, supports}) : part;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     return arena.execute([&] {
         Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);
         const int cells = std::clamp(std::max(options.width, options.height) / 2, 64, most_cells);
-        const VoxelGrid grid(part, cut.kept, cells);
+        const VoxelGrid grid(*all, cut.kept, cells);
         camera = frame(cut.kept, options);
         zoom_to(camera, grid.solid_places(), options);
-        const Scene scene(part, bounds, cut, camera, grid);
+        const Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
         return Picture(scene, options.width, options.height).render();
     });
 }

@@ -25,9 +25,10 @@ struct Image {
     std::vector<std::uint8_t> rgb;
 };
 
-/// Perspective view of the part within `bounds` (finite, not empty) on a light ground. Kept of the part is
-/// one bit for each cell of a grid of the picture's resolution, made from slices; surfaces and normals come
-/// from the field itself.
-Image render_preview(const Field& part, const Box& bounds, const PreviewOptions& options);
+/// Perspective view of the part and, in a colour of their own, its supports (null for none) within `bounds`
+/// (finite, not empty) on a light ground. Kept of them is one bit for each cell of a grid of the picture's
+/// resolution, made from slices; surfaces and normals come from the fields themselves.
+Image render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
+                     const PreviewOptions& options);
 
 }  // namespace lamella

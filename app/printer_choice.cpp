@@ -37,6 +37,7 @@ PrinterProfile profile_named(const std::string& name) {
     PrinterProfile profile;
     profile.name = name;
     profile.backend = name;
+    profile.support = usual_supports(name);
     return profile;
 }
 

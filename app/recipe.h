@@ -184,6 +184,13 @@ struct ProcessRecipe {
     std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
 };
 
+/// What holds the part up while it is printed; its numbers are the printer's.
+enum class SupportKind : unsigned char {
+    none,
+    bridges,  ///< bars on pillars
+    pillars   ///< a pillar under every point
+};
+
 /// A hole drilled through the skin.
 struct HoleRecipe {
     std::string where;     ///< where the entry begins, for messages
@@ -212,6 +219,7 @@ struct Recipe {
     std::optional<SkinRecipe> skin;
     std::optional<ProcessRecipe> process;
     std::vector<HoleRecipe> holes;
+    SupportKind support = SupportKind::none;
     double layer_height = 0.05;  ///< mm
     OutputRecipe output;
     PrinterProfile printer;

@@ -237,6 +237,12 @@ Recipe RecipeDraft::assemble() const {
             setting.store(recipe, place.entry, *given.value);
         }
     }
+    if (count(*find_section("support")) > 0) {
+        // Numbers alone ask for supports, but the kind may say that there are none all the same.
+        const Entry* kind = entry("support", "kind");
+        recipe.support = SupportKind::bridges;
+        if (kind && kind->value) find_setting("support", "kind")->store(recipe, 0, *kind->value);
+    }
     for (std::size_t i = 0; i < recipe.fields.size(); ++i) recipe.fields[i].where = where_begins("field", i);
     for (std::size_t i = 0; i < recipe.gradings.size(); ++i) {
         recipe.gradings[i].where = where_begins("grading", i);

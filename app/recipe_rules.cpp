@@ -99,6 +99,27 @@ void RecipeDraft::check_output(const OutputRecipe& output) {
     }
 }
 
+/// Rules between the sizes of a scaffold, whether a recipe gives them or the printer's profile.
+void RecipeDraft::check_support(const PrinterProfile& printer) {
+    const SupportProfile& s = printer.support;
+    const auto at_most = [&](const char* key, double size, const char* other, double most, const char* why) {
+        if (size <= most) return;
+        refuse(0, fmt::format("{}: {} mm {} support.{}, {} mm; accepted: at most that", where("support", key),
+                              size, why, other, most));
+    };
+    at_most("tip", s.tip, "pillar", s.pillar, "is wider than");
+    at_most("pillar", s.pillar, "foot", s.foot, "is wider than");
+    at_most("gap", s.gap, "connector", s.connector, "leaves nothing of");
+    at_most("bar_width", s.bar_width, "bridge", s.bridge, "is more than");
+    const double wall = s.wall > 0 ? s.wall : printer.filament.line_width;
+    if (!s.round_pillars && wall >= s.pillar) {
+        refuse(0,
+               fmt::format("{}: {} mm{} leaves no cross of support.pillar, {} mm; accepted: less than "
+                           "that, or support.round_pillars = true",
+                           where("support", "wall"), wall, s.wall > 0 ? "" : " (a line's width)", s.pillar));
+    }
+}
+
 /// A skin with windows or holes lies inside.
 void RecipeDraft::check_cut_skin(const Recipe& recipe) {
     const SkinRecipe& skin = *recipe.skin;
@@ -145,6 +166,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (recipe.foam) check_foam(*recipe.foam);
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
+    if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
         check_drains(recipe);

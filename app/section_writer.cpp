@@ -60,43 +60,69 @@ std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page
     return grey;
 }
 
+std::vector<Contour> traced(const SliceField& slice, double tolerance) {
+    Scratch scratch;
+    return trace_contours(slice, tolerance, scratch);
+}
+
 }  // namespace
 
-std::string section_svg(const std::vector<Contour>& contours, const Rect& page) {
-    const dvec2 size = page.size();
+std::string section_svg(const PlaneCut& cut, double tolerance) {
+    const dvec2 size = cut.page.size();
     std::string text = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} "
-        "{1}\">\n"
-        "<path fill=\"black\" fill-rule=\"evenodd\" d=\"",
+        "{1}\">\n",
         size.x, size.y);
-    for (const Contour& contour : contours) {
-        char command = 'M';
-        for (const dvec2& p : contour.points) {
-            fmt::format_to(std::back_inserter(text), "{}{:.5f} {:.5f}", command, p.x - page.lo.x,
-                           page.hi.y - p.y);
-            command = 'L';
+    const auto add = [&](const SliceField& slice, const char* attributes) {
+        text += fmt::format("<path {} fill-rule=\"evenodd\" d=\"", attributes);
+        for (const Contour& contour : traced(slice, tolerance)) {
+            char command = 'M';
+            for (const dvec2& p : contour.points) {
+                fmt::format_to(std::back_inserter(text), "{}{:.5f} {:.5f}", command, p.x - cut.page.lo.x,
+                               cut.page.hi.y - p.y);
+                command = 'L';
+            }
+            text += "Z\n";
         }
-        text += "Z\n";
-    }
-    return text + "\"/>\n</svg>\n";
+        text += "\"/>\n";
+    };
+    add(cut.part, "fill=\"black\"");
+    if (cut.supports) add(*cut.supports, "class=\"support\" fill=\"#0080ff\"");
+    return text + "</svg>\n";
 }
 
-std::string section_json(const std::vector<Contour>& contours, double z) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    double area = 0;
-    for (const Contour& contour : contours) {
-        area += signed_area(contour.points);
-        nlohmann::ordered_json points = nlohmann::ordered_json::array();
-        for (const dvec2& p : contour.points) points.push_back({p.x, p.y});
-        list.push_back({{"hole", contour.hole}, {"parent", contour.parent}, {"points", std::move(points)}});
-    }
-    const nlohmann::ordered_json section{{"z", z}, {"area_mm2", area}, {"contours", std::move(list)}};
-    return section.dump() + "\n";
+std::string section_json(const PlaneCut& cut, double tolerance) {
+    nlohmann::ordered_json json{{"z", cut.z}};
+    const auto add = [&](const SliceField& slice, const std::string& prefix) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        double area = 0;
+        for (const Contour& contour : traced(slice, tolerance)) {
+            area += signed_area(contour.points);
+            nlohmann::ordered_json points = nlohmann::ordered_json::array();
+            for (const dvec2& p : contour.points) points.push_back({p.x, p.y});
+            list.push_back(
+                {{"hole", contour.hole}, {"parent", contour.parent}, {"points", std::move(points)}});
+        }
+        json[prefix + "area_mm2"] = area;
+        json[prefix + "contours"] = std::move(list);
+    };
+    add(cut.part, "");
+    if (cut.supports) add(*cut.supports, "support_");
+    return json.dump() + "\n";
 }
 
-std::string section_png(const SliceField& slice, const Rect& page, const ImageProfile& image) {
-    const RowBand band = page_band(page, image);
-    const std::vector<std::uint8_t> grey = grey_page(slice, band, image.antialiasing != Antialiasing::off);
+std::string section_png(const PlaneCut& cut, const PrinterProfile& printer) {
+    const ImageProfile& image = printer.image;
+    const bool antialiased = image.antialiasing != Antialiasing::off;
+    const RowBand band = page_band(cut.page, image);
+    std::vector<std::uint8_t> grey = grey_page(cut.part, band, antialiased);
+    if (cut.supports) {
+        const std::vector<std::uint8_t> supports = grey_page(*cut.supports, band, antialiased);
+        for (std::size_t i = 0; i < grey.size(); ++i) {
+            const auto dimmed = static_cast<std::uint8_t>(std::lround(supports[i] * printer.support.grey));
+            grey[i] = std::max(grey[i], dimmed);
+        }
+    }
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto writer = OIIO::ImageOutput::create("section.png", &memory);

@@ -1,4 +1,4 @@
-// One section of a part as SVG, PNG or JSON, in memory.
+// One section of a part and its supports as SVG, PNG or JSON, in memory.
 #pragma once
 
 #include <string>
@@ -10,14 +10,24 @@
 
 namespace lamella {
 
-/// The contours as one filled path, y up, lengths in mm; the page is `page`.
-std::string section_svg(const std::vector<Contour>& contours, const Rect& page);
+/// What a plane cuts.
+struct PlaneCut {
+    const SliceField& part;
+    const SliceField* supports = nullptr;  ///< null for none
+    double z = 0;                          ///< mm
+    Rect page;                             ///< mm
+};
 
-/// {"z", "area_mm2", "contours": [{"hole", "parent", "points": [[x, y], ...]}]}, mm.
-std::string section_json(const std::vector<Contour>& contours, double z);
+/// The contours as one filled path, those of supports as another in blue, y up, lengths in mm. Contours lie
+/// within `tolerance` mm of the surface.
+std::string section_svg(const PlaneCut& cut, double tolerance);
 
-/// Grey coverage at the profile's pixel size and antialiasing, first row at the largest y. Throws InputError
-/// when the page has more than 2^28 pixels.
-std::string section_png(const SliceField& slice, const Rect& page, const ImageProfile& image);
+/// {"z", "area_mm2", "contours": [{"hole", "parent", "points": [[x, y], ...]}]}, mm; with supports also
+/// "support_area_mm2" and "support_contours".
+std::string section_json(const PlaneCut& cut, double tolerance);
+
+/// Grey coverage at the profile's pixel size and antialiasing, first row at the largest y; supports in their
+/// grey. Throws InputError when the page has more than 2^28 pixels.
+std::string section_png(const PlaneCut& cut, const PrinterProfile& printer);
 
 }  // namespace lamella

@@ -15,6 +15,7 @@ const std::vector<std::string>& words(Shape);
 const std::vector<std::string>& words(LengthUnit);
 const std::vector<std::string>& words(Falloff);
 const std::vector<std::string>& words(SkinSide);
+const std::vector<std::string>& words(SupportKind);
 const std::vector<std::string>& words(RegionMake);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
@@ -28,6 +29,8 @@ void add_frame_settings(std::vector<Setting>& table);
 
 /// The rows of the [process] section.
 void add_process_settings(std::vector<Setting>& table);
+/// The rows of the [support] section.
+void add_support_settings(std::vector<Setting>& table);
 /// The rows of the [skin] and [[hole]] sections.
 void add_skin_settings(std::vector<Setting>& table);
 

@@ -11,7 +11,8 @@ namespace lamella {
 /// What a back-end made of one layer, ready to be written. Back-ends derive their own payload.
 struct LayerProduct {
     virtual ~LayerProduct() = default;
-    double area = 0;  ///< solid area of the layer, mm^2
+    double area = 0;          ///< solid area of the layer's part, mm^2
+    double support_area = 0;  ///< of its supports, mm^2
 };
 
 /// The range of layers a run makes: [first, last).

@@ -86,9 +86,11 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
         backend.write(*slot.layer, *slot.product);
         ++report.layers_written;
         report.volume += slot.product->area * slot.layer->thickness();
+        report.support_volume += slot.product->support_area * slot.layer->thickness();
         progress.done = report.layers_written;
         progress.layer = index;
         progress.volume = report.volume;
+        progress.support_volume = report.support_volume;
         if (options.on_progress) options.on_progress(progress);
         slot.product.reset();
         slot.layer.reset();

@@ -20,10 +20,11 @@ class CancelToken {
 
 /// How far a stream has come. Called from the writing thread, after each layer.
 struct Progress {
-    int done = 0;       ///< layers written in this run
-    int total = 0;      ///< layers this run has to write
-    int layer = 0;      ///< index of the layer just written
-    double volume = 0;  ///< material so far, mm^3
+    int done = 0;               ///< layers written in this run
+    int total = 0;              ///< layers this run has to write
+    int layer = 0;              ///< index of the layer just written
+    double volume = 0;          ///< material of the part so far, mm^3
+    double support_volume = 0;  ///< of its supports, mm^3
 };
 
 struct StreamOptions {
@@ -37,8 +38,9 @@ struct StreamOptions {
 
 struct StreamReport {
     int layers_written = 0;
-    int layers_kept = 0;  ///< found finished when resuming
-    double volume = 0;    ///< material of the layers written, mm^3
+    int layers_kept = 0;        ///< found finished when resuming
+    double volume = 0;          ///< material of the part in the layers written, mm^3
+    double support_volume = 0;  ///< of its supports, mm^3
 };
 
 /// Streams the layers of a job to a back-end. Memory is bounded by the look-ahead, not by the number of

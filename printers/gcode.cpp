@@ -25,6 +25,7 @@ struct GcodeProduct : LayerProduct {
     dvec2 first{0};    ///< on the bed, mm
     dvec2 last{0};
     GcodeUse use;
+    double support_filament = 0;  ///< of `use`, mm
     int islands_left_out = 0;
 };
 
@@ -38,6 +39,8 @@ const char* role_name(Role role) {
             return "Solid infill";
         case Role::gap_fill:
             return "Gap fill";
+        case Role::support:
+            return "Support material";
     }
     return "Custom";
 }
@@ -60,10 +63,11 @@ std::string duration(double seconds) {
 /// Writes the beads of a layer, each change of role or width announced.
 class BeadWriter {
   public:
-    BeadWriter(const FilamentProfile& profile, double height, bool first_layer, dvec2 shift)
-        : text_(profile),
+    BeadWriter(const PrinterProfile& profile, double height, bool first_layer, dvec2 shift)
+        : text_(profile.filament),
           height_(height),
-          speed_(first_layer ? profile.first_layer_speed : profile.print_speed),
+          speed_(first_layer ? profile.filament.first_layer_speed : profile.filament.print_speed),
+          support_speed_(first_layer ? profile.filament.first_layer_speed : profile.support.speed),
           shift_(shift) {}
 
     void bead(const Bead& bead) {
@@ -78,17 +82,18 @@ class BeadWriter {
         island_ = bead.island;
         announce(bead);
         const double area = bead_area(bead.width, height_);
-        for (std::size_t i = 1; i < bead.points.size(); ++i) to(bead.points[i], area);
-        if (bead.closed) to(bead.points.front(), area);
+        const double speed = bead.role == Role::support ? support_speed_ : speed_;
+        for (std::size_t i = 1; i < bead.points.size(); ++i) to(bead.points[i], area, speed);
+        if (bead.closed) to(bead.points.front(), area, speed);
     }
     const GcodeText& text() const { return text_; }
 
   private:
-    void to(dvec2 point, double area) {
+    void to(dvec2 point, double area, double speed) {
         point += shift_;
         const dvec2 way = point - text_.position();
         constexpr double shortest = 0.002;  // mm; shorter ones would vanish in the rounding of the words
-        if (way.x * way.x + way.y * way.y >= shortest * shortest) text_.extrude(point, area, speed_);
+        if (way.x * way.x + way.y * way.y >= shortest * shortest) text_.extrude(point, area, speed);
     }
     void announce(const Bead& bead) {
         if (!announced_ || bead.role != role_) text_.line(std::string(";TYPE:") + role_name(bead.role));
@@ -102,6 +107,7 @@ class BeadWriter {
     GcodeText text_;
     double height_;
     double speed_;
+    double support_speed_;
     dvec2 shift_;
     int island_ = -1;
     bool announced_ = false;
@@ -119,6 +125,8 @@ class Gcode : public Backend {
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_filament_profile(filament_, job.layer_height);
+        supported_ = job.supports != nullptr;
+        if (supported_) check_support_speed(profile_.support);
         check_fit(job);
         height_ = job.layer_height;
         layer_count_ = job.layer_count;
@@ -138,16 +146,23 @@ class Gcode : public Backend {
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<GcodeProduct>();
         const std::vector<Contour> contours = layer.contours(filament_.tolerance);
+        const std::vector<Contour> supports = layer.support_contours(filament_.tolerance);
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
-        const Toolpaths paths = plan_toolpaths(
-            contours, {filament_.line_width, height_, filament_.infill_density, filament_.tolerance},
-            layer.index());
-        product->islands_left_out = paths.islands_left_out;
-        if (paths.beads.empty()) return product;
-        BeadWriter writer(filament_, height_, layer.index() == 0, shift_);
+        for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
+        // Supports first: the part comes to rest on them. They are filled whatever the part is.
+        Toolpaths under = plan(layer, supports, 1);
+        Toolpaths paths = plan(layer, contours, filament_.infill_density);
+        for (Bead& bead : under.beads) bead.role = Role::support;
+        for (Bead& bead : paths.beads) bead.island += under.islands;
+        product->islands_left_out = under.islands_left_out + paths.islands_left_out;
+        if (under.beads.empty() && paths.beads.empty()) return product;
+        BeadWriter writer(profile_, height_, layer.index() == 0, shift_);
+        for (const Bead& bead : under.beads) writer.bead(bead);
+        product->support_filament = writer.text().use().filament;
         for (const Bead& bead : paths.beads) writer.bead(bead);
+        const Bead& first = under.beads.empty() ? paths.beads.front() : under.beads.front();
         product->text = writer.text().text();
-        product->first = paths.beads.front().points.front() + shift_;
+        product->first = first.points.front() + shift_;
         product->last = writer.text().position();
         product->use = writer.text().use();
         return product;
@@ -172,6 +187,7 @@ class Gcode : public Backend {
         add(text.use());
         add(product.use);
         if (moves) position_ = product.last;
+        support_filament_ += product.support_filament;
         islands_left_out_ += product.islands_left_out;
         output_.commit(text.text() + product.text, layer.index() + 1, state());
     }
@@ -186,9 +202,14 @@ class Gcode : public Backend {
         text.travel({0, filament_.bed_y}, false);
         for (const char* off : {"M104 S0", "M140 S0", "M107", "M84", "M73 P100"}) text.line(off);
         constexpr double pi = 3.14159265358979323846;
-        const double volume = use_.filament * pi / 4 * filament_.filament * filament_.filament;
+        const double section = pi / 4 * filament_.filament * filament_.filament;
         text.line("; filament used [mm] = " + format_number(use_.filament, 2));
-        text.line("; filament used [cm3] = " + format_number(volume / 1000, 3));
+        text.line("; filament used [cm3] = " + format_number(use_.filament * section / 1000, 3));
+        if (supported_) {
+            text.line("; support material used [mm] = " + format_number(support_filament_, 2));
+            text.line("; support material used [cm3] = " +
+                      format_number(support_filament_ * section / 1000, 3));
+        }
         text.line("; estimated printing time (normal mode) = " + duration(use_.seconds));
         text.line(fmt::format("; total layers count = {}", range_.count()));
         text.line("; layer_height = " + format_number(height_, 4));
@@ -197,6 +218,11 @@ class Gcode : public Backend {
     }
 
   private:
+    Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density) const {
+        return plan_toolpaths(contours, {filament_.line_width, height_, density, filament_.tolerance},
+                              layer.index());
+    }
+
     void check_fit(const Job& job) const {
         const dvec3 size = job.bounds.size();
         const double room_x = filament_.bed_x - 2 * prime_strip;
@@ -207,19 +233,21 @@ class Gcode : public Backend {
             top <= filament_.bed_z * (1 + slack)) {
             return;
         }
-        throw InputError(fmt::format(
-            "the part is {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
-            "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
-            "larger printer",
-            size.x, size.y, top, room_x, room_y, filament_.bed_z, prime_strip));
+        throw InputError(
+            fmt::format("{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
+                        "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
+                        "larger printer",
+                        supported_ ? "the part with its supports is" : "the part is", size.x, size.y, top,
+                        room_x, room_y, filament_.bed_z, prime_strip));
     }
 
     std::string settings() const {
         const FilamentProfile& f = filament_;
-        return fmt::format("marlin {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", f.bed_x, f.bed_y, f.bed_z,
+        const std::string supports = supported_ ? fmt::format(" supports {}", profile_.support.speed) : "";
+        return fmt::format("marlin {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}", f.bed_x, f.bed_y, f.bed_z,
                            f.nozzle, f.filament, f.line_width, f.infill_density, f.nozzle_temperature,
                            f.bed_temperature, f.print_speed, f.first_layer_speed, f.travel_speed,
-                           f.retraction, f.retraction_speed, f.tolerance);
+                           f.retraction, f.retraction_speed, f.tolerance, supports);
     }
 
     /// Comments, heating, homing and a line that fills the nozzle.
@@ -257,7 +285,7 @@ class Gcode : public Backend {
     }
 
     nlohmann::ordered_json state() const {
-        return {position_.x, position_.y, use_.filament, use_.seconds, islands_left_out_};
+        return {position_.x, position_.y, use_.filament, use_.seconds, islands_left_out_, support_filament_};
     }
     void restore() {
         try {
@@ -265,6 +293,7 @@ class Gcode : public Backend {
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
             use_ = {state.at(2).get<double>(), state.at(3).get<double>()};
             islands_left_out_ = state.at(4).get<std::int64_t>();
+            support_filament_ = state.at(5).get<double>();
         } catch (const nlohmann::json::exception&) {
             throw InputError("the journal of the unfinished G-code is damaged; discard it with --force");
         }
@@ -279,7 +308,9 @@ class Gcode : public Backend {
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};
     GcodeUse use_;
+    double support_filament_ = 0;  // of use_, mm
     std::int64_t islands_left_out_ = 0;
+    bool supported_ = false;
 };
 
 }  // namespace

@@ -18,6 +18,15 @@ double distance(dvec2 a, dvec2 b) {
     return std::sqrt(d.x * d.x + d.y * d.y);
 }
 
+constexpr double slowest = 0.1;  // mm/s
+constexpr double fastest = 2000;
+
+void check(const char* key, double value, double lo, double hi) {
+    if (!(value >= lo && value <= hi)) {
+        throw InputError(fmt::format("{} = {}: must be {} to {}", key, value, lo, hi));
+    }
+}
+
 }  // namespace
 
 void GcodeText::word(char letter, double value, int decimals) {
@@ -76,11 +85,6 @@ void GcodeText::extrude(dvec2 to, double area, double mm_per_second) {
 }
 
 void check_filament_profile(const FilamentProfile& profile, double height) {
-    const auto check = [](const char* key, double value, double lo, double hi) {
-        if (!(value >= lo && value <= hi)) {
-            throw InputError(fmt::format("{} = {}: must be {} to {}", key, value, lo, hi));
-        }
-    };
     check("bed_x", profile.bed_x, 30, 10000);
     check("bed_y", profile.bed_y, 30, 10000);
     check("bed_z", profile.bed_z, 1, 10000);
@@ -90,9 +94,9 @@ void check_filament_profile(const FilamentProfile& profile, double height) {
     check("infill_density", profile.infill_density, 0, 1);
     check("nozzle_temperature", profile.nozzle_temperature, 0, 500);
     check("bed_temperature", profile.bed_temperature, 0, 250);
-    check("print_speed", profile.print_speed, 0.1, 2000);
-    check("first_layer_speed", profile.first_layer_speed, 0.1, 2000);
-    check("travel_speed", profile.travel_speed, 0.1, 2000);
+    check("print_speed", profile.print_speed, slowest, fastest);
+    check("first_layer_speed", profile.first_layer_speed, slowest, fastest);
+    check("travel_speed", profile.travel_speed, slowest, fastest);
     check("retraction", profile.retraction, 0, 20);
     check("retraction_speed", profile.retraction_speed, 0.1, 500);
     check("tolerance", profile.tolerance, 0.0001, 1);
@@ -105,6 +109,10 @@ void check_filament_profile(const FilamentProfile& profile, double height) {
                         "wide as high; choose thinner layers or a larger line_width",
                         height, profile.line_width));
     }
+}
+
+void check_support_speed(const SupportProfile& profile) {
+    check("speed of supports", profile.speed, slowest, fastest);
 }
 
 }  // namespace lamella

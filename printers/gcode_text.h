@@ -48,5 +48,7 @@ class GcodeText {
 /// Throws InputError for the first value of a profile that no printer could work with; height is that of a
 /// layer, mm.
 void check_filament_profile(const FilamentProfile& profile, double height);
+/// The same for the speed of printing supports.
+void check_support_speed(const SupportProfile& profile);
 
 }  // namespace lamella

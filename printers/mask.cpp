@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "engine/error.h"
 #include "printers/png_writer.h"
@@ -56,6 +59,87 @@ RowSpan rows_meeting(const RowBand& grid, double lo, double hi, int height) {
     return {clamped(std::floor(std::min(a, b)) - 1), clamped(std::ceil(std::max(a, b)) + 1)};
 }
 
+/// The grey runs of one slice, rows at a time from the top.
+class SliceMask {
+  public:
+    SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile)
+        : slice_(slice), layout_(layout), antialiasing_(profile.antialiasing) {
+        if (antialiasing_ == Antialiasing::rows) sub_ = profile.sub_rows;
+        const Rect solid = slice.bounds();
+        if (solid.empty()) return;
+        const RowBand grid = layout.rows(0, 0, 1);
+        rows_ = grid.axis == Axis::x ? rows_meeting(grid, solid.lo.y, solid.hi.y, layout.height())
+                                     : rows_meeting(grid, solid.lo.x, solid.hi.x, layout.height());
+    }
+
+    bool meets(int row, int count) const { return row < rows_.last && row + count > rows_.first; }
+
+    /// Appends the runs of rows [row, row + count).
+    void add_rows(int row, int count, std::vector<GreyRun>& runs) {
+        if (!meets(row, count)) {
+            runs.insert(runs.end(), static_cast<std::size_t>(count),
+                        {static_cast<std::uint32_t>(layout_.width()), 0});
+        } else if (antialiasing_ == Antialiasing::exact) {
+            const std::size_t first = runs.size();
+            coverage_exact(slice_, layout_.rows(row, count, 1), scratch_, runs);
+            for (std::size_t i = first; i < runs.size(); ++i)
+                pixels_ += runs[i].length * (runs[i].value / 255.0);
+        } else {
+            const RowBand band = layout_.rows(row, count, sub_);
+            spans_.clear();
+            slice_.spans(band, scratch_, spans_);
+            if (antialiasing_ == Antialiasing::off) {
+                threshold(band, spans_, runs);
+            } else {
+                coverage(band, spans_, runs);
+            }
+            pixels_ += static_cast<double>(spans_.total_length()) / (run_unit * sub_);
+        }
+    }
+
+    double pixels() const { return pixels_; }  ///< covered so far
+
+  private:
+    const SliceField& slice_;
+    const MaskLayout& layout_;
+    Antialiasing antialiasing_;
+    int sub_ = 1;
+    RowSpan rows_{0, 0};
+    Scratch scratch_;
+    SpanRows spans_;
+    double pixels_ = 0;
+};
+
+/// Grey values times a share of 0 to 1.
+std::array<std::uint8_t, 256> dimming(double share) {
+    std::array<std::uint8_t, 256> dimmed{};
+    for (std::size_t value = 0; value < dimmed.size(); ++value)
+        dimmed[value] = static_cast<std::uint8_t>(std::floor(static_cast<double>(value) * share + 0.5));
+    return dimmed;
+}
+
+/// Appends, pixel by pixel, the brighter of two images of the same rows.
+void brighter(const std::vector<GreyRun>& a, const std::vector<GreyRun>& b, int width,
+              std::vector<GreyRun>& out) {
+    std::uint32_t left_a = 0;
+    std::uint32_t left_b = 0;
+    std::uint32_t column = 0;
+    for (std::size_t i = 0, j = 0; i < a.size();) {
+        if (left_a == 0) left_a = a[i].length;
+        if (left_b == 0) left_b = b[j].length;
+        const std::uint32_t length = std::min(left_a, left_b);
+        const std::uint8_t value = std::max(a[i].value, b[j].value);
+        if (column > 0 && out.back().value == value) {
+            out.back().length += length;
+        } else {
+            out.push_back({length, value});
+        }
+        column = column + length == static_cast<std::uint32_t>(width) ? 0 : column + length;
+        if ((left_a -= length) == 0) ++i;
+        if ((left_b -= length) == 0) ++j;
+    }
+}
+
 }  // namespace
 
 MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
@@ -105,43 +189,31 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
     return band;
 }
 
-double mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
-                  const BandSink& sink) {
-    const bool exact = profile.antialiasing == Antialiasing::exact;
-    const int sub = profile.antialiasing == Antialiasing::rows ? profile.sub_rows : 1;
-    const Rect solid = layer.part().bounds();
-    const RowBand grid = layout.rows(0, 0, 1);
-    RowSpan meets{0, 0};
-    if (!solid.empty()) {
-        meets = grid.axis == Axis::x ? rows_meeting(grid, solid.lo.y, solid.hi.y, layout.height())
-                                     : rows_meeting(grid, solid.lo.x, solid.hi.x, layout.height());
-    }
-    SpanRows spans;
-    Scratch scratch;
+MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
+                    double support_grey, const BandSink& sink) {
+    SliceMask part(layer.part(), layout, profile);
+    std::optional<SliceMask> supports;
+    if (layer.supports() != nullptr) supports.emplace(*layer.supports(), layout, profile);
+    const std::array<std::uint8_t, 256> dimmed = dimming(support_grey);
     std::vector<GreyRun> runs;
-    double pixels = 0;
+    std::vector<GreyRun> below;
+    std::vector<GreyRun> merged;
     for (int row = 0; row < layout.height(); row += png_band_rows) {
         const int count = std::min(png_band_rows, layout.height() - row);
         runs.clear();
-        if (row >= meets.last || row + count <= meets.first) {
-            runs.assign(static_cast<std::size_t>(count), {static_cast<std::uint32_t>(layout.width()), 0});
-        } else if (exact) {
-            coverage_exact(layer.part(), layout.rows(row, count, 1), scratch, runs);
-            for (const GreyRun& run : runs) pixels += run.length * (run.value / 255.0);
-        } else {
-            const RowBand band = layout.rows(row, count, sub);
-            spans.clear();
-            layer.spans(band, spans);
-            if (profile.antialiasing == Antialiasing::off) {
-                threshold(band, spans, runs);
-            } else {
-                coverage(band, spans, runs);
-            }
-            pixels += static_cast<double>(spans.total_length()) / (run_unit * sub);
+        part.add_rows(row, count, runs);
+        if (supports && supports->meets(row, count)) {
+            below.clear();
+            supports->add_rows(row, count, below);
+            for (GreyRun& run : below) run.value = dimmed[run.value];
+            merged.clear();
+            brighter(runs, below, layout.width(), merged);
+            std::swap(runs, merged);
         }
         sink(runs, count);
     }
-    return pixels * layout.column_pitch() * layout.row_pitch();
+    const double pixel = layout.column_pitch() * layout.row_pitch();
+    return {part.pixels() * pixel, supports ? supports->pixels() * pixel : 0};
 }
 
 }  // namespace lamella

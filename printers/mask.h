@@ -40,9 +40,16 @@ class MaskLayout {
 /// Takes the runs of the next `rows` rows of an image.
 using BandSink = std::function<void(std::span<const GreyRun> runs, int rows)>;
 
-/// Hands the layer's mask to `sink` band by band, top to bottom, and returns the layer's solid area, mm^2.
-/// Memory: one band.
-double mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
-                  const BandSink& sink);
+/// Solid areas of a layer, mm^2.
+struct MaskArea {
+    double part = 0;
+    double supports = 0;
+};
+
+/// Hands the layer's mask to `sink` band by band, top to bottom, and returns the layer's areas. Supports are
+/// dimmed to `support_grey` (0 to 1); where they share a pixel with the part the brighter one counts. Memory:
+/// one band.
+MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
+                    double support_grey, const BandSink& sink);
 
 }  // namespace lamella

@@ -54,9 +54,16 @@ class PngStack : public Backend {
         description_["height"] = layout_->height();
         description_.update(describe(profile_.image));
         description_["placement"] = placement();
-        return output_.begin(
-            {job.identity, extension(profile_.image.format) + (" " + describe(profile_.image).dump()), range},
-            resume);
+        std::string settings = extension(profile_.image.format) + (" " + describe(profile_.image).dump());
+        if (job.supports) {
+            const double grey = profile_.support.grey;
+            if (!(grey >= 0 && grey <= 1)) {
+                throw InputError(fmt::format("grey of supports = {}: must be 0 to 1", grey));
+            }
+            description_["support_grey"] = grey;
+            settings += fmt::format(" supports {}", grey);
+        }
+        return output_.begin({job.identity, settings, range}, resume);
     }
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
@@ -67,9 +74,7 @@ class PngStack : public Backend {
         }
         PngWriter writer({layout_->width(), layout_->height(), layout_->column_pitch(), layout_->row_pitch()},
                          product->file);
-        product->area =
-            mask_layer(layer, *layout_, profile_.image,
-                       [&](std::span<const GreyRun> runs, int rows) { writer.add_rows(runs, rows); });
+        draw(layer, *product, [&](std::span<const GreyRun> runs, int rows) { writer.add_rows(runs, rows); });
         writer.finish();
         return product;
     }
@@ -81,15 +86,20 @@ class PngStack : public Backend {
     void end() override { output_.end(description_); }
 
   private:
+    void draw(const Layer& layer, PngProduct& product, const BandSink& sink) const {
+        const MaskArea area = mask_layer(layer, *layout_, profile_.image, profile_.support.grey, sink);
+        product.area = area.part;
+        product.support_area = area.supports;
+    }
+
     /// The layer through a whole page of pixels, for formats that are not written from runs.
     void render_pixels(const Layer& layer, PngProduct& product) const {
         std::vector<std::uint8_t> pixels;
         pixels.reserve(static_cast<std::size_t>(layout_->width()) *
                        static_cast<std::size_t>(layout_->height()));
-        product.area =
-            mask_layer(layer, *layout_, profile_.image, [&](std::span<const GreyRun> runs, int /*rows*/) {
-                for (const GreyRun& run : runs) pixels.insert(pixels.end(), run.length, run.value);
-            });
+        draw(layer, product, [&](std::span<const GreyRun> runs, int /*rows*/) {
+            for (const GreyRun& run : runs) pixels.insert(pixels.end(), run.length, run.value);
+        });
         product.file = encode_image(profile_.image.format, layout_->width(), layout_->height(), pixels);
     }
 

@@ -30,6 +30,7 @@ PrinterProfile display(const char* name, int width, int height, double pixel, bo
     profile.image.pixel_x = pixel;
     profile.image.pixel_y = pixel;
     profile.image.portrait = portrait;
+    profile.support = usual_supports("png");
     return profile;
 }
 
@@ -81,6 +82,25 @@ const Entry& find(std::span<const Entry> entries, std::string_view name, const c
 }  // namespace
 
 std::span<const BackendInfo> backends() { return backend_table; }
+
+SupportProfile usual_supports(std::string_view backend) {
+    SupportProfile support;
+    if (backend != "png") return support;
+    support.spacing = 4;
+    support.own_bridge = 2;
+    support.bridge = 8;
+    support.reach = 3;
+    support.connector = 3;
+    support.tip = 0.5;
+    support.pillar = 1.2;
+    support.round_pillars = true;
+    support.bar_width = 0.8;
+    support.bar_height = 0.8;
+    support.foot = 8;
+    support.foot_height = 0.6;
+    support.density = 1.12;
+    return support;
+}
 
 std::span<const PrinterProfile> profiles() {
     // The display of the SL1 is 120.96 x 68.04 mm with 2560 x 1440 px, that of the SL1S 128 x 81 mm with

@@ -26,6 +26,10 @@ std::span<const BackendInfo> backends();
 /// The built-in profiles.
 std::span<const PrinterProfile> profiles();
 
+/// Supports as a back-end's machines need them where nothing else is known. Resin is peeled off layer by
+/// layer and cannot span a void: more points, thick round pillars, large feet, and tips that break off.
+SupportProfile usual_supports(std::string_view backend);
+
 /// Throws InputError, with the nearest known name, when there is none of this name.
 const BackendInfo& find_backend(std::string_view name);
 const PrinterProfile& find_profile(std::string_view name);

@@ -18,7 +18,8 @@ namespace {
 constexpr int decimals = 4;  // 0.1 um
 
 struct SvgProduct : LayerProduct {
-    std::string path;  ///< path data; empty for an empty layer
+    std::string path;      ///< path data; empty for an empty layer
+    std::string supports;  ///< the same of what holds the part
 };
 
 /// The sheet that all layers share.
@@ -84,18 +85,32 @@ std::string svg_start(const Page& page) {
 }
 constexpr const char* svg_end = "</svg>\n";
 
+/// Attributes of the paths.
+struct Style {
+    const char* part;
+    const char* supports;
+};
+constexpr Style filled{"fill=\"#000000\" stroke=\"none\"",
+                       "class=\"support\" fill=\"#0080ff\" stroke=\"none\""};
+// The widest stroke that every cutter's driver still takes for a line to cut is 0.025 mm (0.001 inch). Red
+// and blue are what drivers tell apart without fail.
+constexpr Style hairline{"fill=\"none\" stroke=\"#ff0000\" stroke-width=\"0.01\"",
+                         "class=\"support\" fill=\"none\" stroke=\"#0000ff\" stroke-width=\"0.01\""};
+
 /// The layer as an Inkscape layer and a Slic3r slice.
-std::string group(const Layer& layer, const std::string& path, const char* style) {
+std::string group(const Layer& layer, const SvgProduct& product, const Style& style) {
     std::string text = fmt::format(
         "<g id=\"layer{0:04}\" inkscape:groupmode=\"layer\" inkscape:label=\"{0:04} z={1}\" "
         "slic3r:z=\"{1}\">\n",
         layer.index(), format_number(layer.top(), 6));
-    if (!path.empty()) text += fmt::format("<path {} fill-rule=\"evenodd\" d=\"\n{}\"/>\n", style, path);
+    const auto add = [&](const std::string& path, const char* attributes) {
+        if (path.empty()) return;
+        text += fmt::format("<path {} fill-rule=\"evenodd\" d=\"\n{}\"/>\n", attributes, path);
+    };
+    add(product.path, style.part);
+    add(product.supports, style.supports);
     return text + "</g>\n";
 }
-constexpr const char* filled = "fill=\"#000000\" stroke=\"none\"";
-// The widest stroke that every cutter's driver still takes for a line to cut is 0.025 mm (0.001 inch).
-constexpr const char* hairline = "fill=\"none\" stroke=\"#ff0000\" stroke-width=\"0.01\"";
 
 std::string settings_of(const VectorProfile& vector) {
     return fmt::format("svg one_file={} tolerance={} margin={}", vector.one_file, vector.tolerance,
@@ -112,6 +127,9 @@ class Svg : public Backend {
         const std::vector<Contour> contours = layer.contours(profile_.vector.tolerance);
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
         product->path = path_data(contours, page_);
+        const std::vector<Contour> supports = layer.support_contours(profile_.vector.tolerance);
+        for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
+        product->supports = path_data(supports, page_);
         return product;
     }
 
@@ -140,7 +158,7 @@ class SvgFile : public Svg {
         return next;
     }
     void write(const Layer& layer, LayerProduct& product) override {
-        output_.commit(group(layer, dynamic_cast<SvgProduct&>(product).path, filled), layer.index() + 1);
+        output_.commit(group(layer, dynamic_cast<SvgProduct&>(product), filled), layer.index() + 1);
     }
     void end() override { output_.end(svg_end); }
 
@@ -165,7 +183,7 @@ class SvgFolder : public Svg {
     }
     void write(const Layer& layer, LayerProduct& product) override {
         const std::string text =
-            svg_start(page()) + group(layer, dynamic_cast<SvgProduct&>(product).path, hairline) + svg_end;
+            svg_start(page()) + group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;
         output_.write(layer.index(), std::as_bytes(std::span(text)));
     }
     void end() override { output_.end(description_); }

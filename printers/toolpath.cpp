@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "printers/center_lines.h"
 #include "printers/nearest_points.h"
 #include "printers/polygons.h"
 
@@ -44,15 +45,26 @@ class IslandPlanner {
         beads_.clear();
         Polygons island = simplified(exact, settings_.tolerance / 2);
         if (island.empty()) island = exact;
+        if (fill_wall(island, area_of(exact))) return std::move(beads_);
         const Polygons wall = offset_polygons(island, -width_ / 2);
         const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing_ / 2);
         if (inside.empty()) {
             fill_thin(exact, !wall.empty());  // simplified, a sliver could leave its own outline
             return std::move(beads_);
         }
-        add_loops(wall, width_, Role::external_perimeter);
+        std::vector<Polygons> regions = split_pieces(inside);
+        // What is too narrow for a bead of its own comes with the wall.
+        double narrow = 0;
+        std::erase_if(regions, [&](const Polygons& region) {
+            if (wall_thickness(region) >= width_ * narrowest) return false;
+            narrow += area_of(region);
+            return true;
+        });
+        if (!(settings_.density > densest_lattice)) narrow = 0;
+        const double length = perimeter_of(wall);
+        add_loops(wall, width_for(length * spacing_ + narrow, length), Role::external_perimeter);
         fill_arms(island, wall);
-        for (const Polygons& region : split_pieces(inside)) fill_region(region);
+        for (const Polygons& region : regions) fill_region(region);
         return std::move(beads_);
     }
 
@@ -61,44 +73,76 @@ class IslandPlanner {
         for (const ClipperLib::Path& loop : loops) beads_.push_back({to_points(loop), width, role, true, 0});
     }
 
-    /// Width of the beads that lay `area` mm^2 over `length` mm, no more than a full one.
+    /// Width of the beads that lay `area` mm^2 over `length` mm, as far as they do not bulge.
     double width_for(double area, double length) const {
-        return std::min(bead_width(area / length * settings_.height, settings_.height), width_);
+        return std::min(bead_width(area / length * settings_.height, settings_.height),
+                        width_ * most_extra_flow);
     }
 
-    /// Loops `inset` inside an island whose whole volume they lay down; false when none are left.
-    bool lay_loops(const Polygons& island, double inset, Role role) {
+    /// One bead along the middle, or two side by side, in an island of even thickness for which that is
+    /// right.
+    bool fill_wall(const Polygons& island, double area) {
+        const double thickness = wall_thickness(island);
+        if (lay_center_lines(island, thickness, area, Role::external_perimeter)) return true;
+        constexpr double unevenness = 1.15;
+        const bool even = offset_polygons(island, -thickness / 2 * unevenness).empty();
+        if (!even || thickness > 2 * thickest()) return false;
+        if (thickness <= thickest() && area <= shortest_loop * thickness * thickness) {
+            lay_chord(island, area);
+            return true;
+        }
+        return lay_loops(island, thickness / 4, area, Role::external_perimeter);
+    }
+
+    /// Width of a wall that one bead with all its extra flow fills, mm.
+    double thickest() const { return most_extra_flow * width_ - side_loss(settings_.height); }
+
+    /// Single beads along the middle of a region of even thickness; false when it is not one for that.
+    bool lay_center_lines(const Polygons& region, double thickness, double area, Role role) {
+        if (thickness > thickest()) return false;
+        const std::vector<CenterLine> lines = center_lines(region, thickness, settings_.tolerance);
+        double length = 0;
+        for (const CenterLine& line : lines) length += length_of(line);
+        if (!(length > 0)) return false;
+        const double width = width_for(area, length);
+        for (const CenterLine& line : lines) beads_.push_back({line.points, width, role, line.closed, 0});
+        return true;
+    }
+
+    /// Loops `inset` inside an island that lay down the volume of `area` mm^2; false when none are left.
+    bool lay_loops(const Polygons& island, double inset, double area, Role role) {
         const Polygons loops = offset_polygons(island, -inset);
         const double length = perimeter_of(loops);
         if (!(length > 0)) return false;
-        add_loops(loops, width_for(area_of(island), length), role);
+        add_loops(loops, width_for(area, length), role);
         return true;
     }
 
     /// An island that has room for loops at most.
     void fill_thin(const Polygons& island, bool full_width_fits) {
+        const double area = area_of(island);
         if (full_width_fits) {
             // Two full beads side by side would be too much: take the width at which they just fill it.
-            const double half_thickness = area_of(island) / perimeter_of(island);
+            const double half_thickness = area / perimeter_of(island);
             const double inset = std::clamp(half_thickness, width_ / 2, width_) / 2;
-            if (lay_loops(island, inset, Role::external_perimeter)) return;
+            if (lay_loops(island, inset, area, Role::external_perimeter)) return;
         }
         for (const double share : {0.75, 0.5, 0.25}) {
-            if (lay_loops(island, share * width_ / 2, Role::external_perimeter)) return;
+            if (lay_loops(island, share * width_ / 2, area, Role::external_perimeter)) return;
         }
-        lay_chord(island);
+        lay_chord(island, area);
     }
 
-    /// One short bead with the volume of a small region.
-    void lay_chord(const Polygons& region) {
+    /// One short bead with the volume of a small region, of `area` mm^2.
+    void lay_chord(const Polygons& region, double area) {
         const Segment chord = longest_chord(region);
         const double length = chord.length();
         if (!(length > 0)) return;
-        const double shrink = std::min(width_ / 2, length / 4) / length;
+        const double least = std::min(area / thickest(), length);
+        const double shrink = std::min({width_ / 2, length / 4, (length - least) / 2}) / length;
         const dvec2 step = (chord.b - chord.a) * shrink;
         const Segment bead{chord.a + step, chord.b - step};
-        beads_.push_back(
-            {{bead.a, bead.b}, width_for(area_of(region), bead.length()), Role::gap_fill, false, 0});
+        beads_.push_back({{bead.a, bead.b}, width_for(area, bead.length()), Role::gap_fill, false, 0});
     }
 
     /// The parts of an island that are too thin for its wall.
@@ -108,8 +152,9 @@ class IslandPlanner {
         if (area_of(island) - area_of(reached) + perimeter_of(wall) * settings_.tolerance < least) return;
         for (const Polygons& arm : split_pieces(subtract_polygons(island, reached))) {
             if (area_of(arm) < least) continue;
+            if (lay_center_lines(arm, wall_thickness(arm), area_of(arm), Role::gap_fill)) continue;
             for (const double share : {0.75, 0.5}) {
-                if (lay_loops(arm, share * width_ / 2, Role::gap_fill)) break;
+                if (lay_loops(arm, share * width_ / 2, area_of(arm), Role::gap_fill)) break;
             }
         }
     }
@@ -133,6 +178,7 @@ class IslandPlanner {
 
     /// Lines spread evenly over a region, with the flow that gives its volume.
     void fill_solid(const Polygons& region, const Polygons& clip) {
+        if (lay_center_lines(region, wall_thickness(region), area_of(region), Role::solid_infill)) return;
         const Interval across = extent(region, normal());
         const int count = std::max(1, static_cast<int>(std::lround(across.width() / spacing_)));
         const double pitch = across.width() / count;
@@ -147,7 +193,7 @@ class IslandPlanner {
             add_lines(lines, std::min(width, width_ * most_extra_flow), Role::solid_infill);
             return;
         }
-        if (area_of(region) > spacing_ * spacing_ / 8) lay_chord(region);
+        if (area_of(region) > spacing_ * spacing_ / 8) lay_chord(region, area_of(region));
     }
 
     dvec2 normal() const { return {-direction_.y, direction_.x}; }
@@ -164,6 +210,8 @@ class IslandPlanner {
 
     static constexpr double densest_lattice = 0.999;  // from here on regions are filled solid
     static constexpr double most_extra_flow = 1.3;    // more would bulge over the layer
+    static constexpr double narrowest = 0.3;          // thinner threads, in widths, tear
+    static constexpr double shortest_loop = 1;        // shorter islands, in thicknesses, get a chord
 
     ToolpathSettings settings_;
     double width_;

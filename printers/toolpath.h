@@ -9,7 +9,7 @@
 namespace lamella {
 
 /// What a bead is for.
-enum class Role : std::uint8_t { external_perimeter, internal_infill, solid_infill, gap_fill };
+enum class Role : std::uint8_t { external_perimeter, internal_infill, solid_infill, gap_fill, support };
 
 /// A path along which filament is laid, mm.
 struct Bead {

@@ -75,6 +75,31 @@ TEST_CASE("layers arrive in order, and their volume is the solid's") {
     }
 }
 
+TEST_CASE("the volume of supports is counted apart") {
+    class Areas : public Backend {
+      public:
+        int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+        std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+            auto product = std::make_unique<LayerProduct>();
+            product->area = 2;
+            product->support_area = layer.index();
+            return product;
+        }
+        void write(const Layer& /*layer*/, LayerProduct& /*product*/) override {}
+        void end() override {}
+    };
+    const Job job = sphere_job(40);  // of 0.25 mm
+    Areas areas;
+    StreamOptions options;
+    options.range = {0, 40};
+    double last = 0;
+    options.on_progress = [&](const Progress& progress) { last = progress.support_volume; };
+    const StreamReport report = stream_layers(job, areas, options);
+    CHECK(report.volume == Approx(20));
+    CHECK(report.support_volume == Approx(0.25 * 39 * 40 / 2));
+    CHECK(last == report.support_volume);
+}
+
 TEST_CASE("a range gives just its layers, a resumed one what is missing") {
     const Job job = sphere_job(50);
     Recorder recorder;

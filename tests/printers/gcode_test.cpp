@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "tests/printers/plane_solids.h"
+#include "tests/printers/supported_table.h"
 
 using namespace lamella;
 using namespace lamella::test;
@@ -23,6 +24,7 @@ struct Extrusion {
     double z;
     double filament;
     std::string role;
+    double speed;  ///< mm/s
 };
 
 /// What an interpreter of the file sees.
@@ -44,6 +46,7 @@ Print interpret(const std::string& text) {
     dvec2 position{0};
     double z = 0;
     bool layers = false;
+    double speed = 0;
     while (std::getline(in, line)) {
         INFO(line);
         REQUIRE(line.size() <= 95);
@@ -65,7 +68,10 @@ Print interpret(const std::string& text) {
             const std::size_t point = word.find('.');
             if (point != std::string::npos) REQUIRE(word.size() - point - 1 <= (word[0] == 'E' ? 5U : 3U));
         }
-        if (words.contains('F')) REQUIRE(words['F'] > 0);
+        if (words.contains('F')) {
+            REQUIRE(words['F'] > 0);
+            speed = words['F'] / 60;
+        }
         if (words.contains('Z')) {
             REQUIRE(words.size() <= 2);
             if (layers) REQUIRE(words['Z'] >= z);
@@ -84,7 +90,7 @@ Print interpret(const std::string& text) {
             REQUIRE(words['E'] >= 0);
             REQUIRE(print.unretracted == Approx(0).margin(1e-9));
             if (layers) {
-                print.extrusions.push_back({position, to, z, words['E'], role});
+                print.extrusions.push_back({position, to, z, words['E'], role, speed});
             } else {
                 print.prime += words['E'];
             }
@@ -275,4 +281,96 @@ TEST_CASE("hostile job names do not become commands", "[gcode]") {
     const std::string text = print_whole(job, filament_printer(), {0, 1});
     CHECK(text.find("\nM112") == std::string::npos);
     interpret(text);
+}
+
+TEST_CASE("supports are printed in their own role, at their own speed, with their volume", "[gcode]") {
+    PrinterProfile profile = filament_printer();
+    profile.support.speed = 33;
+    const Job job = supported_table();
+    const std::string text = print_whole(job, profile, {0, 20});
+    const Print print = interpret(text);
+    std::map<int, double> volumes;  // of supports, by layer
+    double part = 0;
+    double filament = 0;
+    for (const Extrusion& e : print.extrusions) {
+        const double volume = e.filament * pi / 4 * 1.75 * 1.75;
+        const bool support = e.role == "Support material";
+        REQUIRE(support == (e.z < 3.1));
+        (support ? volumes[static_cast<int>(std::lround(e.z / 0.2)) - 1] : part) += volume;
+        if (support) filament += e.filament;
+        CHECK(e.speed == Approx(e.z < 0.3 ? 20 : support ? 33 : 40));
+    }
+    CHECK(part == Approx(table_area * 1).epsilon(0.03));
+    REQUIRE(volumes.size() == 15);
+    for (const auto& [layer, volume] : volumes) {
+        CAPTURE(layer);
+        CHECK(volume == Approx(scaffold_area(job.plane(layer)) * 0.2).epsilon(layer < 2 ? 0.05 : 0.02));
+    }
+    const std::string footer = "; support material used [mm] = ";
+    const std::size_t at = text.find(footer);
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(text.substr(at + footer.size())) == Approx(filament).margin(0.02));
+    const std::string used = "; filament used [mm] = ";
+    CHECK(std::stod(text.substr(text.find(used) + used.size())) ==
+          Approx(volume_of(print, 1.75) / (pi / 4 * 1.75 * 1.75) + print.prime).margin(0.05));
+}
+
+TEST_CASE("bars are printed lengthwise, pillars in single lines, hollow parts on full supports", "[gcode]") {
+    PrinterProfile profile = filament_printer();
+    profile.filament.infill_density = 0;
+    const Print print = interpret(print_whole(supported_table(), profile, {0, 20}));
+    double along = 0;
+    double across = 0;
+    double pillars = 0;
+    for (const Extrusion& e : print.extrusions) {
+        const dvec2 way = e.to - e.from;
+        if (2.1 < e.z && e.z < 2.3) (std::abs(way.x) > std::abs(way.y) ? along : across) += glm::length(way);
+        if (0.9 < e.z && e.z < 1.1) pillars += glm::length(way);
+    }
+    CHECK(along == Approx(2 * (12 - 0.45)).epsilon(0.01));
+    CHECK(across == Approx(2 * 0.45).epsilon(0.05));
+    CHECK(pillars == Approx(2 * 2 * 2.25).epsilon(0.03));
+    CHECK(print.roles.at("Support material") == 15);
+    CHECK(!print.roles.contains("Solid infill"));
+}
+
+TEST_CASE("supports come before the part of their layer", "[gcode]") {
+    const Print print = interpret(print_whole(block_beside_support(), filament_printer(), {0, 4}));
+    std::map<double, std::vector<bool>> order;
+    for (const Extrusion& e : print.extrusions) order[e.z].push_back(e.role == "Support material");
+    REQUIRE(order.size() == 4);
+    for (const auto& [z, supports] : order) {
+        CAPTURE(z);
+        CHECK(supports.front());
+        CHECK(!supports.back());
+        CHECK(std::is_sorted(supports.rbegin(), supports.rend()));
+    }
+}
+
+TEST_CASE("supports add up when a print is stopped and continued", "[gcode]") {
+    const TemporaryFolder folder;
+    const Job job = supported_table();
+    const int stop = GENERATE(1, 7, 14, 17);
+    run_layers(job, *make_gcode(filament_printer(), folder / "parts", false), {0, 20}, false, stop);
+    run_layers(job, *make_gcode(filament_printer(), folder / "parts", false), {0, 20}, true);
+    CHECK(read_text(folder / "parts") == print_whole(job, filament_printer(), {0, 20}));
+    PrinterProfile other = filament_printer();
+    other.support.speed = 10;
+    run_layers(job, *make_gcode(filament_printer(), folder / "other", false), {0, 20}, false, stop);
+    CHECK_THROWS_WITH(make_gcode(other, folder / "other", false)->begin(job, {0, 20}, true),
+                      Catch::Contains("other printer settings"));
+}
+
+TEST_CASE("supports must fit the bed, and their speed the printer", "[gcode]") {
+    const TemporaryFolder folder;
+    PrinterProfile profile = filament_printer();
+    Job wide = supported_table();
+    wide.bounds.hi.x = 300;
+    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->begin(wide, {0, 1}, false),
+                      Catch::Contains("with its supports"));
+    profile.support.speed = 0;
+    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->begin(supported_table(), {0, 1}, false),
+                      Catch::Contains("speed of supports"));
+    CHECK_NOTHROW(make_gcode(profile, folder / "a", false)->begin(puck(), {0, 1}, false));
+    CHECK(print_whole(puck(), filament_printer(), {0, 2}).find("upport") == std::string::npos);
 }

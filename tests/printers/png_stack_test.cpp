@@ -1,6 +1,7 @@
 // The PNG stack shows the right area at the right place and the right way round, and survives being stopped.
 #include "printers/png_stack.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -10,6 +11,7 @@
 #include "engine/error.h"
 #include "tests/printers/decode_image.h"
 #include "tests/printers/plane_solids.h"
+#include "tests/printers/supported_table.h"
 
 using namespace lamella;
 using namespace lamella::test;
@@ -311,4 +313,75 @@ TEST_CASE("a full disk is a fault, and the layers before it stay", "[png_stack]"
     REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
     signal(SIGXFSZ, SIG_DFL);
     CHECK(make_png_stack(profile, folder / "out", false)->begin(job, {0, 12}, true) == 1);
+}
+
+TEST_CASE("supports are drawn dimmed, the part over them", "[png_stack]") {
+    const auto antialiasing = GENERATE(Antialiasing::off, Antialiasing::rows, Antialiasing::exact);
+    const double grey = GENERATE(1.0, 0.6, 0.0);
+    CAPTURE(static_cast<int>(antialiasing), grey);
+    const TemporaryFolder folder;
+    PrinterProfile profile = small_display();
+    profile.image.antialiasing = antialiasing;
+    profile.support.grey = grey;
+    const Job job = block_beside_support();
+    run_layers(job, *make_png_stack(profile, folder / "out", false), {0, 4});
+    // Each alone, as images that supports have no part in.
+    Job alone = job;
+    alone.supports = nullptr;
+    run_layers(alone, *make_png_stack(profile, folder / "part", false), {0, 4});
+    alone.part = job.supports;
+    run_layers(alone, *make_png_stack(profile, folder / "supports", false), {0, 4});
+    const DecodedImage image = decode_image(folder / "out/00002.png");
+    const DecodedImage part = decode_image(folder / "part/00002.png");
+    const DecodedImage supports = decode_image(folder / "supports/00002.png");
+    bool shared = false;
+    std::size_t wrong = 0;
+    for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+        const auto dimmed = static_cast<int>(std::lround(supports.pixels[k] * grey));
+        shared = shared || (part.pixels[k] > 0 && dimmed > 0);
+        wrong += image.pixels[k] != std::max<int>(part.pixels[k], dimmed) ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    // The border between them, at 0.03 mm, divides pixels of 0.1 mm.
+    if (antialiasing != Antialiasing::off && grey > 0) CHECK(shared);
+    const auto json = nlohmann::json::parse(read_text(folder / "out/job.json"));
+    CHECK(json["support_grey"] == grey);
+    CHECK(!nlohmann::json::parse(read_text(folder / "part/job.json")).contains("support_grey"));
+    const auto backend = make_png_stack(profile, folder / "again", true);
+    backend->begin(job, {0, 4}, false);
+    const auto product = backend->render(Layer(job, 1));
+    const double tolerance = antialiasing == Antialiasing::off ? 0.02 : 0.002;
+    CHECK(product->area == Approx(4.03 * 6).epsilon(tolerance));
+    CHECK(product->support_area == Approx(3 * 2).epsilon(tolerance));
+}
+
+TEST_CASE("a scaffold shows in every image format and on portrait displays", "[png_stack]") {
+    const TemporaryFolder folder;
+    PrinterProfile profile = small_display();
+    profile.image.portrait = GENERATE(false, true);
+    profile.image.format = GENERATE(ImageFormat::png, ImageFormat::pgm);
+    std::swap(profile.image.width, profile.image.height);
+    if (!profile.image.portrait) std::swap(profile.image.width, profile.image.height);
+    profile.support.grey = 0.5;
+    const Job job = supported_table();
+    run_layers(job, *make_png_stack(profile, folder / "out", false), {0, 20});
+    for (const int i : {0, 5, 11, 14, 17}) {
+        CAPTURE(i);
+        const std::string ending = profile.image.format == ImageFormat::png ? "png" : "pgm";
+        const DecodedImage image = decode_image(folder / fmt::format("out/{:05}.{}", i, ending));
+        const bool part = job.plane(i) > 3;
+        CHECK(image.filled() * 0.01 ==
+              Approx(part ? table_area : 0.5 * scaffold_area(job.plane(i))).epsilon(0.01));
+        CHECK(*std::ranges::max_element(image.pixels) == (part ? 255 : 128));
+    }
+}
+
+TEST_CASE("a grey that is none is refused where there are supports", "[png_stack]") {
+    const TemporaryFolder folder;
+    PrinterProfile profile = small_display();
+    profile.support.grey = GENERATE(-0.1, 1.1, std::nan(""));
+    CHECK_THROWS_WITH(
+        make_png_stack(profile, folder / "out", false)->begin(supported_table(), {0, 20}, false),
+        Catch::Contains("grey of supports"));
+    CHECK_NOTHROW(make_png_stack(profile, folder / "out", false)->begin(cone(), {0, 12}, false));
 }

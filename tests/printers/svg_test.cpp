@@ -6,6 +6,7 @@
 
 #include "engine/error.h"
 #include "tests/printers/plane_solids.h"
+#include "tests/printers/supported_table.h"
 
 using namespace lamella;
 using namespace lamella::test;
@@ -203,4 +204,48 @@ TEST_CASE("senseless vector settings are refused", "[svg]") {
     profile.vector.margin = -1;
     CHECK_THROWS_AS(make_svg(profile, folder / "a.svg", false)->begin(rings(), {0, 10}, false), InputError);
     CHECK_THROWS_AS(make_svg(vector_printer(true), folder / "", false), InputError);
+}
+
+TEST_CASE("supports are a path of their own colour", "[svg]") {
+    const TemporaryFolder folder;
+    const Job job = supported_table();
+    const auto backend = make_svg(vector_printer(true), folder / "out.svg", false);
+    CHECK(run_layers(job, *backend, {0, 20}) == Approx(table_area).epsilon(1e-3));
+    const std::string text = read_text(folder / "out.svg");
+    std::size_t at = 0;
+    for (int i = 0; i < 20; ++i) {
+        CAPTURE(i);
+        at = text.find("<g ", at + 1);
+        REQUIRE(at != std::string::npos);
+        const std::string layer = text.substr(at, text.find("</g>", at) - at);
+        const std::size_t supports = layer.find("<path class=\"support\" fill=\"#0080ff\" stroke=\"none\"");
+        CHECK((supports != std::string::npos) == (i < 15));
+        CHECK((layer.find("<path fill=\"#000000\"") != std::string::npos) == (i >= 15));
+        if (supports == std::string::npos) continue;
+        const std::size_t data = layer.find(" d=\"", supports) + 4;
+        double area = 0;
+        for (const auto& ring : parse_path(layer.substr(data, layer.find('"', data) - data)))
+            area -= ring_area(ring);
+        CHECK(area == Approx(scaffold_area(job.plane(i))).epsilon(0.02));
+    }
+    run_layers(job, *make_svg(vector_printer(false), folder / "cut", false), {0, 20});
+    const std::string cut = read_text(folder / "cut/00007.svg");
+    CHECK(cut.find("class=\"support\" fill=\"none\" stroke=\"#0000ff\" stroke-width=\"0.01\"") !=
+          std::string::npos);
+    CHECK(cut.find("#ff0000") == std::string::npos);
+    // Where part and supports share a layer, the part comes first.
+    run_layers(block_beside_support(), *make_svg(vector_printer(false), folder / "both", false), {0, 4});
+    const std::string both = read_text(folder / "both/00001.svg");
+    CHECK(both.find("#ff0000") < both.find("#0000ff"));
+    CHECK(both.find("#0000ff") != std::string::npos);
+}
+
+TEST_CASE("the areas of part and supports are told apart", "[svg]") {
+    const TemporaryFolder folder;
+    const Job job = block_beside_support();
+    const auto backend = make_svg(vector_printer(true), folder / "out.svg", false);
+    backend->begin(job, {0, 4}, false);
+    const auto product = backend->render(Layer(job, 1));
+    CHECK(product->area == Approx(4.03 * 6).epsilon(1e-3));
+    CHECK(product->support_area == Approx(3 * 2).epsilon(5e-3));
 }

@@ -175,3 +175,52 @@ TEST_CASE("toolpaths depend on nothing but their arguments", "[toolpath]") {
 }
 
 TEST_CASE("an empty layer has no beads", "[toolpath]") { CHECK(plan_toolpaths({}, {}, 0).beads.empty()); }
+
+TEST_CASE("the pieces of a scaffold get their volume, thin walls in single lines", "[toolpath]") {
+    const double angle = GENERATE(0.0, 0.3, 0.7853981633974483, 1.9);
+    CAPTURE(angle);
+    const auto plan = [&](Contour contour) {
+        for (dvec2& p : contour.points)
+            p = {p.x * std::cos(angle) - p.y * std::sin(angle),
+                 p.x * std::sin(angle) + p.y * std::cos(angle)};
+        const std::vector<Contour> contours = {contour};
+        const Toolpaths paths = plan_toolpaths(contours, {0.45, height, 1, 0.025}, 0);
+        check_inside(contours, paths);
+        CHECK(volume_of(paths) == Approx(area_of(contour) * height).epsilon(0.02));
+        return paths;
+    };
+    const auto length = [](const Toolpaths& paths) {
+        double sum = 0;
+        for (const Bead& bead : paths.beads) sum += length_of(bead);
+        return sum;
+    };
+    for (const double wall : {0.3, 0.45, 0.5}) {  // a pillar: two walls 2.5 mm long that cross
+        CAPTURE(wall);
+        const double w = wall / 2;
+        const double l = 1.25;
+        const Toolpaths cross = plan({{{w, -l},
+                                       {w, -w},
+                                       {l, -w},
+                                       {l, w},
+                                       {w, w},
+                                       {w, l},
+                                       {-w, l},
+                                       {-w, w},
+                                       {-l, w},
+                                       {-l, -w},
+                                       {-w, -w},
+                                       {-w, -l}},
+                                      -1,
+                                      false});
+        CHECK(cross.beads.size() == 2);
+        CHECK(length(cross) < 5);
+    }
+    const Toolpaths bar = plan(box_contour({0, 0}, {12, 0.9}));
+    REQUIRE(bar.beads.size() == 1);
+    CHECK(bar.beads[0].closed);  // two lines along the bar, side by side
+    CHECK(length(bar) == Approx(24).epsilon(0.01));
+    for (const double diameter : {0.3, 0.45, 0.6, 0.8, 1.0}) {
+        CAPTURE(diameter);
+        CHECK(plan(disc_contour({3, 4}, diameter / 2)).beads.size() == 1);
+    }
+}
