@@ -39,6 +39,13 @@ void move_outlines(Job& job, const ProcessRecipe& process) {
 
 }  // namespace
 
+FieldPtr make_scaled(const Recipe& recipe, const Job& designed, const FieldPtr& solid) {
+    Job job = designed;
+    job.part = solid;
+    if (recipe.process) scale_part(job, recipe.process->scale);
+    return job.part;
+}
+
 double designed_layer_height(const Recipe& recipe) {
     return recipe.process ? recipe.layer_height / recipe.process->scale.z : recipe.layer_height;
 }

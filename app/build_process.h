@@ -9,6 +9,9 @@ namespace lamella {
 /// The height in the designed part of a layer of the printed one, mm.
 double designed_layer_height(const Recipe& recipe);
 
+/// A solid under the scale of [process], as the designed job's part is.
+FieldPtr make_scaled(const Recipe& recipe, const Job& designed, const FieldPtr& solid);
+
 /// The job to print: the designed one under the recipe's [process]. Layers are cut where those of the
 /// designed job are.
 ///

@@ -86,8 +86,14 @@ bool changes_numbers(const BuiltRegion& region) {
     return region.make == RegionMake::foam || region.make == RegionMake::skin;
 }
 
+/// Whether it only says where supports may be, which is not within the part.
+bool rules_supports(const BuiltRegion& region) {
+    return region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
+}
+
 void warn_of_idle(const FieldPtr& body, bool filled, BuiltRegions& regions) {
     for (const BuiltRegion& region : regions.list) {
+        if (rules_supports(region)) continue;
         const double reach = changes_numbers(region) ? region.blend / 2 : 0;
         const Reach acted_on(region.field, reach, body);
         const Box box = intersect(body->bounds(), grown(region.field->bounds(), reach));
@@ -112,7 +118,7 @@ FieldPtr joined(FieldPtr part, const BuiltRegion& region) {
 FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regions) {
     bool beyond_body = false;
     for (const BuiltRegion& region : regions.list) {
-        if (changes_numbers(region)) continue;
+        if (changes_numbers(region) || rules_supports(region)) continue;
         if (region.make == RegionMake::empty && beyond_body) {
             part = make_intersection({body, std::move(part)});
             beyond_body = false;

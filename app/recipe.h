@@ -81,8 +81,9 @@ struct FieldRecipe {
     double scale = 1;                  ///< mesh
 };
 
-/// What a region is made of: solid, nothing, or the part's foam or skin with other numbers.
-enum class RegionMake : unsigned char { solid, empty, foam, skin };
+/// What a region is made of: solid, nothing, or the part's foam or skin with other numbers; or where supports
+/// are kept away, or put wherever anything stands out.
+enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer };
 
 /// A part of the body that is made otherwise; of regions that make the same thing, later ones win.
 struct RegionRecipe {

@@ -39,7 +39,9 @@ const std::vector<KindSection>& kind_sections() {
          {{"solid", {"field"}, {"blend"}},
           {"empty", {"field"}, {"blend"}},
           {"foam", {"field"}, {"blend", "cell", "beam", "wall", "window"}},
-          {"skin", {"field", "thickness"}, {"blend"}}}},
+          {"skin", {"field", "thickness"}, {"blend"}},
+          {"blocker", {"field"}, {}},
+          {"enforcer", {"field"}, {}}}},
         {"foam", "kind", "voronoi", keys_of(foam_builders())},
         {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;

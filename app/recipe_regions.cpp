@@ -66,6 +66,11 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
     if (std::string wrong = unknown_field(recipe, region); !wrong.empty())
         mistakes.push_back(std::move(wrong));
     const std::vector<RegionNumber> numbers = numbers_of(region);
+    const bool rules_supports = region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
+    if (rules_supports && recipe.support == SupportKind::none) {
+        mistakes.push_back(fmt::format(
+            "{}.make: there are no supports to rule; accepted: a section [support] with it", region.where));
+    }
     if (region.make == RegionMake::foam) {
         if (!recipe.foam) {
             mistakes.push_back(

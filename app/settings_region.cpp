@@ -5,7 +5,7 @@
 namespace lamella {
 
 const std::vector<std::string>& words(RegionMake) {
-    static const std::vector<std::string> list{"solid", "empty", "foam", "skin"};
+    static const std::vector<std::string> list{"solid", "empty", "foam", "skin", "blocker", "enforcer"};
     return list;
 }
 
@@ -93,9 +93,10 @@ void add_region_settings(std::vector<Setting>& t) {
     };
     add.operator()<&RegionRecipe::field>(
         "field", {.fallback = "required", .help = "Name of the [[field]] that the region is the inside of."});
-    add.operator()<&RegionRecipe::make>(
-        "make",
-        {.fallback = "required", .help = "What the body is made of there; foam and skin change numbers."});
+    add.operator()<&RegionRecipe::make>("make", {.fallback = "required",
+                                                 .help = "What the body is made of there; foam and skin "
+                                                         "change numbers. A blocker keeps supports away, an "
+                                                         "enforcer wants them under all that stands out."});
     add.operator()<&RegionRecipe::blend>(
         "blend", {.unit = "mm",
                   .limits = {0, 1000},
