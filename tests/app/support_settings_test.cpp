@@ -97,8 +97,8 @@ TEST_CASE("every profile's own supports are accepted") {
     for (const std::string& name : profile_words()) {
         for (const char* kind : {"bridges", "pillars"}) {
             INFO(name << " " << kind);
-            CHECK(complaint("[printer]\nprofile = \"" + name + "\"\n[support]\nkind = \"" + kind + "\"\n") ==
-                  "");
+            CHECK(complaint("[printer]\nprofile = \"" + name + "\"\n[support]\nkind = \"" + kind + "\"\n")
+                      .empty());
         }
     }
 }
