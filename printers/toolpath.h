@@ -42,9 +42,11 @@ double bead_width(double area, double height);
 /// degrees on even and -45 degrees on odd layers. At density 1 the lines are spread evenly over each region,
 /// so that the plastic laid has the region's volume.
 ///
-/// Every island of at least a quarter of line_width^2 gets a bead: where the wall would vanish, narrower ones
-/// are tried down to a quarter of the width with the flow that gives the island's volume, and at last a short
-/// bead along its longest chord. Thin arms of larger islands are treated alike, down to half the width.
+/// Walls of even thickness that one bead fills get one along their middle (see center_lines), up to twice
+/// that two side by side. Every other island of at least a quarter of line_width^2 gets a bead, too: where
+/// the wall would vanish, narrower ones are tried down to a quarter of the width with the flow that gives the
+/// island's volume, and at last a short bead along its longest chord. Thin arms of larger islands are treated
+/// alike, down to half the width. No bead is wider than 1.3 line_width.
 /// Islands and lines are visited by nearest neighbour from the contours' lower left corner: the result
 /// depends on the arguments alone.
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,

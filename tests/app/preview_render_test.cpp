@@ -70,7 +70,7 @@ TEST_CASE("supports stand off from the part in a picture, whole and cut", "[prev
     CHECK(supports_seen.lo.y > part_seen.lo.y + 10);
     CHECK(supports_seen.lo.y >= part_seen.hi.y - 8);  // seen from below, the slab's front covers their tops
     CHECK(supports_seen.hi.y > part_seen.hi.y + 30);
-    CHECK(supports_seen.hi.x < both.width / 2);  // the wall stands to the left
+    CHECK(supports_seen.hi.x < both.width * 0.5);  // the wall stands to the left
 
     // Cut through the wall: the part's face is orange, the wall's sand.
     PreviewOptions cut = from_the_front('y');

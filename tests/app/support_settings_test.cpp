@@ -97,8 +97,8 @@ TEST_CASE("every profile's own supports are accepted") {
     for (const std::string& name : profile_words()) {
         for (const char* kind : {"bridges", "pillars"}) {
             INFO(name << " " << kind);
-            CHECK(complaint("[printer]\nprofile = \"" + name + "\"\n[support]\nkind = \"" + kind + "\"\n") ==
-                  "");
+            CHECK(complaint("[printer]\nprofile = \"" + name + "\"\n[support]\nkind = \"" + kind + "\"\n")
+                      .empty());
         }
     }
 }
@@ -124,7 +124,7 @@ TEST_CASE("supports that cannot be are refused with the key and what is accepted
     CHECK(mentions(complaint(marlin + "wall = 2.5\n"), "test.toml:9: support.wall: 2.5 mm leaves no cross"));
     CHECK(mentions(complaint(marlin + "pillar = 0.4\ntip = 0.3\n"),
                    "0.45 mm (a line's width) leaves no cross"));
-    CHECK(complaint(marlin + "pillar = 0.4\ntip = 0.3\nround_pillars = true\n") == "");
+    CHECK(complaint(marlin + "pillar = 0.4\ntip = 0.3\nround_pillars = true\n").empty());
     CHECK(mentions(complaint(marlin + "bridge = 0.6\n"),
                    "support.bar_width: 0.9 mm is more than support.bridge"));
     CHECK(mentions(complaint(marlin + "bridge = 0\n"), "support.bridge: 0 is too small"));
@@ -132,5 +132,5 @@ TEST_CASE("supports that cannot be are refused with the key and what is accepted
     CHECK(mentions(complaint(marlin + "kind = \"bridge\"\n"), "did you mean `bridges`?"));
     CHECK(mentions(complaint(marlin + "pilar = 2\n"), "did you mean `pillar`?"));
     // Where no supports are made, their numbers may be what they like.
-    CHECK(complaint(marlin + "kind = \"none\"\ntip = 3\n") == "");
+    CHECK(complaint(marlin + "kind = \"none\"\ntip = 3\n").empty());
 }

@@ -162,3 +162,37 @@ TEST_CASE("pieces that are no walls of one thickness have no center lines", "[ce
     CHECK(center_lines({}, 0.4, 0.02).empty());
     CHECK(center_lines(walls({{{0, 0}, {5, 0}}}, 0.4), 0, 0.02).empty());
 }
+
+TEST_CASE("lines through any tangle of walls lie in it and carry its area", "[center_lines]") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(0, 12);
+    std::uniform_int_distribution<int> number(2, 9);
+    int found = 0;
+    for (int round = 0; round < 300; ++round) {
+        CAPTURE(round);
+        std::vector<Stroke> strokes;
+        for (int i = number(random); i > 0; --i)
+            strokes.push_back({{place(random), place(random)}, {place(random), place(random)}});
+        for (const Polygons& piece : split_pieces(walls(strokes, 0.45))) {
+            const double thickness = wall_thickness(piece);
+            const auto lines = center_lines(piece, thickness, 0.02);
+            if (lines.empty()) continue;  // sharp crossings are thicker than walls
+            ++found;
+            double length = 0;
+            for (const CenterLine& line : lines) {
+                length += length_of(line);
+                REQUIRE(line.points.size() >= 2);
+                for (const dvec2 p : line.points) {
+                    bool inside = false;
+                    for (const ClipperLib::Path& path : piece) {
+                        const int hit = ClipperLib::PointInPolygon(to_polygon({p}).front(), path);
+                        inside = inside != (hit != 0);
+                    }
+                    REQUIRE(inside);
+                }
+            }
+            CHECK(length * thickness == Approx(area_of(piece)).epsilon(0.35));
+        }
+    }
+    CHECK(found > 100);
+}

@@ -57,7 +57,7 @@ Print interpret(const std::string& text) {
         if (line.starts_with(";Z:")) print.heights.push_back(std::stod(line.substr(3)));
         if (line.starts_with(";") || !(line.starts_with("G0 ") || line.starts_with("G1 "))) continue;
         REQUIRE(line.find("-0 ") == std::string::npos);
-        REQUIRE(line.find("e") == std::string::npos);
+        REQUIRE(line.find('e') == std::string::npos);
         const bool extruding = line[1] == '1';
         std::map<char, double> words;
         std::istringstream stream(line.substr(3));
@@ -143,7 +143,7 @@ Job forest() {
             std::vector<Figure> figures;
             if (z > 1.2 && z < 1.4) return figures;
             for (int i = 0; i < 36; ++i) {
-                const dvec2 center(1.5 + i % 6 * 3.0, 1.5 + i / 6 * 3.0);
+                const dvec2 center(1.5 + i % 6 * 3.0, 1.5 + (i - i % 6) / 6.0 * 3.0);
                 figures.push_back(disc(center, 0.05 + 0.036 * i * (1 - z / 10)));
             }
             return figures;
