@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/build_job.h"
+#include "app/build_process.h"
+#include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/preview_render.h"
 #include "app/recipe_options.h"
@@ -61,9 +62,13 @@ void run(PreviewCommand& options) {
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
+    add_supports(recipe, built, {});
     const FieldPtr& supports = built.job.supports;
     const Box bounds = supports ? unite(built.designed.bounds, supports->bounds()) : built.designed.bounds;
-    save(render_preview(built.designed.part, supports, bounds, options.picture), path);
+    // Supports are planned for the part as scaled for the machine.
+    const FieldPtr part =
+        supports ? make_scaled(recipe, built.designed, built.designed.part) : built.designed.part;
+    save(render_preview(part, supports, bounds, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(

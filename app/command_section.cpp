@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "app/build_job.h"
+#include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
 #include "app/section_writer.h"
@@ -37,6 +37,7 @@ std::string section(const SectionOptions& options, const std::string& format) {
     note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
+    add_supports(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
         throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",

@@ -10,6 +10,7 @@
 
 #include "app/beam_output.h"
 #include "app/build_job.h"
+#include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/grading_report.h"
 #include "app/interrupt.h"
@@ -30,6 +31,7 @@ struct SliceOptions {
     RecipeOptions recipe;
     std::string output;
     std::string layers;
+    std::string plans = default_plan_folder();
     int threads = 0;
     int look_ahead = 0;
     bool resume = false;
@@ -141,6 +143,26 @@ void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, 
     if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
 }
 
+void plan_supports(const Recipe& recipe, BuiltJob& built, const SliceOptions& options,
+                   const CancelToken& cancel) {
+    if (recipe.support == SupportKind::none) return;
+    ProgressDisplay display(options.quiet, "survey for supports: ");
+    SupportOptions planning;
+    planning.plans = options.plans;
+    planning.threads = options.threads;
+    planning.cancel = &cancel;
+    planning.on_progress = [&](const Progress& progress) { display.show(progress); };
+    std::optional<BuiltSupports> supports;
+    try {
+        supports = add_supports(recipe, built, planning);
+    } catch (...) {
+        display.finish();
+        throw;
+    }
+    display.finish();
+    if (!options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
+}
+
 void run(SliceOptions options) {
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
@@ -164,12 +186,15 @@ void run(SliceOptions options) {
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    // Surveys take time: what is wrong should be known before them. A lift adds layers.
+    if (recipe.printer.support.lift == 0) parse_layers(options.layers, built.job.layer_count);
+    if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
+    plan_supports(recipe, built, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.
     const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
     if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
-    if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
     stream.threads = options.threads;
     stream.look_ahead = options.look_ahead;
     stream.resume = options.resume;
@@ -206,6 +231,11 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         ->check(CLI::Range(0, 1024));
     command.add_option("--look-ahead", options->look_ahead, "Layers in flight at most; 0: two a thread")
         ->check(CLI::Range(0, 4096));
+    command
+        .add_option("--plans", options->plans,
+                    "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "
+                    "default: lamella/plans in the user's cache")
+        ->type_name("DIR");
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
     command.add_flag("--force", options->force, "Replace an output that exists");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");

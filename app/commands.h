@@ -12,6 +12,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
 void add_preview_command(CLI::App& root);
 void add_info_command(CLI::App& root);
 void add_dump_command(CLI::App& root);
+void add_supports_command(CLI::App& root);
 void add_section_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_keys_command(CLI::App& root);
