@@ -50,7 +50,7 @@ class Surveyor : public Backend {
     void hold_islands(const SurveyedLayer& layer, double z, std::size_t points_before, bool small_ones);
     void weigh(const SurveyedLayer& layer, double thickness);
     void lay_on_bed(const SurveyedLayer& layer);
-    void offer_places(const SurveyedLayer& layer, const std::vector<double>& out, double z);
+    void offer_places(const SurveyedLayer& layer, const std::vector<double>& out, double z, double thickness);
     void make_steady(const SurveyedLayer& layer, std::size_t points_before, double top);
 
     const OverhangSurveyOptions& options_;
@@ -84,7 +84,7 @@ void Surveyor::compare(const Layer& layer, const SurveyedLayer& surveyed) {
         survey_.own_bridges += found.own_bridges;
         hold_spans(question, *below_, found.bridge_ways, placer_);
         hold_islands(surveyed, z, points_before, false);
-        if (stability_) offer_places(surveyed, out, z);
+        if (stability_) offer_places(surveyed, out, z, layer.thickness());
     }
     if (stability_) make_steady(surveyed, points_before, z + layer.thickness());
 }
@@ -159,10 +159,11 @@ void Surveyor::lay_on_bed(const SurveyedLayer& layer) {
     }
 }
 
-/// What stands out over the layer below faces down: a support can reach it.
-void Surveyor::offer_places(const SurveyedLayer& layer, const std::vector<double>& out, double z) {
-    // Outlines of one shape in two layers differ by less, after straightening.
-    const double measurable = by_.tolerance / 4;
+/// What stands out over the layer below faces down: a support can reach it, where it is not nearly a wall.
+void Surveyor::offer_places(const SurveyedLayer& layer, const std::vector<double>& out, double z,
+                            double thickness) {
+    // Outlines of one shape in two layers differ by a quarter of the tolerance, after straightening.
+    const double measurable = std::max(by_.tolerance / 4, thickness / 3);
     for (const OutlinePath& path : layer.paths) {
         if (path.piece == no_piece) continue;
         const std::uint32_t component = numbers_[path.piece];
@@ -170,7 +171,7 @@ void Surveyor::offer_places(const SurveyedLayer& layer, const std::vector<double
             if (!(out[k] > measurable)) continue;
             const OutlineSample& sample = layer.samples[k];
             if (!stability_->wants(component, {sample.at, z})) continue;
-            const dvec3 place(layer.bead(sample, by_.width), z);
+            const dvec3 place(layer.bead(sample, std::min(by_.width, 2 * out[k])), z);
             if (stability_->wants(component, place) && !placer_.blocked(place)) {
                 stability_->offer(component, place);
             }
