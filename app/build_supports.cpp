@@ -119,7 +119,7 @@ void settle(std::vector<SupportPoint>& points, const Job& job, int layers_at_onc
     }
 }
 
-SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, Job surveyed, FieldPtr blocked,
+SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& surveyed, FieldPtr blocked,
                       const SupportOptions& options) {
     const SupportProfile& s = recipe.printer.support;
     const Printing p = printing(recipe, surveyed.layer_height);

@@ -122,6 +122,7 @@ std::string as_text(const BuiltSupports& supports, const Job& job) {
     std::map<SupportReason, std::size_t> counts;
     for (const SupportPoint& point : plan.scaffold.points) ++counts[point.reason];
     std::vector<std::string> parts;
+    parts.reserve(counts.size());
     for (const auto& [reason, count] : counts) {
         parts.push_back(fmt::format("{} for {}", count, reasons[static_cast<std::size_t>(reason)]));
     }

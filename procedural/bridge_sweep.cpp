@@ -93,6 +93,7 @@ std::optional<BridgeCandidate> BridgeSweep::best(
     const dvec2 u = along(direction);
     const std::vector<Crossing> all = strip(element, u);
     std::vector<std::int64_t> levels;
+    levels.reserve(all.size());
     for (const Crossing& crossing : all) levels.push_back(crossing.level);
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
