@@ -74,10 +74,12 @@ struct LayerGrid {
     dvec3 place(int x, int y, double z) const {
         return {band.along_origin + (x + 0.5) * pixel, band.across_origin + (y + 0.5) * pixel, z};
     }
-    /// Whether a pixel within `reach` mm of (x, y) is set, to 0.7 of a pixel.
+    /// Half the way across a pixel: as far as a solid's border lies from the nearest middle, unless it is thin.
+    double blur() const { return 0.71 * pixel; }
+    /// Whether a pixel is set whose middle lies within `reach` mm of that of (x, y).
     bool near(const LayerPicture& picture, int x, int y, double reach) const {
         if (picture.at(x, y)) return true;
-        const double most = reach / pixel + 0.71;
+        const double most = reach / pixel + 1e-9;
         const int r = static_cast<int>(most);
         for (int j = -r; j <= r; ++j) {
             for (int i = -r; i <= r; ++i) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +39,8 @@ struct PartFindings {
 /// when no pixel of the layer below lies within `overhang`. It is held within `spacing` of a place, not above
 /// the lower side of its layer. Of what is left, connected stretches are allowed
 ///  - that are no longer across than `free_stretch`,
-///  - that lie within half a width of a straight line no longer than `bridge` with held material at both its
-///    ends,
+///  - that lie within half a width of a straight line no longer than `bridge`, with something held at both its
+///    ends: no further away than the overhang, so an edge from corner to corner may be laid like a bridge,
 /// all to two pixels (the outline's place is known to one, that of the layer below to another).
 class PartWalk {
   public:
@@ -57,13 +57,24 @@ class PartWalk {
 
   private:
     using Stretch = std::vector<PixelPlace>;
+    using Tips = std::span<const dvec3>;  ///< that may hold a layer
 
     const LayerPicture& layer(int i) const { return layers_[static_cast<std::size_t>(i)]; }
     double lower_side(int i) const { return grid_.bed + i * grid_.layer_height; }
 
-    /// The pixels of a layer within `depth` mm of the void.
+    double reach() const { return limits_.spacing + slack_; }
+    bool over_below(int x, int y, int i) const { 
+        return grid_.near(layer(i - 1), x, y, limits_.overhang + grid_.blur());
+    }
+    bool held(int x, int y, int i, Tips tips) const {
+        const dvec3 p = grid_.place(x, y, lower_side(i));
+        return over_below(x, y, i) || std::any_of(tips.begin(), tips.end(), [&](dvec3 tip) {
+                   return glm::distance(p, tip) <= reach();
+               });
+    }
+    /// Whether a pixel of a layer lies within `depth` mm of the void.
     bool near_void(const LayerPicture& picture, int x, int y, double depth) const {
-        const double most = depth / grid_.pixel + 0.71;
+        const double most = (depth + grid_.blur()) / grid_.pixel;
         const int r = static_cast<int>(most);
         for (int j = -r; j <= r; ++j) {
             for (int i = -r; i <= r; ++i) {
@@ -74,23 +85,20 @@ class PartWalk {
     }
 
     void look_at(int i, const std::vector<dvec3>& places) {
-        const LayerPicture &here = layer(i), &below = layer(i - 1);
-        const double z = lower_side(i), reach = limits_.spacing + slack_;
+        const LayerPicture& here = layer(i);
+        const double z = lower_side(i);
         const auto lowest = std::partition_point(places.begin(), places.end(),
-                                                 [&](dvec3 p) { return p.z < z - reach; });
-        const auto highest = std::partition_point(places.begin(), places.end(),
-                                                  [&](dvec3 p) { return p.z <= z + 1e-6; });
+                                                 [&](dvec3 p) { return p.z < z - reach(); });
+        const auto above = std::partition_point(places.begin(), places.end(),
+                                                [&](dvec3 p) { return p.z <= z + 1e-6; });
+        const Tips tips(lowest, above);
         LayerPicture unheld(here.width(), here.height());
         here.visit([&](int x, int y) {
-            if (below.at(x, y) || !near_void(here, x, y, limits_.width / 2)) return;
-            if (grid_.near(below, x, y, limits_.overhang)) return;
+            if (!near_void(here, x, y, limits_.width / 2) || over_below(x, y, i)) return;
             ++findings_.hanging;
-            const dvec3 p = grid_.place(x, y, z);
-            const bool held =
-                std::any_of(lowest, highest, [&](dvec3 q) { return glm::distance(p, q) <= reach; });
-            if (!held) unheld.set(x, y, true);
+            if (!held(x, y, i, tips)) unheld.set(x, y, true);
         });
-        for (const Stretch& stretch : stretches(unheld)) judge(stretch, unheld, i);
+        for (const Stretch& stretch : stretches(unheld)) judge(stretch, i, tips);
     }
 
     /// What is connected over all eight neighbours.
@@ -114,7 +122,7 @@ class PartWalk {
         return found;
     }
 
-    void judge(const Stretch& stretch, const LayerPicture& unheld, int i) {
+    void judge(const Stretch& stretch, int i, Tips tips) {
         const auto place = [&](PixelPlace p) { return dvec2(grid_.place(p.x, p.y, 0)); };
         // Its ends: the furthest from any, and the furthest from that.
         const auto furthest_from = [&](PixelPlace from) {
@@ -130,9 +138,8 @@ class PartWalk {
             const dvec2 d = place(p) - a;
             return std::abs(chord.x * d.y - chord.y * d.x) / length <= limits_.width / 2 + slack_;
         });
-        const dvec2 beyond = chord / length * slack_;
-        if (straight && length <= limits_.bridge + slack_ && solid_about(a - beyond, unheld, i) &&
-            solid_about(a + chord + beyond, unheld, i)) {
+        if (straight && length <= limits_.bridge + slack_ && held_about(first, i, tips) &&
+            held_about(last, i, tips)) {
             ++findings_.own_bridges;
             return;
         }
@@ -143,13 +150,12 @@ class PartWalk {
         }
     }
 
-    /// Whether the layer is solid at a place or next to it and not unheld there.
-    bool solid_about(dvec2 p, const LayerPicture& unheld, int i) const {
-        const int x0 = static_cast<int>((p.x - grid_.band.along_origin) / grid_.pixel);
-        const int y0 = static_cast<int>((p.y - grid_.band.across_origin) / grid_.pixel);
-        for (int y = y0 - 1; y <= y0 + 1; ++y) {
-            for (int x = x0 - 1; x <= x0 + 1; ++x) {
-                if (layer(i).at(x, y) && !unheld.at(x, y)) return true;
+    /// Whether something near a place of a layer is held.
+    bool held_about(PixelPlace p, int i, Tips tips) const {
+        const int r = static_cast<int>(std::ceil((limits_.overhang + slack_) / grid_.pixel));
+        for (int y = p.y - r; y <= p.y + r; ++y) {
+            for (int x = p.x - r; x <= p.x + r; ++x) {
+                if (layer(i).at(x, y) && held(x, y, i, tips)) return true;
             }
         }
         return false;
@@ -190,7 +196,7 @@ class DenseSupport {
         const LayerPicture& below = layers_[static_cast<std::size_t>(i - 1)];
         LayerPicture hanging(here.width(), here.height());
         here.visit([&](int x, int y) {
-            if (!grid_.near(below, x, y, limits_.overhang)) hanging.set(x, y, true);
+            if (!grid_.near(below, x, y, limits_.overhang + grid_.blur())) hanging.set(x, y, true);
         });
         LayerPicture left = hanging;
         hanging.visit([&](int x0, int y0) {

@@ -9,6 +9,7 @@
 
 #include "procedural/scaffold.h"
 #include "procedural/scaffold_field.h"
+#include "tests/engine/overhang_scenes.h"
 #include "tests/procedural/layer_picture.h"
 
 namespace lamella {
@@ -69,9 +70,10 @@ class StackPieces {
     std::vector<dvec3> places_;
 };
 
-/// Allows for: what stands out over the layer below by at most `follow` and 0.7 of a pixel; the first layer of
+/// Allows for: what stands out over the layer below by at most `follow`; the first layer of
 /// a bar between its ends; less room than the clearance about contacts, as far as a connector that leaves the
-/// part at 24 degrees or more needs (a pillar's cone: wherever it is); 0.07 mm where the clearance is asked.
+/// part at 24 degrees or more needs (of a pillar's cone: 35), from 0.5 mm on where a tip begins within the part;
+/// 0.07 mm where the clearance is asked.
 class ScaffoldWalk {
   public:
     /// part_layers are those of the grid, which must enclose part and scaffold. follow in mm.
@@ -114,6 +116,7 @@ class ScaffoldWalk {
     struct Contact {
         dvec3 at;
         double radius, slope;
+        double sunk;  ///< within the part, as far as a tip may begin there
     };
 
     void note(const std::string& what, dvec3 p) {
@@ -134,11 +137,14 @@ class ScaffoldWalk {
 
     void find_contacts() {
         constexpr double at_part = 0.1;
+        constexpr double deepest = 0.5;
         const double thick = scaffold_.shape.bar_width / 2;
         const auto add = [&](dvec3 end, const Beam& beam) {
-            if (std::abs(part_.value(end)) > at_part + scaffold_.shape.gap + scaffold_.shape.tip / 2) return;
-            const double widest = std::max(beam.ra, beam.rb);
-            contacts_.push_back(widest > thick + 1e-9 ? Contact{end, widest, 0.7} : Contact{end, thick, 0.4});
+            const double room = part_.value(end);
+            if (std::abs(room) > at_part + scaffold_.shape.gap + scaffold_.shape.tip / 2) return;
+            const double widest = std::max(beam.ra, beam.rb), sunk = room < -0.03 ? deepest : 0;
+            contacts_.push_back(widest > thick + 1e-9 ? Contact{end, widest, 0.7, sunk}
+                                                      : Contact{end, thick, 0.4, sunk});
         };
         for (const Beam& beam : scaffold_.connectors) {
             add(beam.a, beam);
@@ -184,7 +190,7 @@ class ScaffoldWalk {
         double needed = scaffold_.shape.clearance;
         for (const Contact& contact : contacts_) {
             // The nearest place of its axis is as much nearer to the contact as the connector is thick.
-            const double along = glm::distance(contact.at, p) - contact.radius - sure;
+            const double along = glm::distance(contact.at, p) - contact.radius - contact.sunk - sure;
             needed = std::min(needed, contact.slope * along - contact.radius);
         }
         return needed - slack;
@@ -221,6 +227,10 @@ class ScaffoldWalk {
         support.visit([&](int x, int y) {
             if (grid_.near(below, x, y, follow_) || grid_.near(part_below, x, y, follow_)) return;
             const dvec3 p = grid_.place(x, y, grid_.plane(layer));
+            // What is thinner than pixels can show is asked of the fields.
+            for (const Field* solid : {field_.get(), &part_}) {
+                if (overhangs::disc_meets(*solid, dvec2(p), grid_.plane(layer - 1), follow_)) return;
+            }
             if (in_new_bar(p)) return;
             ++findings_.hanging;
             note("hanging support", p);
