@@ -10,6 +10,7 @@ constexpr double least_step = 0.1;  // mm; between two points so far apart the r
 constexpr double far_enough =
     4;  // mm of room beyond what is needed; to know of more costs more than it saves
 constexpr double on_surface = 0.02;  // mm
+constexpr double deepest_contact = 0.5;  // mm; half a bead within a steep wall
 
 /// The corners, edges and faces of a cube as directions of length 1.
 const std::array<dvec3, 26>& directions_about() {
@@ -66,13 +67,26 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
     }
 }
 
+/// The way to the surface from a contact within the part, mm; 0 from one on it.
+std::optional<double> FreeSpace::leaves_part(dvec3 contact, dvec3 way) const {
+    double at = 0;
+    for (double here = room(contact, deepest_contact); here < -2 * on_surface;
+         here = room(contact + way * at, deepest_contact)) {
+        at += std::max(-here, on_surface);
+        if (at > deepest_contact) return std::nullopt;
+    }
+    return at;
+}
+
 bool FreeSpace::clear_from_contact(dvec3 contact, dvec3 end, double distance, double slope) const {
     const double length = glm::distance(contact, end);
     if (!(length > 0)) return true;
     const dvec3 way = (end - contact) / length;
-    double at = std::min(3 * least_step, length);
+    const std::optional<double> left = leaves_part(contact, way);
+    if (!left) return false;
+    double at = std::min(*left + 3 * least_step, length);
     while (true) {
-        const double needed = std::min(distance, slope * (at - least_step));
+        const double needed = std::min(distance, slope * (at - *left - least_step));
         const double here = room(contact + way * at, distance + far_enough);
         if (here < needed) return false;
         if (at >= length) return true;

@@ -22,7 +22,8 @@ class FreeSpace {
     bool clear(dvec3 a, dvec3 b, double distance) const;
     /// Whether a line that leaves the part at `contact` soon is `distance` away and stays so: near the
     /// contact it need only have `slope` mm of room for each mm of its way. There are 0.4 beside a surface at
-    /// 24 degrees to it.
+    /// 24 degrees to it. A contact within the part counts from where the line comes out of it, if that is
+    /// within 0.5 mm.
     bool clear_from_contact(dvec3 contact, dvec3 end, double distance, double slope = 0.4) const;
     /// How far a line from p in a direction (of length 1, downward) goes.
     struct Fall {
@@ -35,6 +36,7 @@ class FreeSpace {
 
   private:
     double probed_room(dvec3 p, double limit) const;
+    std::optional<double> leaves_part(dvec3 contact, dvec3 way) const;
 
     const Field& part_;
     double bed_;

@@ -60,6 +60,23 @@ bool LegFinder::level_enough(dvec3 place) const {
     return space_.room(place - dvec3(0, 0, below), below) < -0.5 * below;
 }
 
+/// The nearest height between layers that is not above z.
+double LegFinder::layer_below(double z) const {
+    constexpr double share_of_layer = 1e-6;
+    const double layers = std::floor((z - shape_.bed) / shape_.layer_height + share_of_layer);
+    return shape_.bed + layers * shape_.layer_height;
+}
+
+/// The radius at the foot of a leaning piece that is so thick at its upper end: a thin one, unless its lower
+/// side would then lean more than layers can follow.
+double LegFinder::foot_radius(double upper, double length, dvec3 way) const {
+    const double cosine = -way.z, sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    const double most_cosine = 1 / std::sqrt(1 + shape_.lean * shape_.lean);
+    const double sine_left = shape_.lean * most_cosine * cosine - most_cosine * sine;
+    const double thinnest = upper - length * std::max(0.0, sine_left);
+    return std::min(upper, std::max(shape_.tip / 2, thinnest));
+}
+
 /// A pillar straight down from a place that is clear of the part.
 std::optional<Leg> LegFinder::upright(dvec3 top) const {
     const double half = shape_.pillar / 2, needed = shape_.clearance + half;
@@ -78,8 +95,10 @@ std::optional<Leg> LegFinder::upright(dvec3 top) const {
     if (!level_enough({at, surface})) return std::nullopt;
     // The cone on which the pillar stands widens no faster than layers can follow, and stands on what is
     // level enough.
-    const double widening = std::max(shape_.connector, (half - shape_.tip / 2) / shape_.lean);
-    const double bottom = std::max(top.z - fall.clear, surface + widening);
+    const double sine = shape_.lean / std::sqrt(1 + shape_.lean * shape_.lean);
+    const double widening = std::max(shape_.connector, (half - shape_.tip / 2) / sine);
+    const double bottom =
+        layer_below(std::max(top.z - fall.clear, surface + widening)) + shape_.layer_height;
     if (bottom > top.z - shape_.connector || bottom > surface + 2 * widening) return std::nullopt;
     const Beam cone{dvec3(at, surface), shape_.tip / 2, dvec3(at, bottom), half};
     if (!space_.clear_from_contact(cone.a, cone.b, needed, 0.7)) return std::nullopt;
@@ -102,7 +121,8 @@ std::optional<Leg> LegFinder::best_detour(dvec3 top, double least_rise, double t
         const double lateral = ring.share_of_reach * shape_.reach;
         for (int k = 0; k < ring.ways; ++k) {
             const double rise = std::max(least_rise, lateral / shape_.lean);
-            const dvec3 foot = top + dvec3(direction(k, ring.ways) * lateral, -rise);
+            const dvec2 at = dvec2(top) + direction(k, ring.ways) * lateral;
+            const dvec3 foot(at, rise > 0 ? layer_below(top.z - rise) : top.z);
             if (foot.z < shape_.bed + shape_.foot_height) continue;
             const double room_for_pillar = shape_.clearance + shape_.pillar / 2;
             if (space_.room(foot, room_for_pillar) < room_for_pillar) continue;
@@ -151,8 +171,12 @@ std::optional<Leg> LegFinder::strut_along(dvec3 top, dvec3 way, bool contact) co
     if (!clear) return std::nullopt;
     Leg leg;
     const double top_radius = contact ? shape_.tip / 2 : radius;
-    const double end_radius = fall.hits ? shape_.tip / 2 : radius;
-    if (length > 2 * shape_.connector) {
+    const bool long_enough = length > 2 * shape_.connector;  // to be thicker midway
+    double end_radius = radius;
+    if (fall.hits) {
+        end_radius = long_enough ? foot_radius(radius, length / 2, way) : foot_radius(top_radius, length, way);
+    }
+    if (long_enough) {
         leg.connectors = {{top, top_radius, middle, radius}, {middle, radius, end, end_radius}};
     } else {
         leg.connectors = {{top, top_radius, end, end_radius}};
@@ -160,7 +184,7 @@ std::optional<Leg> LegFinder::strut_along(dvec3 top, dvec3 way, bool contact) co
     leg.landing = end.z;
     leg.on_bed = !fall.hits;
     leg.length = length;
-    if (leg.on_bed && length > 2 * shape_.connector) {
+    if (leg.on_bed && long_enough) {
         const double foot = foot_room(dvec2(end));
         const double top_of_foot = shape_.bed + shape_.foot_height;
         if (foot >= shape_.pillar / 2) leg.pillar = ScaffoldPillar{dvec2(end), shape_.bed, top_of_foot, foot};
@@ -200,7 +224,7 @@ Leg LegFinder::stub(dvec3 top) const {
 
 std::optional<Leg> LegFinder::under_point(dvec3 point) const {
     const dvec3 top = tip_center(point);
-    if (top.z - shape_.bed <= 2 * shape_.layer_height) return stub(top);
+    if (top.z - shape_.bed < 2.5 * shape_.layer_height) return stub(top);
     std::optional<Leg> leg = best_detour(top, shape_.connector, shape_.tip / 2, true);
     if (leg && leg->on_bed) return leg;
     // Where short, thin struts leave smaller marks on the part than pillars.

@@ -43,6 +43,8 @@ class LegFinder {
     std::optional<Leg> strut(dvec3 top, double longest, bool contact) const;
     bool level_enough(dvec3 place) const;
     Leg stub(dvec3 top) const;
+    double layer_below(double z) const;
+    double foot_radius(double upper, double length, dvec3 way) const;
     double foot_room(dvec2 at) const;
 
     const FreeSpace& space_;

@@ -67,6 +67,15 @@ void check_shape(const ScaffoldShape& shape) {
             "the longest connector must be longer than the shortest");
 }
 
+/// The shape with the heights of bars and feet in whole layers.
+ScaffoldShape in_layers(ScaffoldShape shape) {
+    constexpr double share_of_layer = 1e-6;
+    for (double* height : {&shape.bar_height, &shape.foot_height}) {
+        *height = std::ceil(*height / shape.layer_height - share_of_layer) * shape.layer_height;
+    }
+    return shape;
+}
+
 class Synthesis {
   public:
     Synthesis(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
@@ -334,7 +343,7 @@ void Synthesis::stand() {
 Scaffold build_scaffold(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
                         const SynthesisOptions& options) {
     check_shape(shape);
-    return Synthesis(points, part, shape, options).run();
+    return Synthesis(points, part, in_layers(shape), options).run();
 }
 
 }  // namespace lamella

@@ -9,23 +9,11 @@
 #include "tests/engine/overhang_scenes.h"
 
 using namespace lamella;
+using overhangs::disc_meets;
 using overhangs::height;
 using overhangs::near_point;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-/// Whether the part lies within `reach` of q in the plane at height z: the field asked on a disc.
-bool disc_meets(const Field& part, dvec2 q, double z, double reach) {
-    for (int r = 0; r <= 8; ++r) {
-        for (int k = 0; k < 32; ++k) {
-            const double a = 2 * pi * k / 32, d = reach * r / 8;
-            if (part.value({q.x + d * std::cos(a), q.y + d * std::sin(a), z}) < 0) return true;
-        }
-    }
-    return false;
-}
 
 struct Sampled {
     std::vector<dvec2> at;  ///< about a step apart along a closed outline

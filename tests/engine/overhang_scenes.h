@@ -25,4 +25,15 @@ inline bool near_point(const OverhangSurvey& survey, dvec3 p, double distance) {
     });
 }
 
+/// Whether the part lies within `reach` of q in the plane at height z: the field asked on a disc.
+inline bool disc_meets(const Field& part, dvec2 q, double z, double reach) {
+    for (int r = 0; r <= 8; ++r) {
+        for (int k = 0; k < 32; ++k) {
+            const double a = 2 * 3.14159265358979323846 * k / 32, d = reach * r / 8;
+            if (part.value({q.x + d * std::cos(a), q.y + d * std::sin(a), z}) < 0) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace lamella::overhangs

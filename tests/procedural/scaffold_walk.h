@@ -9,133 +9,156 @@
 
 #include "procedural/scaffold.h"
 #include "procedural/scaffold_field.h"
-#include "tests/engine/plane_runs.h"
+#include "tests/engine/overhang_scenes.h"
+#include "tests/procedural/layer_picture.h"
 
 namespace lamella {
 
-/// A layer as pixels.
-struct LayerPicture {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> pixels;
-    bool at(int x, int y) const {
-        return x >= 0 && y >= 0 && x < width && y < height &&
-               pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x)] != 0;
-    }
-};
-
-inline LayerPicture picture_of(const Field& field, double z, const RowBand& band) {
-    LayerPicture picture{band.hi, band.count, {}};
-    picture.pixels.assign(static_cast<std::size_t>(band.hi) * static_cast<std::size_t>(band.count), 0);
-    const SpanRows rows = runs_at(field, z, band);
-    for (int y = 0; y < band.count; ++y) {
-        for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
-            for (int x = (run.begin + run_unit / 2 - 1) / run_unit; x * run_unit + run_unit / 2 < run.end;
-                 ++x) {
-                picture.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(band.hi) +
-                               static_cast<std::size_t>(x)] = 1;
-            }
-        }
-    }
-    return picture;
-}
-
+/// What is wrong with a scaffold, counted.
 struct ScaffoldFindings {
-    std::size_t hanging = 0;      ///< pixels of support that the layer below and no bar carries
-    std::size_t loose_bars = 0;   ///< bars of which an end has nothing under it
+    std::size_t hanging = 0;      ///< pixels of support that neither the layer below nor a bar carries
+    std::size_t loose_bars = 0;   ///< ends of bars with nothing under them
     std::size_t floating = 0;     ///< pieces that stand neither on the bed nor on the part
     std::size_t in_part = 0;      ///< pixels in the part, or nearer than the clearance, away from contacts
     std::size_t long_bars = 0;    ///< bars longer than allowed
     std::size_t not_reached = 0;  ///< held points without a connector's tip
-    double volume = 0;            ///< of the supports, mm^3
+    double volume = 0;            ///< of the supports outside the part, mm^3
     std::string where;            ///< of the first finding
+    std::size_t total() const {
+        return hanging + loose_bars + floating + in_part + long_bars + not_reached;
+    }
 };
 
+/// Pieces of a stack of layers, joined as pixels touch each other.
+class StackPieces {
+  public:
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    std::uint32_t add(dvec3 place) {
+        const auto piece = static_cast<std::uint32_t>(parents_.size());
+        parents_.push_back(piece);
+        grounded_.push_back(false);
+        places_.push_back(place);
+        return piece;
+    }
+    std::uint32_t find(std::uint32_t n) {
+        while (parents_[n] != n) n = parents_[n] = parents_[parents_[n]];
+        return n;
+    }
+    /// The piece that both have become; one of them may be none yet.
+    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
+        if (a == none) return find(b);
+        a = find(a);
+        b = find(b);
+        const std::uint32_t first = std::min(a, b), second = std::max(a, b);
+        if (first != second) grounded_[first] = grounded_[first] || grounded_[second];
+        return parents_[second] = first;
+    }
+    void ground(std::uint32_t n) { grounded_[find(n)] = true; }
+    /// Where pieces that are not grounded begin.
+    std::vector<dvec3> floating() {
+        std::vector<dvec3> places;
+        for (std::uint32_t n = 0; n < parents_.size(); ++n) {
+            if (parents_[n] == n && !grounded_[n]) places.push_back(places_[n]);
+        }
+        return places;
+    }
+
+  private:
+    std::vector<std::uint32_t> parents_;
+    std::vector<bool> grounded_;
+    std::vector<dvec3> places_;
+};
+
+/// Allows for: what stands out over the layer below by at most `follow`; the first layer of
+/// a bar between its ends; less room than the clearance about contacts, as far as a connector that leaves the
+/// part at 24 degrees or more needs (of a pillar's cone: 35), from 0.5 mm on where a tip begins within the part;
+/// 0.07 mm where the clearance is asked.
 class ScaffoldWalk {
   public:
-    /// follow: how far a layer may stand out over the one below, mm.
-    ScaffoldWalk(const Scaffold& scaffold, const Field& part, double follow, double pixel = 0.15)
+    /// part_layers are those of the grid, which must enclose part and scaffold. follow in mm.
+    ScaffoldWalk(const Scaffold& scaffold, const Field& part, const LayerGrid& grid,
+                 const std::vector<LayerPicture>& part_layers, double follow)
         : scaffold_(scaffold),
           part_(part),
           field_(make_scaffold_field(scaffold)),
-          follow_(follow),
-          pixel_(pixel) {
-        Box box = unite(part.bounds(), field_->bounds());
-        box.lo.z = scaffold.shape.bed;
-        box_ = grown(box, 1);
-        band_ = band_over(box_, pixel);
-        for (const SupportPoint& point : scaffold.points) contacts_.push_back(point.at);
-        for (const Beam& beam : scaffold.connectors) {
-            if (beam.ra == scaffold.shape.tip / 2) contacts_.push_back(beam.a);
-            if (beam.rb == scaffold.shape.tip / 2) contacts_.push_back(beam.b);
-        }
+          grid_(grid),
+          part_layers_(part_layers),
+          follow_(follow) {
+        find_contacts();
     }
 
     ScaffoldFindings run() {
-        check_pieces();
-        const ScaffoldShape& shape = scaffold_.shape;
-        const int layers =
-            static_cast<int>(std::ceil((field_->bounds().hi.z - shape.bed) / shape.layer_height));
-        LayerPicture below_support, below_part;
+        check_bars();
+        check_points();
+        LayerPicture below;
         std::vector<std::uint32_t> below_labels;
-        for (int i = 0; i < layers; ++i) {
-            const double z = shape.bed + (i + 0.5) * shape.layer_height;
-            LayerPicture support = picture_of(*field_, z, band_);
-            const LayerPicture part = picture_of(part_, z, band_);
-            check_room(support, part, z);
-            for (std::size_t k = 0; k < support.pixels.size(); ++k) {
-                if (part.pixels[k]) support.pixels[k] = 0;
-            }
-            if (i > 0) check_carried(support, below_support, below_part, z);
-            below_labels = join(support, below_support, below_labels, below_part, part, i == 0);
-            for (const std::uint8_t p : support.pixels)
-                findings_.volume += p * pixel_ * pixel_ * shape.layer_height;
-            below_support = std::move(support);
-            below_part = part;
+        for (int i = 0; i < grid_.layers; ++i) {
+            LayerPicture support = picture_of(*field_, grid_.plane(i), grid_.band);
+            check_room(support, i);
+            const LayerPicture& part = part_layers_[static_cast<std::size_t>(i)];
+            part.visit([&](int x, int y) { support.set(x, y, false); });
+            if (i > 0) check_carried(support, below, i);
+            below_labels = label(support, below, below_labels, i);
+            findings_.volume += static_cast<double>(support.count()) * grid_.pixel * grid_.pixel *
+                                grid_.layer_height;
+            below = std::move(support);
         }
-        for (std::uint32_t n = 0; n < parents_.size(); ++n) {
-            if (parents_[n] == n && !grounded_[n]) {
-                ++findings_.floating;
-                note("floating piece", places_[n]);
-            }
+        for (const dvec3& place : pieces_.floating()) {
+            ++findings_.floating;
+            note("floating piece", place);
         }
         return findings_;
     }
 
   private:
-    dvec3 place(int x, int y, double z) const {
-        return {box_.lo.x + (x + 0.5) * pixel_, box_.lo.y + (y + 0.5) * pixel_, z};
-    }
+    /// Where a connector meets the part. Away from it the room is to grow by `slope` for each mm.
+    struct Contact {
+        dvec3 at;
+        double radius, slope;
+        double sunk;  ///< within the part, as far as a tip may begin there
+    };
+
     void note(const std::string& what, dvec3 p) {
         if (findings_.where.empty()) {
             findings_.where =
                 what + " at " + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z);
         }
     }
-    double from_contact(dvec3 p) const {
-        double nearest = infinity;
-        for (const dvec3& contact : contacts_) nearest = std::min(nearest, glm::distance(contact, p));
-        return nearest;
+    bool held(std::size_t point) const {
+        const auto& unheld = scaffold_.unheld;
+        return std::find(unheld.begin(), unheld.end(), point) == unheld.end();
     }
-    /// Whether any pixel within `reach` mm of (x, y) is set.
-    bool near(const LayerPicture& picture, int x, int y, double reach) const {
-        const int r = static_cast<int>(std::ceil(reach / pixel_));
-        for (int j = -r; j <= r; ++j) {
-            for (int i = -r; i <= r; ++i) {
-                if (std::sqrt(double(i * i + j * j)) * pixel_ <= reach + 0.71 * pixel_ &&
-                    picture.at(x + i, y + j)) {
-                    return true;
-                }
-            }
-        }
-        return false;
+    dvec3 tip_of(std::size_t point) const {
+        const ScaffoldShape& shape = scaffold_.shape;
+        const double lower = shape.gap > 0 ? shape.gap + shape.tip / 2 : 0;
+        return scaffold_.points[point].at - dvec3(0, 0, lower);
     }
 
-    void check_pieces() {
+    void find_contacts() {
+        constexpr double at_part = 0.1;
+        constexpr double deepest = 0.5;
+        const double thick = scaffold_.shape.bar_width / 2;
+        const auto add = [&](dvec3 end, const Beam& beam) {
+            const double room = part_.value(end);
+            if (std::abs(room) > at_part + scaffold_.shape.gap + scaffold_.shape.tip / 2) return;
+            const double widest = std::max(beam.ra, beam.rb), sunk = room < -0.03 ? deepest : 0;
+            contacts_.push_back(widest > thick + 1e-9 ? Contact{end, widest, 0.7, sunk}
+                                                      : Contact{end, thick, 0.4, sunk});
+        };
+        for (const Beam& beam : scaffold_.connectors) {
+            add(beam.a, beam);
+            add(beam.b, beam);
+        }
+    }
+
+    void check_bars() {
         const ScaffoldShape& shape = scaffold_.shape;
         for (const ScaffoldBar& bar : scaffold_.bars) {
-            if (glm::distance(bar.a, bar.b) > shape.bridge + 1e-9) ++findings_.long_bars;
-            // What lies directly under an end: sampled right below the bar.
+            if (glm::distance(bar.a, bar.b) > shape.bridge + 1e-9) {
+                ++findings_.long_bars;
+                note("long bar", bar.a);
+            }
             for (const dvec3& end : {bar.a, bar.b}) {
                 const dvec3 under = end - dvec3(0, 0, shape.bar_height + 0.25 * shape.layer_height);
                 if (field_->value(under) >= 0 && part_.value(under) >= 0) {
@@ -144,12 +167,12 @@ class ScaffoldWalk {
                 }
             }
         }
+    }
+
+    void check_points() {
         for (std::size_t k = 0; k < scaffold_.points.size(); ++k) {
-            if (std::find(scaffold_.unheld.begin(), scaffold_.unheld.end(), k) != scaffold_.unheld.end()) {
-                continue;
-            }
-            dvec3 tip = scaffold_.points[k].at;
-            if (shape.gap > 0) tip.z -= shape.gap + shape.tip / 2;
+            if (!held(k)) continue;
+            const dvec3 tip = tip_of(k);
             const bool reached =
                 std::any_of(scaffold_.connectors.begin(), scaffold_.connectors.end(), [&](const Beam& beam) {
                     return glm::distance(beam.a, tip) < 1e-9 || glm::distance(beam.b, tip) < 1e-9;
@@ -161,22 +184,30 @@ class ScaffoldWalk {
         }
     }
 
-    void check_room(const LayerPicture& support, const LayerPicture& part, double z) {
-        constexpr double about_contact = 3.2;  // mm, where a connector has come as far away as it must
-        constexpr double slack = 0.07;
-        const double clearance = scaffold_.shape.clearance;
-        for (int y = 0; y < support.height; ++y) {
-            for (int x = 0; x < support.width; ++x) {
-                if (!support.at(x, y)) continue;
-                if (!near(part, x, y, clearance)) continue;
-                const dvec3 p = place(x, y, z);
-                if (part_.value(p) >= clearance - slack || from_contact(p) < about_contact) continue;
-                ++findings_.in_part;
-                note("too near to the part", p);
-            }
+    /// How far from the part a piece of support must be at p.
+    double room_needed(dvec3 p) const {
+        constexpr double slack = 0.07, sure = 0.1;
+        double needed = scaffold_.shape.clearance;
+        for (const Contact& contact : contacts_) {
+            // The nearest place of its axis is as much nearer to the contact as the connector is thick.
+            const double along = glm::distance(contact.at, p) - contact.radius - contact.sunk - sure;
+            needed = std::min(needed, contact.slope * along - contact.radius);
         }
+        return needed - slack;
     }
 
+    void check_room(const LayerPicture& support, int layer) {
+        const double clearance = scaffold_.shape.clearance;
+        support.visit([&](int x, int y) {
+            const dvec3 p = grid_.place(x, y, grid_.plane(layer));
+            const double room = part_.value_within(p, clearance);
+            if (room >= clearance || room >= room_needed(p)) return;
+            ++findings_.in_part;
+            note("too near to the part", p);
+        });
+    }
+
+    /// In a layer's lowest bead of a bar, which is laid from end to end.
     bool in_new_bar(dvec3 p) const {
         const ScaffoldShape& shape = scaffold_.shape;
         return std::any_of(scaffold_.bars.begin(), scaffold_.bars.end(), [&](const ScaffoldBar& bar) {
@@ -186,93 +217,78 @@ class ScaffoldWalk {
             const double length = std::sqrt(glm::dot(way, way));
             const dvec2 u = way / length, d = dvec2(p) - dvec2(bar.a);
             const double along = glm::dot(d, u), across = glm::dot(d, dvec2(-u.y, u.x));
-            const double half = shape.bar_width / 2 + pixel_;
+            const double half = shape.bar_width / 2 + grid_.pixel;
             return std::abs(across) <= half && along >= -half && along <= length + half;
         });
     }
 
-    void check_carried(const LayerPicture& support, const LayerPicture& below_support,
-                       const LayerPicture& below_part, double z) {
-        for (int y = 0; y < support.height; ++y) {
-            for (int x = 0; x < support.width; ++x) {
-                if (!support.at(x, y) || below_support.at(x, y) || below_part.at(x, y)) continue;
-                if (near(below_support, x, y, follow_) || near(below_part, x, y, follow_)) continue;
-                const dvec3 p = place(x, y, z);
-                if (in_new_bar(p)) continue;
-                ++findings_.hanging;
-                note("hanging support", p);
+    void check_carried(const LayerPicture& support, const LayerPicture& below, int layer) {
+        const LayerPicture& part_below = part_layers_[static_cast<std::size_t>(layer - 1)];
+        support.visit([&](int x, int y) {
+            if (grid_.near(below, x, y, follow_) || grid_.near(part_below, x, y, follow_)) return;
+            const dvec3 p = grid_.place(x, y, grid_.plane(layer));
+            // What is thinner than pixels can show is asked of the fields.
+            for (const Field* solid : {field_.get(), &part_}) {
+                if (overhangs::disc_meets(*solid, dvec2(p), grid_.plane(layer - 1), follow_)) return;
             }
-        }
+            if (in_new_bar(p)) return;
+            ++findings_.hanging;
+            note("hanging support", p);
+        });
     }
 
-    std::uint32_t find(std::uint32_t n) {
-        while (parents_[n] != n) n = parents_[n] = parents_[parents_[n]];
-        return n;
-    }
-    void unite_labels(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        if (a == b) return;
-        parents_[std::max(a, b)] = std::min(a, b);
-        grounded_[std::min(a, b)] = grounded_[std::min(a, b)] || grounded_[std::max(a, b)];
-    }
     /// Labels a layer's pixels by the piece that they belong to, and joins pieces with those below.
-    std::vector<std::uint32_t> join(const LayerPicture& support, const LayerPicture& below,
-                                    const std::vector<std::uint32_t>& below_labels,
-                                    const LayerPicture& below_part, const LayerPicture& part, bool on_bed) {
-        std::vector<std::uint32_t> labels(support.pixels.size(), UINT32_MAX);
-        const auto index = [&](int x, int y) {
-            return static_cast<std::size_t>(y) * static_cast<std::size_t>(support.width) +
-                   static_cast<std::size_t>(x);
-        };
-        for (int y = 0; y < support.height; ++y) {
-            for (int x = 0; x < support.width; ++x) {
-                if (!support.at(x, y)) continue;
-                std::uint32_t& label = labels[index(x, y)];
-                for (const auto& [i, j] :
-                     {std::pair(-1, 0), std::pair(0, -1), std::pair(-1, -1), std::pair(1, -1)}) {
-                    if (!support.at(x + i, y + j)) continue;
-                    const std::uint32_t other = labels[index(x + i, y + j)];
-                    if (label == UINT32_MAX) {
-                        label = find(other);
-                    } else {
-                        unite_labels(label, other);
-                    }
+    std::vector<std::uint32_t> label(const LayerPicture& support, const LayerPicture& below,
+                                     const std::vector<std::uint32_t>& below_labels, int layer) {
+        constexpr PixelPlace before[] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1}};
+        constexpr PixelPlace under[] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+        const LayerPicture& part = part_layers_[static_cast<std::size_t>(layer)];
+        std::vector<std::uint32_t> labels(
+            static_cast<std::size_t>(support.width()) * static_cast<std::size_t>(support.height()),
+            StackPieces::none);
+        support.visit([&](int x, int y) {
+            std::uint32_t& label = labels[support.number(x, y)];
+            for (const auto& [i, j] : before) {
+                if (support.at(x + i, y + j)) {
+                    label = pieces_.join(label, labels[support.number(x + i, y + j)]);
                 }
-                for (const auto& [i, j] : {std::pair(0, 0), std::pair(1, 0), std::pair(-1, 0),
-                                           std::pair(0, 1), std::pair(0, -1)}) {
-                    if (!below.at(x + i, y + j)) continue;
-                    const std::uint32_t other = below_labels[index(x + i, y + j)];
-                    if (label == UINT32_MAX) {
-                        label = find(other);
-                    } else {
-                        unite_labels(label, other);
-                    }
-                }
-                if (label == UINT32_MAX) {
-                    label = static_cast<std::uint32_t>(parents_.size());
-                    parents_.push_back(label);
-                    grounded_.push_back(false);
-                    places_.push_back(place(x, y, 0));
-                }
-                const bool touches = near(part, x, y, 0) || near(below_part, x, y, pixel_);
-                if (on_bed || touches) grounded_[find(label)] = true;
             }
-        }
+            for (const auto& [i, j] : under) {
+                if (below.at(x + i, y + j)) {
+                    label = pieces_.join(label, below_labels[below.number(x + i, y + j)]);
+                }
+            }
+            if (label == StackPieces::none) label = pieces_.add(grid_.place(x, y, grid_.plane(layer)));
+            const bool on_part =
+                layer > 0 &&
+                grid_.near(part_layers_[static_cast<std::size_t>(layer - 1)], x, y, grid_.pixel);
+            if (layer == 0 || on_part || grid_.near(part, x, y, 0)) pieces_.ground(label);
+        });
         return labels;
     }
 
     const Scaffold& scaffold_;
     const Field& part_;
     FieldPtr field_;
-    double follow_, pixel_;
-    Box box_;
-    RowBand band_;
-    std::vector<dvec3> contacts_;
+    const LayerGrid& grid_;
+    const std::vector<LayerPicture>& part_layers_;
+    double follow_;
+    std::vector<Contact> contacts_;
     ScaffoldFindings findings_;
-    std::vector<std::uint32_t> parents_;
-    std::vector<bool> grounded_;
-    std::vector<dvec3> places_;
+    StackPieces pieces_;
 };
+
+/// A grid about a part and its scaffold.
+inline LayerGrid grid_about(const Field& part, const Scaffold& scaffold, double pixel) {
+    const Box box = unite(part.bounds(), make_scaffold_field(scaffold)->bounds());
+    return {grown(box, 5 * pixel), scaffold.shape.bed, scaffold.shape.layer_height, pixel};
+}
+
+/// The walk with all that it needs.
+inline ScaffoldFindings walk_scaffold(const Scaffold& scaffold, const Field& part, double follow = 0.225,
+                                      double pixel = 0.15) {
+    const LayerGrid grid = grid_about(part, scaffold, pixel);
+    return ScaffoldWalk(scaffold, part, grid, pictures_of(part, grid), follow).run();
+}
 
 }  // namespace lamella
