@@ -1,4 +1,4 @@
-// A JSON file a plan, read with every size and number checked.
+// A JSON file a plan with a hash of its contents, read with every size and number checked.
 #include "app/support_plan.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <fstream>
+
+#include "app/identity.h"
 
 namespace lamella {
 
@@ -20,38 +22,60 @@ constexpr SupportReason last_reason = SupportReason::stability;
 
 fs::path file_of(const fs::path& folder, const std::string& hash) { return folder / (hash + ".json"); }
 
+std::string contents_hash(const Json& contents) {
+    Fnv128 hash;
+    hash.add(contents.dump());
+    return hash.hex();
+}
+
+double number(const Json& json) {
+    if (!json.is_number() || !std::isfinite(json.get<double>())) throw std::runtime_error("not a number");
+    return json.get<double>();
+}
+
+std::size_t whole(const Json& json) {
+    if (!json.is_number_unsigned()) throw std::runtime_error("not a whole number");
+    return json.get<std::size_t>();
+}
+
 /// Exactly `count` finite numbers.
 std::vector<double> row(const Json& json, std::size_t count) {
-    auto numbers = json.get<std::vector<double>>();
-    if (numbers.size() != count) throw std::runtime_error("a row of the wrong length");
-    for (const double number : numbers) {
-        if (!std::isfinite(number)) throw std::runtime_error("a number that is not finite");
-    }
+    if (!json.is_array() || json.size() != count) throw std::runtime_error("a row of the wrong length");
+    std::vector<double> numbers;
+    for (const Json& entry : json) numbers.push_back(number(entry));
     return numbers;
 }
 
 SupportPoint point_from(const Json& json) {
     const auto n = row(json, 4);
-    if (n[3] < 0 || n[3] > static_cast<double>(last_reason)) throw std::runtime_error("an unknown reason");
-    return {{n[0], n[1], n[2]}, static_cast<SupportReason>(n[3])};
+    const std::size_t reason = whole(json[3]);
+    if (reason > static_cast<std::size_t>(last_reason)) throw std::runtime_error("an unknown reason");
+    return {{n[0], n[1], n[2]}, static_cast<SupportReason>(reason)};
+}
+
+/// Which of the points are not held, in rising order.
+std::vector<std::size_t> unheld_from(const Json& json, std::size_t points) {
+    std::vector<std::size_t> unheld;
+    for (const Json& entry : json) {
+        const std::size_t index = whole(entry);
+        if (index >= points) throw std::runtime_error("no such point");
+        if (!unheld.empty() && index <= unheld.back()) throw std::runtime_error("points out of order");
+        unheld.push_back(index);
+    }
+    return unheld;
 }
 
 SupportPlan plan_from(const Json& json) {
     SupportPlan plan;
     const Json& survey = json.at("survey");
-    plan.survey.hanging_length = survey.at("hanging_length_mm").get<double>();
-    plan.survey.own_bridges = survey.at("own_bridges").get<std::size_t>();
-    plan.survey.blocked = survey.at("left_out").get<std::size_t>();
-    if (!survey.at("topples_at_mm").is_null()) {
-        plan.survey.topples_at = survey.at("topples_at_mm").get<double>();
-    }
+    plan.survey.hanging_length = number(survey.at("hanging_length_mm"));
+    plan.survey.own_bridges = whole(survey.at("own_bridges"));
+    plan.survey.blocked = whole(survey.at("left_out"));
+    if (!survey.at("topples_at_mm").is_null()) plan.survey.topples_at = number(survey.at("topples_at_mm"));
     Scaffold& scaffold = plan.scaffold;
     for (const Json& point : json.at("points")) scaffold.points.push_back(point_from(point));
     plan.survey.points = scaffold.points;
-    for (const Json& number : json.at("unheld")) {
-        scaffold.unheld.push_back(number.get<std::size_t>());
-        if (scaffold.unheld.back() >= scaffold.points.size()) throw std::runtime_error("no such point");
-    }
+    scaffold.unheld = unheld_from(json.at("unheld"), scaffold.points.size());
     for (const Json& bar : json.at("bars")) {
         const auto n = row(bar, 6);
         scaffold.bars.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
@@ -70,12 +94,14 @@ SupportPlan plan_from(const Json& json) {
 }  // namespace
 
 fs::path default_plan_folder() {
-    const auto variable = [](const char* name) {
+    // The XDG specification has relative paths ignored; so nothing is strewn over folders that one works in.
+    const auto folder = [](const char* name) {
         const char* value = std::getenv(name);
-        return value ? fs::path(value) : fs::path();
+        const fs::path path = value ? value : "";
+        return path.is_absolute() ? path : fs::path();
     };
-    if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "lamella/plans";
-    if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/lamella/plans";
+    if (const fs::path cache = folder("XDG_CACHE_HOME"); !cache.empty()) return cache / "lamella/plans";
+    if (const fs::path home = folder("HOME"); !home.empty()) return home / ".cache/lamella/plans";
     return {};
 }
 
@@ -114,10 +140,10 @@ std::optional<SupportPlan> read_plan(const fs::path& folder, const std::string& 
         std::ifstream file(file_of(folder, hash), std::ios::binary);
         const Json json = Json::parse(file);
         if (json.at("plan") != "lamella supports" || json.at("version") != version ||
-            json.at("hash") != hash) {
+            json.at("hash") != hash || json.at("contents_hash") != contents_hash(json.at("contents"))) {
             return std::nullopt;
         }
-        return plan_from(json);
+        return plan_from(json.at("contents"));
     } catch (const std::exception&) {
         return std::nullopt;  // a plan can always be made again
     }
@@ -128,10 +154,17 @@ bool keep_plan(const fs::path& folder, const std::string& hash, const SupportPla
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) return false;
-    Json json{{"plan", "lamella supports"}, {"version", version}, {"hash", hash}};
-    json.update(plan_json(plan));
+    const Json contents = plan_json(plan);
+    const Json json{{"plan", "lamella supports"},
+                    {"version", version},
+                    {"hash", hash},
+                    {"contents_hash", contents_hash(contents)},
+                    {"contents", contents}};
     // Shards may keep the same plan at the same time: each writes a file of its own first.
-    const fs::path unfinished = folder / fmt::format("{}.{}.partial", hash, getpid());
+    std::string unfinished = (folder / (hash + ".partial.XXXXXX")).string();
+    const int descriptor = mkstemp(unfinished.data());
+    if (descriptor < 0) return false;
+    close(descriptor);
     {
         std::ofstream file(unfinished, std::ios::binary);
         file << json.dump() << '\n';
@@ -142,8 +175,9 @@ bool keep_plan(const fs::path& folder, const std::string& hash, const SupportPla
         }
     }
     fs::rename(unfinished, file_of(folder, hash), error);
-    if (error) fs::remove(unfinished, error);
-    return !error;
+    if (!error) return true;
+    fs::remove(unfinished, error);
+    return false;
 }
 
 }  // namespace lamella

@@ -1,91 +1,22 @@
 // The command as its users meet it: exit codes, messages, outputs, interruption and closed pipes.
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "app/settings.h"
 #include "printers/registry.h"
+#include "tests/app/command_run.h"
 
+using namespace lamella;
 namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that is gone when the test is.
-class Folder {
-  public:
-    Folder() {
-        std::string pattern = (fs::temp_directory_path() / "lamella_command_XXXXXX").string();
-        REQUIRE(mkdtemp(pattern.data()) != nullptr);
-        path_ = pattern;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-  private:
-    fs::path path_;
-};
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
-struct Outcome {
-    int code = -1;
-    std::string out;
-    std::string err;
-};
-
-/// Runs `lamella` with these arguments (a shell's words).
-Outcome run_lamella(const std::string& arguments) {
-    const Folder folder;
-    const std::string line = std::string(LAMELLA_COMMAND) + " " + arguments + " >" + folder / "out" + " 2>" +
-                             folder / "err" + " </dev/null";
-    const int status = std::system(line.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"),
-                    contents(folder / "err")};
-    UNSCOPED_INFO("lamella " << arguments << "\nexit code " << outcome.code << "\n" << outcome.err);
-    return outcome;
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 std::size_t count_lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-/// Every file below a folder, by its relative path.
-std::map<std::string, std::string> tree(const std::string& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file())
-            files[fs::relative(entry.path(), folder).string()] = contents(entry.path().string());
-    }
-    return files;
 }
 
 const std::string ball = "--shape sphere --shape-radius 3 --layer-height 0.1 ";
@@ -98,7 +29,8 @@ TEST_CASE("help and version are everywhere and say what a command takes") {
     const Outcome version = run_lamella("--version");
     CHECK(version.code == 0);
     CHECK(mentions(version.out, "lamella "));
-    for (const std::string command : {"slice", "preview", "info", "section", "dump", "printers", "keys"}) {
+    for (const std::string command :
+         {"slice", "preview", "info", "section", "dump", "supports", "printers", "keys"}) {
         const Outcome help = run_lamella(command + " --help");
         CHECK(help.code == 0);
         CHECK(mentions(help.out, "Examples:"));
@@ -106,7 +38,7 @@ TEST_CASE("help and version are everywhere and say what a command takes") {
         CHECK(run_lamella(command + " --version").out == version.out);
     }
     const Outcome slice = run_lamella("slice --help");
-    for (const auto& setting : lamella::settings()) {
+    for (const auto& setting : settings()) {
         INFO(setting.name());
         CHECK(mentions(slice.out, setting.flag));
     }
@@ -144,7 +76,7 @@ TEST_CASE("a wrong recipe is told with all its lines and makes nothing") {
 
 TEST_CASE("a ball becomes layers in every format, with its volume reported") {
     const Folder folder;
-    for (const lamella::BackendInfo& backend : lamella::backends()) {
+    for (const BackendInfo& backend : backends()) {
         const std::string kind = backend.name;
         CAPTURE(kind);
         const std::string output = folder / ("ball." + kind);
@@ -234,15 +166,6 @@ TEST_CASE("an interrupted run says how to go on, and going on makes the same byt
     const std::string job =
         "slice --shape box --shape-size 20,20,40 --layer-height 0.02 --cell 1 --beam 0.12 --printer png "
         "--printer-width 1200 --printer-height 1200 --printer-pixel 0.02 --threads 2 ";
-    const std::string line =
-        "exec " + std::string(LAMELLA_COMMAND) + " " + job + "-o " + folder / "cut" + " 2>" + folder / "err";
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-        _exit(127);
-    }
-    // Wait until layers are being written, then interrupt.
     const auto written = [&] {
         std::size_t files = 0;
         std::error_code ignored;
@@ -250,15 +173,10 @@ TEST_CASE("an interrupted run says how to go on, and going on makes the same byt
             files += entry.is_regular_file();
         return files;
     };
-    for (int i = 0; i < 600 && written() < 12; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    kill(child, SIGINT);
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    INFO(contents(folder / "err"));
-    REQUIRE(WIFEXITED(status));
-    REQUIRE(WEXITSTATUS(status) == 130);
-    CHECK(mentions(contents(folder / "err"), "--resume"));
+    const Outcome cut = interrupt_lamella(job + "-o " + folder / "cut", [&] { return written() > 12; });
+    INFO(cut.err);
+    REQUIRE(cut.code == 130);
+    CHECK(mentions(cut.err, "--resume"));
     CHECK_FALSE(fs::exists(folder / "cut"));
 
     const Outcome other = run_lamella(job + "--seed 2 --resume -o " + folder / "cut");

@@ -1,12 +1,12 @@
 // Recipes as text, for tests of what becomes of them.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 
 #include "app/build_job.h"
 #include "app/recipe_draft.h"
 #include "engine/error.h"
+#include "tests/app/mentions.h"
 
 namespace lamella {
 
@@ -25,12 +25,6 @@ inline std::string complaint_about(const std::string& text, const std::string& p
         return error.what();
     }
     return "";
-}
-
-/// Whether a message holds a part; shows the message when a check of that fails.
-inline bool mentions(const std::string& text, const std::string& part) {
-    UNSCOPED_INFO(text);
-    return text.find(part) != std::string::npos;
 }
 
 }  // namespace lamella
