@@ -92,6 +92,7 @@ ScaffoldShape shape_of(const Recipe& recipe, const Job& job) {
     shape.reach = s.reach;
     shape.lean = std::min(1.0, p.overhang / job.layer_height);
     shape.connector = s.connector;
+    shape.longest_connector = s.longest_connector;
     shape.clearance = s.clearance;
     shape.gap = s.gap;
     shape.tip = s.tip;
@@ -129,6 +130,7 @@ SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& su
     survey.stability->margin = s.margin;
     survey.stability->push = s.push;
     survey.stability->adhesion = s.adhesion;
+    survey.stability->bond = s.bond;
     survey.stability->density = s.density;
     survey.stability->contact = 3.14159265358979323846 / 4 * s.tip * s.tip;
     survey.on_bed = s.lift == 0;

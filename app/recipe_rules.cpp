@@ -110,6 +110,10 @@ void RecipeDraft::check_support(const PrinterProfile& printer) {
     at_most("tip", s.tip, "pillar", s.pillar, "is wider than");
     at_most("pillar", s.pillar, "foot", s.foot, "is wider than");
     at_most("gap", s.gap, "connector", s.connector, "leaves nothing of");
+    if (s.connector >= s.longest_connector) {
+        refuse(0, fmt::format("{}: {} mm is not less than support.longest_connector, {} mm; accepted: less",
+                              where("support", "connector"), s.connector, s.longest_connector));
+    }
     at_most("bar_width", s.bar_width, "bridge", s.bridge, "is more than");
     const double wall = s.wall > 0 ? s.wall : printer.filament.line_width;
     if (!s.round_pillars && wall >= s.pillar) {

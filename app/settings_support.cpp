@@ -57,6 +57,10 @@ void add_needs(std::vector<Setting>& t) {
     add_row<&P::adhesion>(
         t, "adhesion", "--support-adhesion",
         {.unit = "MPa", .limits = distance, .help = "Strength with which the part sticks to the bed."});
+    add_row<&P::bond>(t, "bond", "--support-bond",
+                      {.unit = "MPa",
+                       .limits = distance,
+                       .help = "Strength with which the part sticks to a support point."});
     add_row<&P::density>(t, "density", "--support-density",
                          {.unit = "g/cm3", .limits = {0.01, 30}, .help = "Density of the material."});
 }
@@ -71,7 +75,10 @@ void add_shape(std::vector<Setting>& t) {
     add_row<&P::bar_height>(t, "bar_height", "--support-bar-height",
                             {.unit = "mm", .limits = thickness, .help = "Height of a bar."});
     add_row<&P::connector>(t, "connector", "--support-connector",
-                           {.unit = "mm", .limits = {0.1, 7.5}, .help = "Least height of a connector."});
+                           {.unit = "mm", .limits = {0.1, 1000}, .help = "Least height of a connector."});
+    add_row<&P::longest_connector>(
+        t, "longest_connector", "--support-longest-connector",
+        {.unit = "mm", .limits = {0.2, 1000}, .help = "Greatest height of a connector on a bar."});
     add_row<&P::reach>(
         t, "reach", "--support-reach",
         {.unit = "mm", .limits = {0.01, 1000}, .help = "Distance by which a connector may lean sideways."});

@@ -57,12 +57,13 @@ struct SupportProfile {
     double bridge = 12;       ///< longest bar between two pillars
     double reach = 4;         ///< by which a connector may lean sideways
     double connector = 2;     ///< least height of a connector
-    double clearance = 0.5;   ///< between part and supports, contacts apart
-    double gap = 0;           ///< between the tip of a connector and the part
-    double tip = 0.6;         ///< diameter of a connector where it meets the part
-    double pillar = 2.5;      ///< width of a pillar: of a round one its diameter, of a cross its arms
-    bool round_pillars = false;  ///< round pillars instead of crosses
-    double wall = 0;             ///< thickness of a cross's arms; 0: a line's width
+    double longest_connector = 8;  ///< height of what stands on a bar
+    double clearance = 0.5;        ///< between part and supports, contacts apart
+    double gap = 0;                ///< between the tip of a connector and the part
+    double tip = 0.6;              ///< diameter of a connector where it meets the part
+    double pillar = 2.5;           ///< width of a pillar: of a round one its diameter, of a cross its arms
+    bool round_pillars = false;    ///< round pillars instead of crosses
+    double wall = 0;               ///< thickness of a cross's arms; 0: a line's width
     double bar_width = 0.9;
     double bar_height = 0.6;
     double foot = 7;  ///< diameter of a pillar's foot on the bed
@@ -71,6 +72,7 @@ struct SupportProfile {
     double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds the part
     double push = 0.1;       ///< sideways force of the nozzle, N
     double adhesion = 0.02;  ///< of the part to the bed, MPa
+    double bond = 1;         ///< of the part to a support point, MPa
     double density = 1.24;   ///< of the material, g/cm3
     double speed = 30;       ///< of printing supports, mm/s
     double grey = 1;         ///< of supports in image stacks, 0 to 1
