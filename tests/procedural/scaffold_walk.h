@@ -227,11 +227,13 @@ class ScaffoldWalk {
         support.visit([&](int x, int y) {
             if (grid_.near(below, x, y, follow_) || grid_.near(part_below, x, y, follow_)) return;
             const dvec3 p = grid_.place(x, y, grid_.plane(layer));
-            // What is thinner than pixels can show is asked of the fields.
-            for (const Field* solid : {field_.get(), &part_}) {
-                if (overhangs::disc_meets(*solid, dvec2(p), grid_.plane(layer - 1), follow_)) return;
-            }
             if (in_new_bar(p)) return;
+            // What is thinner than pixels can show is asked of the field, whose values outside are distances.
+            const double below_z = grid_.plane(layer - 1);
+            if (field_->value({p.x, p.y, below_z}) <= follow_ &&
+                overhangs::disc_meets(*field_, dvec2(p), below_z, follow_)) {
+                return;
+            }
             ++findings_.hanging;
             note("hanging support", p);
         });
