@@ -9,7 +9,7 @@ namespace {
 constexpr double least_step = 0.1;  // mm; between two points so far apart the room is at most half less
 constexpr double far_enough =
     4;  // mm of room beyond what is needed; to know of more costs more than it saves
-constexpr double on_surface = 0.02;  // mm
+constexpr double on_surface = 0.02;      // mm
 constexpr double deepest_contact = 0.5;  // mm; half a bead within a steep wall
 
 /// The corners, edges and faces of a cube as directions of length 1.
@@ -46,9 +46,9 @@ double FreeSpace::probed_room(dvec3 p, double limit) const {
     double same = on_surface;
     for (double radius = on_surface; same < limit; radius *= growth) {
         const double shell = std::min(radius, limit);
-        const bool all = std::all_of(
-            directions_about().begin(), directions_about().end(),
-            [&](dvec3 direction) { return (part_.value(p + direction * shell) <= 0) == inside; });
+        const bool all =
+            std::all_of(directions_about().begin(), directions_about().end(),
+                        [&](dvec3 direction) { return (part_.value(p + direction * shell) <= 0) == inside; });
         if (!all) break;
         same = shell;
     }

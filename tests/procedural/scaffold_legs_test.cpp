@@ -182,8 +182,9 @@ TEST_CASE("legs stand on floors and not on walls", "[scaffold]") {
     const auto valley = [](double degrees) {
         const double a = degrees * 3.14159265358979323846 / 180;
         const Box all{{-60, -60, -5}, {60, 60, 60}};
-        return make_intersection({make_box(all), make_union({make_half_space({-std::sin(a), 0, std::cos(a)}, 0),
-                                                             make_half_space({std::sin(a), 0, std::cos(a)}, 0)})});
+        return make_intersection(
+            {make_box(all), make_union({make_half_space({-std::sin(a), 0, std::cos(a)}, 0),
+                                        make_half_space({std::sin(a), 0, std::cos(a)}, 0)})});
     };
     ScaffoldShape shape;
     shape.bed = -5;

@@ -1,4 +1,5 @@
-// Supports of real models: everything held, nothing in the part, less material than pillars and dense columns.
+// Supports of real models: everything held, nothing in the part, less material than pillars and dense
+// columns.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -113,4 +114,26 @@ TEST_CASE("a leaning disc stands on bridges", "[scaffold][models]") {
 
 TEST_CASE("a leaning machine part stands on bridges", "[scaffold][models]") {
     check_model({"tests/models/good/featuretype.3mf", 0.4, leaning});
+}
+
+TEST_CASE("a model's scaffold does not depend on the number of threads", "[scaffold][models]") {
+    const FieldPtr part = part_of({"tests/models/good/fish_mm.obj"});
+    const OverhangSurvey survey =
+        survey_overhangs(scenes::job_of(part, part->bounds(), layer_height), OverhangSurveyOptions{});
+    ScaffoldShape shape;
+    shape.bed = part->bounds().lo.z;
+    const auto with_threads = [&](int threads) {
+        SynthesisOptions options;
+        options.threads = threads;
+        return build_scaffold(survey.points, *part, shape, options);
+    };
+    const Scaffold one = with_threads(1);
+    CHECK(one.bars.size() > 5);
+    for (const int threads : {2, 4}) {
+        const Scaffold many = with_threads(threads);
+        CHECK(many.bars == one.bars);
+        CHECK(many.pillars == one.pillars);
+        CHECK(many.connectors == one.connectors);
+        CHECK(many.unheld == one.unheld);
+    }
 }

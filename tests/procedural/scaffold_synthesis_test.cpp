@@ -29,15 +29,14 @@ FieldPtr box(dvec3 lo, dvec3 hi) { return make_box({lo, hi}); }
 
 /// A ceiling on a column beside which a ball lies.
 FieldPtr hall() {
-    return make_union({box({-12, -12, 20}, {12, 12, 22}), box({-2, -2, 0}, {2, 2, 21}),
-                       make_sphere({6, 5, 4}, 3)});
+    return make_union(
+        {box({-12, -12, 20}, {12, 12, 22}), box({-2, -2, 0}, {2, 2, 21}), make_sphere({6, 5, 4}, 3)});
 }
 
 std::vector<SupportPoint> points_of_hall() {
     std::vector<SupportPoint> points = under_ceiling(24, 20, 3);
-    std::erase_if(points, [](const SupportPoint& p) {
-        return std::max(std::abs(p.at.x), std::abs(p.at.y)) < 3;
-    });
+    std::erase_if(points,
+                  [](const SupportPoint& p) { return std::max(std::abs(p.at.x), std::abs(p.at.y)) < 3; });
     return points;
 }
 
@@ -221,8 +220,7 @@ TEST_CASE("what cannot be reached is told, and does not disturb the rest", "[sca
 }
 
 TEST_CASE("the vault of a closed cavity is held from its floor", "[scaffold]") {
-    const FieldPtr part =
-        make_difference(box({-16, -16, 0}, {16, 16, 24}), box({-12, -12, 4}, {12, 12, 20}));
+    const FieldPtr part = make_difference(box({-16, -16, 0}, {16, 16, 24}), box({-12, -12, 4}, {12, 12, 20}));
     const Scaffold scaffold = build_scaffold(under_ceiling(24, 20, 4), *part, {});
     CHECK(scaffold.unheld.empty());
     CHECK(scaffold.bars.size() > 2);
@@ -266,15 +264,15 @@ TEST_CASE("points over a slot are held through it where it is wide enough", "[sc
 TEST_CASE("a part of which signs alone are known is kept clear of", "[scaffold]") {
     const FieldPtr part = make_union({make_sphere({0, 0, 16}, 6), make_sphere({3, 2, 4}, 2.5)});
     const std::vector<std::string> names{"x", "y", "z"};
-    const FieldPtr signs = make_formula_field(
-        parse_formula("(hypot(x,y,z-16) < 6 or hypot(x-3,y-2,z-4) < 2.5) ? -1 : 1", names), {},
-        part->bounds(), Metric::sign);
+    const FieldPtr signs =
+        make_formula_field(parse_formula("(hypot(x,y,z-16) < 6 or hypot(x-3,y-2,z-4) < 2.5) ? -1 : 1", names),
+                           {}, part->bounds(), Metric::sign);
     std::vector<SupportPoint> points;
     for (const double r : {0.0, 1.5, 3.0}) {
         for (int k = 0; k < (r == 0 ? 1 : 8); ++k) {
             const double a = k * 0.7853981633974483;
-            points.push_back({{r * std::cos(a), r * std::sin(a), 16 - std::sqrt(36 - r * r)},
-                              SupportReason::overhang});
+            points.push_back(
+                {{r * std::cos(a), r * std::sin(a), 16 - std::sqrt(36 - r * r)}, SupportReason::overhang});
         }
     }
     const Scaffold scaffold = build_scaffold(points, *signs, {});
