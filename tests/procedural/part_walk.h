@@ -102,7 +102,7 @@ class PartWalk {
         for (const Stretch& stretch : stretches(unheld)) judge(stretch, i, tips);
     }
 
-    /// What is connected over all eight neighbours.
+    /// What is connected, also over a pixel left out where the part is thinner than that.
     static std::vector<Stretch> stretches(LayerPicture picture) {
         std::vector<Stretch> found;
         picture.visit([&](int x0, int y0) {
@@ -110,8 +110,8 @@ class PartWalk {
             picture.set(x0, y0, false);
             for (std::size_t k = 0; k < stretch.size(); ++k) {
                 const PixelPlace p = stretch[k];
-                for (int y = p.y - 1; y <= p.y + 1; ++y) {
-                    for (int x = p.x - 1; x <= p.x + 1; ++x) {
+                for (int y = p.y - 2; y <= p.y + 2; ++y) {
+                    for (int x = p.x - 2; x <= p.x + 2; ++x) {
                         if (!picture.at(x, y)) continue;
                         picture.set(x, y, false);
                         stretch.push_back({x, y});
