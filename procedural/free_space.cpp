@@ -9,7 +9,7 @@ namespace {
 constexpr double least_step = 0.1;  // mm; between two points so far apart the room is at most half less
 constexpr double far_enough =
     4;  // mm of room beyond what is needed; to know of more costs more than it saves
-constexpr double on_surface = 0.02;  // mm
+constexpr double on_surface = 0.02;      // mm
 constexpr double deepest_contact = 0.5;  // mm; half a bead within a steep wall
 
 /// The corners, edges and faces of a cube as directions of length 1.
@@ -41,16 +41,16 @@ double FreeSpace::room(dvec3 p, double limit) const {
 }
 
 double FreeSpace::probed_room(dvec3 p, double limit) const {
-    constexpr int shells = 16;
-    constexpr double growth = 1.189207115002721;  // 2^(1/4), so the last shell is sixteen times the first
+    constexpr double growth = 1.189207115002721;  // 2^(1/4), from shell to shell
     const bool inside = part_.value(p) <= 0;
-    double same = on_surface, radius = limit / 16;
-    for (int shell = 0; shell <= shells; ++shell, radius *= growth) {
-        const bool all = std::all_of(
-            directions_about().begin(), directions_about().end(),
-            [&](dvec3 direction) { return (part_.value(p + direction * radius) <= 0) == inside; });
+    double same = on_surface;
+    for (double radius = on_surface; same < limit; radius *= growth) {
+        const double shell = std::min(radius, limit);
+        const bool all =
+            std::all_of(directions_about().begin(), directions_about().end(),
+                        [&](dvec3 direction) { return (part_.value(p + direction * shell) <= 0) == inside; });
         if (!all) break;
-        same = radius;
+        same = shell;
     }
     return inside ? -same : same;
 }

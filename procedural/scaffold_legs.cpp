@@ -97,8 +97,7 @@ std::optional<Leg> LegFinder::upright(dvec3 top) const {
     // level enough.
     const double sine = shape_.lean / std::sqrt(1 + shape_.lean * shape_.lean);
     const double widening = std::max(shape_.connector, (half - shape_.tip / 2) / sine);
-    const double bottom =
-        layer_below(std::max(top.z - fall.clear, surface + widening)) + shape_.layer_height;
+    const double bottom = layer_below(std::max(top.z - fall.clear, surface + widening)) + shape_.layer_height;
     if (bottom > top.z - shape_.connector || bottom > surface + 2 * widening) return std::nullopt;
     const Beam cone{dvec3(at, surface), shape_.tip / 2, dvec3(at, bottom), half};
     if (!space_.clear_from_contact(cone.a, cone.b, needed, 0.7)) return std::nullopt;
@@ -174,7 +173,8 @@ std::optional<Leg> LegFinder::strut_along(dvec3 top, dvec3 way, bool contact) co
     const bool long_enough = length > 2 * shape_.connector;  // to be thicker midway
     double end_radius = radius;
     if (fall.hits) {
-        end_radius = long_enough ? foot_radius(radius, length / 2, way) : foot_radius(top_radius, length, way);
+        end_radius =
+            long_enough ? foot_radius(radius, length / 2, way) : foot_radius(top_radius, length, way);
     }
     if (long_enough) {
         leg.connectors = {{top, top_radius, middle, radius}, {middle, radius, end, end_radius}};

@@ -54,17 +54,31 @@ void check_shape(const ScaffoldShape& shape) {
     const auto require = [](bool holds, const char* message) {
         if (!holds) throw InputError(std::string("scaffold: ") + message);
     };
-    const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
-    require(std::isfinite(shape.bed), "the bed's height must be a number");
+    constexpr double shortest = 0.001, longest = 1e6;
+    const auto sensible = [](double v) { return v >= shortest && v <= longest; };
+    require(std::abs(shape.bed) <= longest, "the bed's height must be a number of at most 1000000 mm");
     for (const double length : {shape.layer_height, shape.bridge, shape.reach, shape.connector, shape.tip,
                                 shape.pillar, shape.wall, shape.bar_width, shape.bar_height, shape.foot,
                                 shape.foot_height, shape.lean, shape.longest_connector}) {
-        require(positive(length), "every length of its shape must be above 0 mm");
+        require(sensible(length), "every length of its shape, and its lean, must be 0.001 to 1000000 mm");
     }
-    require(shape.clearance >= 0 && std::isfinite(shape.clearance), "the clearance must be 0 mm or more");
-    require(shape.gap >= 0 && std::isfinite(shape.gap), "the gap must be 0 mm or more");
+    require(shape.clearance >= 0 && shape.clearance <= longest, "the clearance must be 0 mm or more");
+    require(shape.gap >= 0 && shape.gap <= longest, "the gap must be 0 mm or more");
+    require(shape.round_pillars || shape.wall <= shape.pillar,
+            "the walls of its pillars must be no thicker than the pillars");
     require(shape.connector < shape.longest_connector,
             "the longest connector must be longer than the shortest");
+}
+
+void check_points(std::span<const SupportPoint> points) {
+    constexpr double furthest = 1e6;
+    for (const SupportPoint& point : points) {
+        for (const double v : {point.at.x, point.at.y, point.at.z}) {
+            if (!(std::abs(v) <= furthest)) {
+                throw InputError("scaffold: a support point must lie within 1000000 mm of the origin");
+            }
+        }
+    }
 }
 
 /// The shape with the heights of bars and feet in whole layers.
@@ -100,13 +114,18 @@ class Synthesis {
     static constexpr std::size_t most_refused = 12;  // bars of an anchor; where so many fail, the rest will
     static constexpr auto directions = static_cast<std::size_t>(BridgeSweep::directions);
 
+    bool cancelled() const { return options_.cancel && options_.cancel->cancelled(); }
+    void stop_if_cancelled() const {
+        if (cancelled()) throw Interrupted("stopped while supports were planned");
+    }
     template <typename Work>
     void in_parallel(std::size_t count, const Work& work) {
-        arena_.execute(
-            [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { work(i); }); });
-        if (options_.cancel && options_.cancel->cancelled()) {
-            throw Interrupted("stopped while supports were planned");
-        }
+        arena_.execute([&] {
+            oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+                if (!cancelled()) work(i);
+            });
+        });
+        stop_if_cancelled();
     }
     void find_legs();
     void make_bars();
@@ -232,6 +251,7 @@ void Synthesis::make_bars() {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     look_again(all);
     while (!queue_.empty()) {
+        stop_if_cancelled();
         const Entry entry = queue_.top();
         queue_.pop();
         Anchor& anchor = anchors_[entry.anchor];
@@ -343,6 +363,7 @@ void Synthesis::stand() {
 Scaffold build_scaffold(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
                         const SynthesisOptions& options) {
     check_shape(shape);
+    check_points(points);
     return Synthesis(points, part, in_layers(shape), options).run();
 }
 

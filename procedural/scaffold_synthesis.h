@@ -18,7 +18,7 @@ struct SynthesisOptions {
 
 /// Holds the points. The part is asked for the way (see FreeSpace); what is nearer to it than the clearance
 /// are contacts only. A pure function of points, part and shape, the same by any number of threads. Throws
-/// InputError for a shape that makes no sense, Interrupted when cancelled.
+/// InputError for a shape or points that make no sense, Interrupted when cancelled.
 Scaffold build_scaffold(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
                         const SynthesisOptions& options = {});
 

@@ -17,6 +17,7 @@
 #include "procedural/closed_foam.h"
 #include "procedural/field_slope.h"
 #include "procedural/image_windows.h"
+#include "procedural/scaffold_field.h"
 #include "procedural/strut_lattice.h"
 #include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
@@ -110,6 +111,23 @@ FieldPtr framed_foam(const FieldPtr& body) {
     return make_voronoi_foam(settings);
 }
 
+/// Bars on pillars, with a connector that leans on them and one on the bed.
+FieldPtr scaffold(bool round_pillars) {
+    Scaffold made;
+    made.shape.bed = -2.1;
+    made.shape.pillar = 1.3;
+    made.shape.wall = 0.3;
+    made.shape.bar_width = 0.5;
+    made.shape.bar_height = 0.4;
+    made.shape.round_pillars = round_pillars;
+    made.pillars = {{{-2, -1}, -2.1, 0.7, 1.1}, {{1.6, 0.8}, -2.1, 0.7, 1.2}, {{0.3, 2.2}, -0.9, 1.4, 0}};
+    made.bars = {{{-2, -1, 1.1}, {1.6, 0.8, 1.1}}, {{0.3, 2.2, 1.8}, {-1.9, -0.9, 1.8}}};
+    made.connectors = {{{0.4, 0.9, 2.3}, 0.15, {-0.2, -0.1, 1.1}, 0.25},
+                       {{0.3, 2.2, -1.6}, 0.3, {0.3, 2.2, -0.9}, 0.65},
+                       {{2.4, -1.8, -0.4}, 0.15, {2.4, -1.8, -2.1}, 0.15}};
+    return make_scaffold_field(made);
+}
+
 /// The solid where the text, about x, y, z and the depth d in a ball, is negative.
 FieldPtr formula(const char* text, double half, Metric metric) {
     const std::vector<std::string> names{"x", "y", "z", "d"};
@@ -140,6 +158,8 @@ std::vector<Named> all_fields() {
         {"steep cone", make_round_cone({{-1, 0, 0}, 1.8, {1.5, 0.1, 0.1}, 0.2})},
         {"torus", torus},
         {"half-space", make_half_space({1, 2, -0.5}, 0.4)},
+        {"scaffold on crosses", scaffold(false)},
+        {"scaffold on round pillars", scaffold(true)},
         {"foam with walls", walled_foam(0.15, 0.0)},
         {"foam with graded walls and windows",
          walled_foam(GradingPtr(std::make_shared<Linear>(0.2, dvec3(0.03, 0, 0.01))),

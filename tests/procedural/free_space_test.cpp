@@ -85,6 +85,18 @@ TEST_CASE("a line may leave the part steeply, and not along it", "[free_space]")
     CHECK(!space.clear_from_contact({0, 0, 10}, {0, 0, 15}, 1));
 }
 
+TEST_CASE("a line may begin just within a wall, and comes out of it at once", "[free_space]") {
+    const FieldPtr wall = make_box({{-20, -20, 0}, {0, 20, 20}});
+    const FreeSpace space(*wall, 0);
+    CHECK(space.clear_from_contact({-0.2, 0, 10}, {2, 0, 7.8}, 0.5));
+    CHECK_FALSE(space.clear_from_contact({-0.2, 0, 10}, {-0.2, 0, 5}, 0.5));  // stays within
+    CHECK_FALSE(space.clear_from_contact({-0.2, 0, 10}, {0.2, 0, 5}, 0.5));   // comes out too late
+    CHECK_FALSE(space.clear_from_contact({-0.7, 0, 10}, {2, 0, 7.3}, 0.5));   // too deep
+    // What comes out must not go in again.
+    const FieldPtr two = make_union({wall, make_box({{1.5, -20, 0}, {1.7, 20, 20}})});
+    CHECK_FALSE(FreeSpace(*two, 0).clear_from_contact({-0.2, 0, 10}, {3, 0, 7}, 0.3));
+}
+
 TEST_CASE("a part without distances is felt for", "[free_space]") {
     const FieldPtr ball = make_sphere({0, 0, 5}, 3);
     const SignsOnly signs(ball);
@@ -94,4 +106,8 @@ TEST_CASE("a part without distances is felt for", "[free_space]") {
     CHECK(space.room({0, 0, 5}, 2) < 0);
     CHECK(space.clear({5, 0, 0}, {5, 0, 10}, 1.5));
     CHECK(!space.clear({4, 0, 0}, {4, 0, 10}, 1.5));
+    // Close to the part, too, where a connector leaves it.
+    CHECK(space.room({0, 0, 1.7}, 5) > 0.2);
+    CHECK(space.clear_from_contact({0, 0, 2}, {0, 0, -2}, 1));
+    CHECK(!space.clear_from_contact({0, 0, 2}, {0, 0, 8}, 1));
 }

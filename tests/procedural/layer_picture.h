@@ -1,4 +1,5 @@
-// Pictures of layers: a solid cut into planes, as pixels, for walks that look at every place a printer comes by.
+// Pictures of layers: a solid cut into planes, as pixels, for walks that look at every place a printer comes
+// by.
 #pragma once
 
 #include <cmath>
@@ -74,7 +75,8 @@ struct LayerGrid {
     dvec3 place(int x, int y, double z) const {
         return {band.along_origin + (x + 0.5) * pixel, band.across_origin + (y + 0.5) * pixel, z};
     }
-    /// Half the way across a pixel: as far as a solid's border lies from the nearest middle, unless it is thin.
+    /// Half the way across a pixel: as far as a solid's border lies from the nearest middle, unless it is
+    /// thin.
     double blur() const { return 0.71 * pixel; }
     /// Whether a pixel is set whose middle lies within `reach` mm of that of (x, y).
     bool near(const LayerPicture& picture, int x, int y, double reach) const {

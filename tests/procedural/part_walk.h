@@ -1,5 +1,5 @@
-// Walks a part's layers on pictures of them: whether all that hangs is held by support tips, and how much dense
-// support straight down would take.
+// Walks a part's layers on pictures of them: whether all that hangs is held by support tips, and how much
+// dense support straight down would take.
 #pragma once
 
 #include <algorithm>
@@ -35,11 +35,12 @@ struct PartFindings {
     std::string where;            ///< of the first finding
 };
 
-/// Looks at the outer half of the outermost bead of each layer, independently of the survey. A pixel of it hangs
-/// when no pixel of the layer below lies within `overhang`. It is held within `spacing` of a place, not above
-/// the lower side of its layer. Of what is left, connected stretches are allowed
+/// Looks at the outer half of the outermost bead of each layer, independently of the survey. A pixel of it
+/// hangs when no pixel of the layer below lies within `overhang`. It is held within `spacing` of a place, not
+/// above the lower side of its layer. Of what is left, connected stretches are allowed
 ///  - that are no longer across than `free_stretch`,
-///  - that lie within half a width of a straight line no longer than `bridge`, with something held at both its
+///  - that lie within half a width of a straight line no longer than `bridge`, with something held at both
+///  its
 ///    ends: no further away than the overhang, so an edge from corner to corner may be laid like a bridge,
 /// all to two pixels (the outline's place is known to one, that of the layer below to another).
 class PartWalk {
@@ -63,7 +64,7 @@ class PartWalk {
     double lower_side(int i) const { return grid_.bed + i * grid_.layer_height; }
 
     double reach() const { return limits_.spacing + slack_; }
-    bool over_below(int x, int y, int i) const { 
+    bool over_below(int x, int y, int i) const {
         return grid_.near(layer(i - 1), x, y, limits_.overhang + grid_.blur());
     }
     bool held(int x, int y, int i, Tips tips) const {
@@ -87,10 +88,10 @@ class PartWalk {
     void look_at(int i, const std::vector<dvec3>& places) {
         const LayerPicture& here = layer(i);
         const double z = lower_side(i);
-        const auto lowest = std::partition_point(places.begin(), places.end(),
-                                                 [&](dvec3 p) { return p.z < z - reach(); });
-        const auto above = std::partition_point(places.begin(), places.end(),
-                                                [&](dvec3 p) { return p.z <= z + 1e-6; });
+        const auto lowest =
+            std::partition_point(places.begin(), places.end(), [&](dvec3 p) { return p.z < z - reach(); });
+        const auto above =
+            std::partition_point(places.begin(), places.end(), [&](dvec3 p) { return p.z <= z + 1e-6; });
         const Tips tips(lowest, above);
         LayerPicture unheld(here.width(), here.height());
         here.visit([&](int x, int y) {
@@ -101,7 +102,7 @@ class PartWalk {
         for (const Stretch& stretch : stretches(unheld)) judge(stretch, i, tips);
     }
 
-    /// What is connected over all eight neighbours.
+    /// What is connected, also over a pixel left out where the part is thinner than that.
     static std::vector<Stretch> stretches(LayerPicture picture) {
         std::vector<Stretch> found;
         picture.visit([&](int x0, int y0) {
@@ -109,8 +110,8 @@ class PartWalk {
             picture.set(x0, y0, false);
             for (std::size_t k = 0; k < stretch.size(); ++k) {
                 const PixelPlace p = stretch[k];
-                for (int y = p.y - 1; y <= p.y + 1; ++y) {
-                    for (int x = p.x - 1; x <= p.x + 1; ++x) {
+                for (int y = p.y - 2; y <= p.y + 2; ++y) {
+                    for (int x = p.x - 2; x <= p.x + 2; ++x) {
                         if (!picture.at(x, y)) continue;
                         picture.set(x, y, false);
                         stretch.push_back({x, y});
@@ -219,10 +220,10 @@ class DenseSupport {
     }
 
     bool small(const std::vector<PixelPlace>& region) const {
-        const auto [left, right] = std::minmax_element(
-            region.begin(), region.end(), [](PixelPlace a, PixelPlace b) { return a.x < b.x; });
-        const auto [front, back] = std::minmax_element(
-            region.begin(), region.end(), [](PixelPlace a, PixelPlace b) { return a.y < b.y; });
+        const auto [left, right] = std::minmax_element(region.begin(), region.end(),
+                                                       [](PixelPlace a, PixelPlace b) { return a.x < b.x; });
+        const auto [front, back] = std::minmax_element(region.begin(), region.end(),
+                                                       [](PixelPlace a, PixelPlace b) { return a.y < b.y; });
         const double dx = right->x - left->x + 1, dy = back->y - front->y + 1;
         return std::sqrt(dx * dx + dy * dy) * grid_.pixel <= limits_.free_stretch;
     }

@@ -178,28 +178,30 @@ TEST_CASE("nothing leads out of a place that is closed all round", "[scaffold]")
 }
 
 TEST_CASE("legs stand on floors and not on walls", "[scaffold]") {
-    const auto roof = [](double degrees) {
+    // A valley between two slopes, under a ball.
+    const auto valley = [](double degrees) {
         const double a = degrees * 3.14159265358979323846 / 180;
+        const Box all{{-60, -60, -5}, {60, 60, 60}};
         return make_intersection(
-            {make_half_space({-std::sin(a), 0, std::cos(a)}, 0), box({-30, -30, -40}, {30, 30, 40})});
+            {make_box(all), make_union({make_half_space({-std::sin(a), 0, std::cos(a)}, 0),
+                                        make_half_space({std::sin(a), 0, std::cos(a)}, 0)})});
     };
-    for (const double degrees : {0.0, 20.0, 40.0}) {
-        ScaffoldShape shape;
-        shape.bed = -40;
-        const Case scene{make_union({roof(degrees), make_sphere({0, 0, 20}, 1)}), shape};
-        const auto leg = scene.under({0, 0, 19});
-        INFO("a roof at " << degrees << " degrees");
+    ScaffoldShape shape;
+    shape.bed = -5;
+    const auto leg_between = [&](double degrees) {
+        const Case scene{make_union({valley(degrees), make_sphere({0, 0, 15}, 1)}), shape};
+        return scene.under({0, 0, 14});
+    };
+    for (const double gentle : {0.0, 15.0, 30.0}) {
+        INFO("slopes of " << gentle << " degrees");
+        const auto leg = leg_between(gentle);
         REQUIRE(leg);
         CHECK_FALSE(leg->on_bed);
+        CHECK(std::abs(leg->landing) < 3);
     }
-    ScaffoldShape shape;
-    shape.bed = -40;
-    const Case steep{make_union({roof(75), make_sphere({-4, 0, -1}, 1)}), shape};
-    const auto leg = steep.under({-4, 0, -2});
-    if (leg) {
-        const dvec3 foot = leg->connectors.back().b;
-        CHECK(leg->on_bed);
-        INFO(foot.x << " " << foot.z);
+    for (const double steep : {70.0, 75.0}) {
+        INFO("slopes of " << steep << " degrees");
+        CHECK_FALSE(leg_between(steep));
     }
 }
 

@@ -24,9 +24,7 @@ struct ScaffoldFindings {
     std::size_t not_reached = 0;  ///< held points without a connector's tip
     double volume = 0;            ///< of the supports outside the part, mm^3
     std::string where;            ///< of the first finding
-    std::size_t total() const {
-        return hanging + loose_bars + floating + in_part + long_bars + not_reached;
-    }
+    std::size_t total() const { return hanging + loose_bars + floating + in_part + long_bars + not_reached; }
 };
 
 /// Pieces of a stack of layers, joined as pixels touch each other.
@@ -72,8 +70,8 @@ class StackPieces {
 
 /// Allows for: what stands out over the layer below by at most `follow`; the first layer of
 /// a bar between its ends; less room than the clearance about contacts, as far as a connector that leaves the
-/// part at 24 degrees or more needs (of a pillar's cone: 35), from 0.5 mm on where a tip begins within the part;
-/// 0.07 mm where the clearance is asked.
+/// part at 24 degrees or more needs (of a pillar's cone: 35), from 0.5 mm on where a tip begins within the
+/// part; 0.07 mm where the clearance is asked.
 class ScaffoldWalk {
   public:
     /// part_layers are those of the grid, which must enclose part and scaffold. follow in mm.
@@ -100,8 +98,8 @@ class ScaffoldWalk {
             part.visit([&](int x, int y) { support.set(x, y, false); });
             if (i > 0) check_carried(support, below, i);
             below_labels = label(support, below, below_labels, i);
-            findings_.volume += static_cast<double>(support.count()) * grid_.pixel * grid_.pixel *
-                                grid_.layer_height;
+            findings_.volume +=
+                static_cast<double>(support.count()) * grid_.pixel * grid_.pixel * grid_.layer_height;
             below = std::move(support);
         }
         for (const dvec3& place : pieces_.floating()) {
@@ -227,11 +225,13 @@ class ScaffoldWalk {
         support.visit([&](int x, int y) {
             if (grid_.near(below, x, y, follow_) || grid_.near(part_below, x, y, follow_)) return;
             const dvec3 p = grid_.place(x, y, grid_.plane(layer));
-            // What is thinner than pixels can show is asked of the fields.
-            for (const Field* solid : {field_.get(), &part_}) {
-                if (overhangs::disc_meets(*solid, dvec2(p), grid_.plane(layer - 1), follow_)) return;
-            }
             if (in_new_bar(p)) return;
+            // What is thinner than pixels can show is asked of the field, whose values outside are distances.
+            const double below_z = grid_.plane(layer - 1);
+            if (field_->value({p.x, p.y, below_z}) <= follow_ &&
+                overhangs::disc_meets(*field_, dvec2(p), below_z, follow_)) {
+                return;
+            }
             ++findings_.hanging;
             note("hanging support", p);
         });
@@ -260,8 +260,7 @@ class ScaffoldWalk {
             }
             if (label == StackPieces::none) label = pieces_.add(grid_.place(x, y, grid_.plane(layer)));
             const bool on_part =
-                layer > 0 &&
-                grid_.near(part_layers_[static_cast<std::size_t>(layer - 1)], x, y, grid_.pixel);
+                layer > 0 && grid_.near(part_layers_[static_cast<std::size_t>(layer - 1)], x, y, grid_.pixel);
             if (layer == 0 || on_part || grid_.near(part, x, y, 0)) pieces_.ground(label);
         });
         return labels;

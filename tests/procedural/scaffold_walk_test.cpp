@@ -101,8 +101,9 @@ TEST_CASE("whatever is broken in a scaffold is found", "[scaffold]") {
         s.connectors.push_back({{-6, 0.5, 12}, 0.45, {6, 0.5, 4}, 0.45});
     });
     CHECK(through.in_part > 0);
-    const ScaffoldFindings foot =
-        walk_changed(whole, [&](Scaffold& s) { s.pillars.push_back({{4.5, 0.5}, 0, 3, 3.5}); });
+    const ScaffoldFindings foot = walk_changed(whole, [&](Scaffold& s) {
+        s.pillars.push_back({{4.5, 0.5}, 0, 3, 3.5});
+    });
     CHECK(foot.in_part > 0);
     CHECK(foot.hanging == 0);
     const ScaffoldFindings floating = walk_changed(whole, [&](Scaffold& s) {
@@ -121,9 +122,8 @@ TEST_CASE("a part that hangs anywhere is found hanging", "[scaffold]") {
     // Without the tips of one corner, of any corner.
     for (const dvec2 corner : {dvec2(1, 1), dvec2(-1, 1), dvec2(1, -1), dvec2(-1, -1)}) {
         Scaffold broken = whole;
-        std::erase_if(broken.connectors, [&](const Beam& beam) {
-            return beam.a.x * corner.x > 6 && beam.a.y * corner.y > 6;
-        });
+        std::erase_if(broken.connectors,
+                      [&](const Beam& beam) { return beam.a.x * corner.x > 6 && beam.a.y * corner.y > 6; });
         CHECK(walk_part(part, broken).unheld > 0);
     }
     // Tips above what hangs hold nothing.
@@ -146,7 +146,8 @@ TEST_CASE("a part may bridge what is short, and no more", "[scaffold]") {
     shorter.bridge = 6;
     CHECK(walk_part(gate(8), {}, shorter).unheld > 0);
     // An arm without an end held is no bridge, however short it is.
-    const FieldPtr arm = make_union({make_box({{-2, -2, 0}, {2, 2, 10}}), make_box({{-2, -2, 8}, {6, 2, 10}})});
+    const FieldPtr arm =
+        make_union({make_box({{-2, -2, 0}, {2, 2, 10}}), make_box({{-2, -2, 8}, {6, 2, 10}})});
     CHECK(walk_part(arm, {}).unheld > 0);
 }
 
