@@ -25,8 +25,18 @@ constexpr double self_supporting = 1;  // mm below a body's surface from which i
 class Depths : public Field {
   public:
     Depths(FieldPtr body, double depth) : body_(std::move(body)), depth_(depth) {}
-    double value(dvec3 p) const override { return body_->value(p) + depth_; }
-    Metric metric() const override { return body_->metric(); }
+    double value(dvec3 p) const override {
+        if (body_->metric() != Metric::sign) return body_->value(p) + depth_;
+        // Values say nothing of depths: what is deep has the body all about it.
+        double least = body_->value(p);
+        for (int k = 0; k < 27; ++k) {
+            const dvec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            if (way == dvec3(0)) continue;
+            least = std::max(least, body_->value(p + way * (depth_ / glm::length(way))));
+        }
+        return least;
+    }
+    Metric metric() const override { return Metric::sign; }
     Box bounds() const override { return body_->bounds(); }
 
   private:
@@ -191,7 +201,11 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     Job printed = built.designed;
     printed.part = outer;
     const FieldPtr under_bed = make_half_space({0, 0, 1}, job.z0());
-    job.supports = make_difference(scaffold, make_union({make_processed(recipe, printed).part, under_bed}));
+    const auto beside = [&](const FieldPtr& part) {
+        return make_difference(scaffold, make_union({part, under_bed}));
+    };
+    job.supports = beside(make_processed(recipe, printed).part);
+    supports.before_offsets = beside(surveyed.part);
     const Box box = unite(job.bounds, scaffold->bounds());
     job.bounds = {{box.lo.x, box.lo.y, job.bounds.lo.z}, {box.hi.x, box.hi.y, job.bounds.hi.z}};
     return supports;
@@ -222,7 +236,10 @@ std::string supports_text(const BuiltSupports& supports) {
             fmt::format("the print may topple from {:.1f} mm over the bed on, and no further point helps\n",
                         *survey.topples_at);
     }
-    if (survey.blocked > 0) text += count(survey.blocked, "point") + " left out where supports are blocked\n";
+    if (survey.blocked > 0) {
+        text += fmt::format("{} left out: in a blocker, or in foam more than {} mm below the surface\n",
+                            count(survey.blocked, "point"), self_supporting);
+    }
     return text;
 }
 

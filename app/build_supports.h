@@ -19,6 +19,7 @@ struct SupportOptions {
 
 struct BuiltSupports {
     SupportPlan plan;
+    FieldPtr before_offsets;   ///< the supports of the part before its outlines are moved; null for none
     bool was_planned = false;  ///< by an earlier run
 };
 

@@ -61,9 +61,9 @@ void run(PreviewCommand& options) {
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
+    const auto added = add_supports(recipe, built, {});
     // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
-    add_supports(recipe, built, {});
-    const FieldPtr& supports = built.job.supports;
+    const FieldPtr supports = added ? added->before_offsets : nullptr;
     const Box bounds = supports ? unite(built.designed.bounds, supports->bounds()) : built.designed.bounds;
     // Supports are planned for the part as scaled for the machine.
     const FieldPtr part =
