@@ -217,12 +217,7 @@ CavitySurvey survey_cavities(const Job& job, const CavitySurveyOptions& options)
                          format_number(suited.hi, 9) + " mm");
     }
     Surveyor surveyor(job, options);
-    StreamOptions stream;
-    stream.range = {0, job.layer_count};
-    stream.threads = options.threads;
-    stream.on_progress = options.on_progress;
-    stream.cancel = options.cancel;
-    stream_layers(job, surveyor, stream);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
     return surveyor.result(options.most);
 }
 

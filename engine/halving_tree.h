@@ -29,6 +29,22 @@ inline std::uint32_t halve(std::vector<std::uint32_t>& order, std::uint32_t firs
     return middle;
 }
 
+/// Builds a tree of nodes over the items [first, last) of the order by halving them. make_node(first, last)
+/// is a leaf of these items.
+template <typename Node, typename MakeNode>
+void build_by_halving(std::vector<Node>& nodes, std::vector<std::uint32_t>& order, std::uint32_t first,
+                      std::uint32_t last, const std::vector<dvec3>& centers, const MakeNode& make_node) {
+    const std::size_t number = nodes.size();
+    nodes.push_back(make_node(first, last));
+    if (last - first <= halving_leaf_size) return;
+    const std::uint32_t middle = halve(order, first, last, centers);
+    build_by_halving(nodes, order, first, middle, centers, make_node);
+    const auto second = static_cast<std::uint32_t>(nodes.size());
+    build_by_halving(nodes, order, middle, last, centers, make_node);
+    nodes[number].first = second;
+    nodes[number].count = 0;
+}
+
 /// Visits the leaves of a tree, the nearer child of each node first. Node has `first` (the first item of a
 /// leaf, else the second child, where the first child follows its parent) and `count` (of a leaf's items,
 /// else 0). bound(node) is how near its items can be; matters(bound) says whether that is near enough still,

@@ -213,12 +213,7 @@ Interval island_pitches(const Job& job) {
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options) {
     check(job, options);
     Surveyor surveyor(job, body, options);
-    StreamOptions stream;
-    stream.range = {0, job.layer_count};
-    stream.threads = options.threads;
-    stream.on_progress = options.on_progress;
-    stream.cancel = options.cancel;
-    stream_layers(job, surveyor, stream);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
     return surveyor.result();
 }
 

@@ -115,4 +115,14 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     return report;
 }
 
+void survey_layers(const Job& job, Backend& surveyor, int threads,
+                   const std::function<void(const Progress&)>& on_progress, const CancelToken* cancel) {
+    StreamOptions options;
+    options.range = {0, job.layer_count};
+    options.threads = threads;
+    options.on_progress = on_progress;
+    options.cancel = cancel;
+    stream_layers(job, surveyor, options);
+}
+
 }  // namespace lamella

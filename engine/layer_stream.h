@@ -47,4 +47,8 @@ struct StreamReport {
 /// layers. Throws what the back-end throws, and Interrupted when cancelled.
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options);
 
+/// Streams all layers of a job to a back-end that only looks at them.
+void survey_layers(const Job& job, Backend& surveyor, int threads,
+                   const std::function<void(const Progress&)>& on_progress, const CancelToken* cancel);
+
 }  // namespace lamella

@@ -245,12 +245,7 @@ OverhangSurvey survey_overhangs(const Job& job, const OverhangSurveyOptions& opt
     Job bare = job;
     bare.supports = nullptr;
     Surveyor surveyor(bare, options);
-    StreamOptions stream;
-    stream.range = {0, job.layer_count};
-    stream.threads = options.threads;
-    stream.on_progress = options.on_progress;
-    stream.cancel = options.cancel;
-    stream_layers(bare, surveyor, stream);
+    survey_layers(bare, surveyor, options.threads, options.on_progress, options.cancel);
     return surveyor.result();
 }
 

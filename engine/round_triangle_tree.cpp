@@ -16,11 +16,12 @@ RoundTriangleTree::RoundTriangleTree(const TriangleMesh& mesh, std::span<const d
         order_.push_back(k);
         bounds_ = unite(bounds_, lamella::bounds(round_triangle(mesh, radii, k)));
     }
-    if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), centers);
+    if (order_.empty()) return;
+    build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(order_.size()), centers,
+                     [&](std::uint32_t first, std::uint32_t last) { return leaf(first, last); });
 }
 
-void RoundTriangleTree::build(std::uint32_t first, std::uint32_t last, const std::vector<dvec3>& centers) {
-    const std::size_t number = nodes_.size();
+RoundTriangleTree::Node RoundTriangleTree::leaf(std::uint32_t first, std::uint32_t last) const {
     Node node{{}, {}, first, last - first};
     for (std::uint32_t k = first; k < last; ++k) {
         for (const std::uint32_t v : mesh_.triangles[order_[k]]) {
@@ -28,14 +29,7 @@ void RoundTriangleTree::build(std::uint32_t first, std::uint32_t last, const std
             node.radii = {std::min(node.radii.lo, radii_[v]), std::max(node.radii.hi, radii_[v])};
         }
     }
-    nodes_.push_back(node);
-    if (last - first <= halving_leaf_size) return;
-    const std::uint32_t middle = halve(order_, first, last, centers);
-    build(first, middle, centers);
-    const auto second = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, last, centers);
-    nodes_[number].first = second;
-    nodes_[number].count = 0;
+    return node;
 }
 
 /// The least of |p - x| - sign * r(x) over all points x of the mesh.

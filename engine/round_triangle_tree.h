@@ -32,7 +32,7 @@ class RoundTriangleTree {
         std::uint32_t count;  ///< triangles of a leaf, 0 for an inner node
     };
 
-    void build(std::uint32_t first, std::uint32_t last, const std::vector<dvec3>& centers);
+    Node leaf(std::uint32_t first, std::uint32_t last) const;
     double nearest(dvec3 p, double sign, double best) const;
 
     const TriangleMesh& mesh_;

@@ -56,7 +56,11 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.
     for (const auto& t : mesh.triangles) {
         centers.push_back(mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
     }
-    if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), centers);
+    if (order_.empty()) return;
+    build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(order_.size()), centers,
+                     [&](std::uint32_t first, std::uint32_t last) {
+                         return Node{box_of(first, last), first, last - first};
+                     });
 }
 
 Box TriangleTree::box_of(std::uint32_t first, std::uint32_t last) const {
@@ -65,18 +69,6 @@ Box TriangleTree::box_of(std::uint32_t first, std::uint32_t last) const {
         for (const std::uint32_t v : mesh_.triangles[order_[k]]) box.include(mesh_.vertices[v]);
     }
     return box;
-}
-
-void TriangleTree::build(std::uint32_t first, std::uint32_t last, std::vector<dvec3>& centers) {
-    const std::size_t node = nodes_.size();
-    nodes_.push_back({box_of(first, last), first, last - first});
-    if (last - first <= halving_leaf_size) return;
-    const std::uint32_t middle = halve(order_, first, last, centers);
-    build(first, middle, centers);
-    const auto second = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, last, centers);
-    nodes_[node].first = second;
-    nodes_[node].count = 0;
 }
 
 double TriangleTree::distance(dvec3 p, double limit) const {

@@ -45,7 +45,6 @@ class TriangleTree {
     const std::vector<std::uint32_t>& order() const { return order_; }
 
   private:
-    void build(std::uint32_t first, std::uint32_t last, std::vector<dvec3>& centers);
     Box box_of(std::uint32_t first, std::uint32_t last) const;
 
     const TriangleMesh& mesh_;

@@ -30,7 +30,12 @@ class Pieces {
             order_.push_back(static_cast<std::uint32_t>(i));
         }
         by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
-        build(0, static_cast<std::uint32_t>(size()), centers);
+        const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
+            Node node{{}, first, last - first};
+            for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
+            return node;
+        };
+        build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(size()), centers, leaf);
     }
 
     const Box& box() const { return nodes_.front().box; }
@@ -70,20 +75,6 @@ class Pieces {
         return i < uprights_.size() ? lamella::signed_distance(uprights_[i], p)
                                     : lamella::signed_distance(beams_[i - uprights_.size()], p);
     }
-    void build(std::uint32_t first, std::uint32_t last, const std::vector<dvec3>& centers) {
-        const std::size_t number = nodes_.size();
-        Node node{{}, first, last - first};
-        for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
-        nodes_.push_back(node);
-        if (last - first <= halving_leaf_size) return;
-        const std::uint32_t middle = halve(order_, first, last, centers);
-        build(first, middle, centers);
-        const auto second = static_cast<std::uint32_t>(nodes_.size());
-        build(middle, last, centers);
-        nodes_[number].first = second;
-        nodes_[number].count = 0;
-    }
-
     std::vector<Upright> uprights_;
     std::vector<Beam> beams_;
     std::vector<Box> boxes_;
