@@ -162,13 +162,17 @@ SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& su
 }
 
 /// The bed comes to lie lower, by whole layers, so that the part is cut where it was.
-void lift(Job& job, double by) {
-    const auto layers = static_cast<int>(std::ceil(by / job.layer_height - 1e-9));
+void lift(Job& job, int layers) {
     job.bounds.lo.z -= layers * job.layer_height;
     job.layer_count += layers;
 }
 
 }  // namespace
+
+int lifted_layers(const Recipe& recipe, const Job& job) {
+    if (recipe.support == SupportKind::none) return 0;
+    return static_cast<int>(std::ceil(recipe.printer.support.lift / job.layer_height - 1e-9));
+}
 
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options) {
@@ -182,7 +186,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
         blocked = blocked ? make_union({blocked, deep}) : deep;
     }
     Job& job = built.job;
-    lift(job, recipe.printer.support.lift);
+    lift(job, lifted_layers(recipe, job));
     Job surveyed = job;
     surveyed.part = make_scaled(recipe, built.designed, outer);
 

@@ -34,6 +34,9 @@ struct BuiltSupports {
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options);
 
+/// The number of layers by which add_supports will raise the part: its lift, rounded up.
+int lifted_layers(const Recipe& recipe, const Job& job);
+
 /// "84 points on 10 bridges, 11 pillars": one line, and one for each thing that is amiss.
 std::string supports_text(const BuiltSupports& supports);
 

@@ -186,8 +186,8 @@ void run(SliceOptions options) {
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
-    // Surveys take time: what is wrong should be known before them. A lift adds layers.
-    if (recipe.printer.support.lift == 0) parse_layers(options.layers, built.job.layer_count);
+    // Surveys take time: what is wrong should be known before them.
+    parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
     plan_supports(recipe, built, options, cancel);
     StreamOptions stream;
