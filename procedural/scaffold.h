@@ -29,7 +29,7 @@ struct ScaffoldShape {
     double wall = 0.45;            ///< thickness of a cross's walls
     double bar_width = 0.9;
     double bar_height = 0.6;   ///< a scaffold has the next whole number of layers
-    double foot = 7;           ///< diameter of a pillar's foot on the bed
+    double foot = 7;           ///< diameter of a pillar's foot on the bed; less under low pillars
     double foot_height = 0.4;  ///< in whole layers, too
 };
 

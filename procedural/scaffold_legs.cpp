@@ -48,10 +48,12 @@ dvec3 LegFinder::tip_center(dvec3 point) const {
     return point - dvec3(0, 0, lower);
 }
 
-/// The foot shrinks where the part is near.
-double LegFinder::foot_room(dvec2 at) const {
+/// The foot shrinks where the part is near, and under what is low and cannot tip far.
+double LegFinder::foot_radius_on_bed(dvec2 at, double height) const {
+    constexpr double slope = 0.25;  // of the line from the foot's border to the top
+    const double wanted = std::min(shape_.foot / 2, shape_.pillar / 2 + slope * height);
     const dvec3 middle(at, shape_.bed + shape_.foot_height / 2);
-    return space_.room(middle, shape_.foot / 2 + shape_.clearance) - shape_.clearance;
+    return space_.room(middle, wanted + shape_.clearance) - shape_.clearance;
 }
 
 /// Whether the part's surface at a place is a floor to stand on rather than a wall.
@@ -86,7 +88,8 @@ std::optional<Leg> LegFinder::upright(dvec3 top) const {
     Leg leg;
     const dvec2 at(top);
     if (!fall.hits) {
-        leg.pillar = ScaffoldPillar{at, shape_.bed, top.z, std::max(foot_room(at), half)};
+        leg.pillar =
+            ScaffoldPillar{at, shape_.bed, top.z, std::max(foot_radius_on_bed(at, top.z - shape_.bed), half)};
         leg.landing = shape_.bed;
         leg.length = top.z - shape_.bed;
         return leg;
@@ -185,7 +188,7 @@ std::optional<Leg> LegFinder::strut_along(dvec3 top, dvec3 way, bool contact) co
     leg.on_bed = !fall.hits;
     leg.length = length;
     if (leg.on_bed && long_enough) {
-        const double foot = foot_room(dvec2(end));
+        const double foot = foot_radius_on_bed(dvec2(end), length);
         const double top_of_foot = shape_.bed + shape_.foot_height;
         if (foot >= shape_.pillar / 2) leg.pillar = ScaffoldPillar{dvec2(end), shape_.bed, top_of_foot, foot};
     }

@@ -45,7 +45,7 @@ class LegFinder {
     Leg stub(dvec3 top) const;
     double layer_below(double z) const;
     double foot_radius(double upper, double length, dvec3 way) const;
-    double foot_room(dvec2 at) const;
+    double foot_radius_on_bed(dvec2 at, double height) const;
 
     const FreeSpace& space_;
     ScaffoldShape shape_;
