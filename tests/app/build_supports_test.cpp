@@ -136,7 +136,8 @@ TEST_CASE("supports hold a part without reaching into it, under the bed or beyon
     for (const std::string& part : {table_part.recipe(), ball, koala}) {
         for (const std::string kind : {"bridges", "pillars"}) {
             INFO(part << kind);
-            const Supported s = supported(part + filament + "[support]\nkind = \"" + kind + "\"\n");
+            const Supported s =
+                supported(fmt::format("{}{}[support]\nkind = \"{}\"\n", part, filament, kind));
             REQUIRE(s.supports.has_value());
             check_apart(s.job());
             check_tips(s, 0.21);
@@ -219,10 +220,11 @@ TEST_CASE("enforcers add support points where the part would do without") {
 
 TEST_CASE("regions that rule supports need supports") {
     for (const std::string make : {"blocker", "enforcer"}) {
-        const std::string region = box_region(make, {{-1, -1, -1}, {1, 1, 1}});
-        CHECK(mentions(complaint_about(ball + filament + region),
+        const std::string unheld =
+            fmt::format("{}{}{}", ball, filament, box_region(make, {{-1, -1, -1}, {1, 1, 1}}));
+        CHECK(mentions(complaint_about(unheld),
                        ".make: there are no supports to rule; accepted: a section [support] with it"));
-        CHECK(complaint_about(ball + filament + region + "[support]\n").empty());
+        CHECK(complaint_about(unheld + "[support]\n").empty());
     }
 }
 
@@ -294,8 +296,8 @@ TEST_CASE("supports end where outlines that are moved begin") {
     for (const std::string moved : {"0.3", "-0.3"}) {
         INFO(moved);
         const Supported s =
-            supported(part.recipe() + filament + "[support]\n[process]\nxy_compensation = " + moved +
-                      "\nelephant_foot = 0.2\n");
+            supported(fmt::format("{}{}[support]\n[process]\nxy_compensation = {}\nelephant_foot = 0.2\n",
+                                  part.recipe(), filament, moved));
         check_apart(s.job());
         // Before that, they keep out of the part as designed.
         const Job& designed = s.built.designed;

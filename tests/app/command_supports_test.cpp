@@ -1,4 +1,6 @@
 // Supports as users of the command meet them: what they are told, what is written, and what is kept.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -92,7 +94,7 @@ TEST_CASE("lamella supports gives every piece as JSON, and every held point has 
     for (const std::string kind : {"bridges", "pillars"}) {
         for (const std::string& part : {koala, table_in(folder), ball}) {
             const Outcome run =
-                run_lamella("supports " + part + "--printer marlin --json -q --support " + kind);
+                run_lamella(fmt::format("supports {}--printer marlin --json -q --support {}", part, kind));
             REQUIRE(run.code == 0);
             const Json plan = Json::parse(run.out);
             CHECK(plan["unheld"] == 0);
@@ -162,17 +164,18 @@ TEST_CASE("wrong supports are refused before anything is planned or written") {
              {"--threads -1", "--threads"}}) {
         for (const std::string command : {"supports ", "slice "}) {
             INFO(command << wrong);
-            const Outcome run = run_lamella(command + part + wrong + plans + " -o " + folder / "out");
+            const Outcome run =
+                run_lamella(fmt::format("{}{}{}{} -o {}", command, part, wrong, plans, folder / "out"));
             CHECK(run.code == 2);
             CHECK(mentions(run.err, message));
             CHECK(run.out.empty());
         }
     }
     for (const std::string lift : {"0", "3.05"}) {
-        const std::string job =
-            "slice " + part + "--support bridges --support-lift " + lift + plans + " -o " + folder / "out";
+        const std::string job = fmt::format("slice {}--support bridges --support-lift {}{} -o {}", part, lift,
+                                            plans, folder / "out");
         for (const std::string range : {"5", "0:400", "30:20"}) {
-            const Outcome run = run_lamella(job + " --layers " + range);
+            const Outcome run = run_lamella(fmt::format("{} --layers {}", job, range));
             CHECK(run.code == 2);
             CHECK(mentions(run.err, lift == "0" ? "B <= 60 " : "B <= 76 "));
             CHECK_FALSE(mentions(run.err, "survey for supports"));
@@ -199,12 +202,12 @@ TEST_CASE("shards of a supported job are the whole, and share one plan") {
     const std::string plans = "--plans " + folder / "plans ";
     for (const std::string printer :
          {"svg --no-printer-one-file", "png --printer-width 800 --printer-height 800"}) {
-        const std::string job = "slice " + ball + "--support bridges --printer " + printer + " ";
+        const std::string job = fmt::format("slice {}--support bridges --printer {} ", ball, printer);
         const std::string at = folder / printer.substr(0, 3);
-        REQUIRE(run_lamella(job + plans + "-o " + at + "_all").code == 0);
+        REQUIRE(run_lamella(fmt::format("{}{}-o {}_all", job, plans, at)).code == 0);
         for (const std::string range : {"0:50", "50:160"}) {
-            const Outcome shard =
-                run_lamella(job + plans + "--layers " + range + " -o " + at + "_" + range.substr(0, 1));
+            const Outcome shard = run_lamella(
+                fmt::format("{}{}--layers {} -o {}_{}", job, plans, range, at, range.substr(0, 1)));
             REQUIRE(shard.code == 0);
             CHECK(mentions(shard.err, "as planned before"));
             CHECK_FALSE(mentions(shard.err, "survey for supports"));
@@ -221,7 +224,7 @@ TEST_CASE("shards of a supported job are the whole, and share one plan") {
         }
         CHECK(layers == 160);
         // Without a plan the same is found again.
-        REQUIRE(run_lamella(job + "--plans '' -o " + at + "_fresh").code == 0);
+        REQUIRE(run_lamella(fmt::format("{}--plans '' -o {}_fresh", job, at)).code == 0);
         CHECK(tree(at + "_fresh") == all);
         CHECK(tree(folder / "plans").size() == (ending == ".svg" ? 1 : 2));
     }
@@ -270,7 +273,7 @@ TEST_CASE("a supported run that was interrupted goes on with its plan to the sam
         INFO(printer);
         const std::string name = printer.substr(0, 3), plans = folder / (name + "_plans");
         const std::string job =
-            "slice " + part + "--support bridges --printer " + printer + " --plans " + plans + " ";
+            fmt::format("slice {}--support bridges --printer {} --plans {} ", part, printer, plans);
         fs::create_directory(folder / name);
         const Outcome cut = interrupt_lamella(job + "-o " + folder / name + "/cut",
                                               [&] { return bytes_in(folder / name) > 100000; });
