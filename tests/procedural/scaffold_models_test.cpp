@@ -90,7 +90,6 @@ TEST_CASE("a koala stands on bridges", "[scaffold][models]") {
 }
 
 TEST_CASE("a fish stands on bridges", "[scaffold][models]") {
-    // It hangs so low that most of its support are feet on the bed.
     check_model({"tests/models/good/fish_mm.obj", 1, glm::dmat3(1), 50});
 }
 
