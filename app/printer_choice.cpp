@@ -56,7 +56,7 @@ std::string printers_listing() {
     text += "\nProfiles (--printer, printer.profile)\n";
     for (const PrinterProfile& p : profiles()) {
         std::string facts = p.backend;
-        if (p.backend == "png") {
+        if (p.backend == "png" || p.backend == "sl1") {
             facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height,
                                  p.image.pixel_x, p.image.pixel_y, p.image.portrait ? ", portrait" : "");
         }

@@ -63,6 +63,31 @@ void add_image(std::vector<Setting>& t) {
         {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
 }
 
+void add_resin(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.machine; }>(
+        "printer", "machine", "--printer-machine",
+        {.help = "Model that an SL1 archive is for; the machine refuses those for another one."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.material; }>(
+        "printer", "material", "--printer-material", {.help = "Name of the resin."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.exposure; }>(
+        "printer", "exposure", "--printer-exposure",
+        {.unit = "s", .limits = {0.01, 1000}, .help = "Exposure of a layer."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.first_exposure; }>(
+        "printer", "first_exposure", "--printer-first-exposure",
+        {.unit = "s", .limits = {0.01, 1000}, .help = "Exposure of the first layers."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.fade_layers; }>(
+        "printer", "fade_layers", "--printer-fade-layers",
+        {.unit = "layers",
+         .limits = {0, 100},
+         .help = "Layers over which the first exposure becomes that of the others."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.moves; }>(
+        "printer", "layer_moves", "--printer-layer-moves",
+        {.unit = "s", .limits = {0, 1000}, .help = "Time that a layer takes besides its exposure."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.notes; }>(
+        "printer", "notes", "--printer-notes",
+        {.help = "Keywords for programs that convert SL1 archives, such as FILEFORMAT_goo."}));
+}
+
 void add_vector(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.tolerance; }, [](Recipe & r) -> auto& {
         return r.printer.filament.tolerance;
@@ -126,6 +151,7 @@ void add_filament(std::vector<Setting>& t) {
 void add_printer_settings(std::vector<Setting>& table) {
     add_machine(table);
     add_image(table);
+    add_resin(table);
     add_vector(table);
     add_filament(table);
 }

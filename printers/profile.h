@@ -28,6 +28,17 @@ struct ImageProfile {
     int sub_rows = 4;
 };
 
+/// How a resin is cured.
+struct ResinProfile {
+    std::string machine = "SL1S";  ///< printerModel: the machine refuses jobs for another one
+    std::string material = "resin";
+    double exposure = 2.5;       ///< of a layer, s
+    double first_exposure = 25;  ///< of the first layers, s
+    int fade_layers = 10;        ///< over which the one becomes the other
+    double moves = 6;            ///< s that a layer takes besides its exposure
+    std::string notes;           ///< keywords for converters to other formats, such as FILEFORMAT_goo
+};
+
 struct VectorProfile {
     double tolerance = 0.025;  ///< mm between contour and surface
     bool one_file = true;      ///< one file with a group a layer; otherwise a folder of files
@@ -83,6 +94,7 @@ struct PrinterProfile {
     std::string name = "generic-8k";
     std::string backend = "png";
     ImageProfile image;
+    ResinProfile resin;
     VectorProfile vector;
     FilamentProfile filament;
     SupportProfile support;

@@ -9,6 +9,7 @@
 #include "engine/error.h"
 #include "printers/gcode.h"
 #include "printers/png_stack.h"
+#include "printers/sl1.h"
 #include "printers/svg.h"
 
 namespace lamella {
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack},
+    BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others",
+                OutputKind::file, make_sl1},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
                 OutputKind::file_or_folder, make_svg},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
@@ -31,6 +34,12 @@ PrinterProfile display(const char* name, int width, int height, double pixel, bo
     profile.image.pixel_y = pixel;
     profile.image.portrait = portrait;
     profile.support = usual_supports("png");
+    return profile;
+}
+
+PrinterProfile archive(PrinterProfile profile, const char* machine) {
+    profile.backend = "sl1";
+    profile.resin.machine = machine;
     return profile;
 }
 
@@ -85,7 +94,7 @@ std::span<const BackendInfo> backends() { return backend_table; }
 
 SupportProfile usual_supports(std::string_view backend) {
     SupportProfile support;
-    if (backend != "png") return support;
+    if (backend != "png" && backend != "sl1") return support;
     support.spacing = 4;
     support.own_bridge = 2;
     support.bridge = 8;
@@ -109,8 +118,8 @@ std::span<const PrinterProfile> profiles() {
     static const std::array table = {
         display("generic-8k", 7680, 4320, 0.025, false),
         display("generic-4k", 3840, 2160, 0.05, false),
-        display("prusa-sl1", 2560, 1440, 0.04725, true),
-        display("prusa-sl1s", 2560, 1620, 0.05, true),
+        archive(display("prusa-sl1", 2560, 1440, 0.04725, true), "SL1"),
+        archive(display("prusa-sl1s", 2560, 1620, 0.05, true), "SL1S"),
         plain("svg", "svg"),
         plain("marlin", "gcode"),
     };

@@ -1,4 +1,4 @@
-// Local headers, deflated data, data descriptors and the central directory.
+// Deflated data and the descriptors behind it.
 #include "printers/zip_writer.h"
 
 #include <zlib.h>
@@ -13,36 +13,6 @@ namespace lamella {
 namespace {
 
 constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
-constexpr std::uint32_t version = 20;        // deflate and folders
-constexpr std::uint32_t flags = 0x0808;      // sizes follow the data; names are UTF-8
-constexpr std::uint32_t deflated = 8;        // the method
-constexpr std::uint32_t first_day = 0x0021;  // 1980-01-01
-
-void put_u16(std::string& out, std::uint64_t value) {
-    out.push_back(static_cast<char>(value & 0xff));
-    out.push_back(static_cast<char>(value >> 8 & 0xff));
-}
-
-void put_u32(std::string& out, std::uint64_t value) {
-    put_u16(out, value & 0xffff);
-    put_u16(out, value >> 16);
-}
-
-/// What local headers and the directory have in common, from the version needed to the length of the name.
-void put_common(std::string& out, std::uint32_t crc, std::uint64_t packed, std::uint64_t size,
-                const std::string& name) {
-    put_u16(out, version);
-    put_u16(out, flags);
-    put_u16(out, deflated);
-    put_u16(out, 0);  // midnight
-    put_u16(out, first_day);
-    put_u32(out, crc);
-    put_u32(out, packed);
-    put_u32(out, size);
-    put_u16(out, name.size());
-    put_u16(out, 0);  // no extra field
-}
-
 }  // namespace
 
 struct ZipWriter::Deflater {
@@ -86,11 +56,12 @@ void ZipWriter::begin_entry(std::string name) {
     if (name.empty() || name.size() > longest_name || entries_.size() == most_entries)
         throw FaultError(path_.string() +
                          ": an archive holds up to 65535 entries with names of 1 to 1024 bytes");
-    entries_.push_back({std::move(name), file_.size()});
+    ZipEntry entry;
+    entry.name = std::move(name);
+    entry.offset = file_.size();
+    entries_.push_back(std::move(entry));
     std::string header;
-    put_u32(header, 0x04034b50);
-    put_common(header, 0, 0, 0, entries_.back().name);
-    header += entries_.back().name;
+    put_local_header(header, entries_.back(), ZipMethod::deflated);
     put(header);
     deflateReset(&deflater_->stream);
     open_ = true;
@@ -102,7 +73,7 @@ void ZipWriter::write(std::string_view text) {
     constexpr std::size_t step = std::size_t{1} << 30U;
     for (; !text.empty(); text.remove_prefix(std::min(step, text.size()))) {
         const std::string_view part = text.substr(0, step);
-        Entry& entry = entries_.back();
+        ZipEntry& entry = entries_.back();
         entry.size += part.size();
         if (entry.size > most_bytes)
             throw FaultError(path_.string() + ": " + entry.name +
@@ -136,38 +107,19 @@ void ZipWriter::end_entry() {
     if (!open_) return;
     deflate_all({}, true);
     open_ = false;
-    const Entry& entry = entries_.back();
+    const ZipEntry& entry = entries_.back();
     std::string descriptor;
-    put_u32(descriptor, 0x08074b50);
-    put_u32(descriptor, entry.crc);
-    put_u32(descriptor, entry.packed);
-    put_u32(descriptor, entry.size);
+    put_little(descriptor, 0x08074b50, 4);
+    put_little(descriptor, entry.crc, 4);
+    put_little(descriptor, entry.packed, 4);
+    put_little(descriptor, entry.size, 4);
     put(descriptor);
 }
 
 void ZipWriter::finish() {
     end_entry();
     std::string directory;
-    for (const Entry& entry : entries_) {
-        put_u32(directory, 0x02014b50);
-        put_u16(directory, version);
-        put_common(directory, entry.crc, entry.packed, entry.size, entry.name);
-        put_u16(directory, 0);  // no comment
-        put_u16(directory, 0);  // disk 0
-        put_u16(directory, 0);  // no internal attributes
-        put_u32(directory, 0);  // no external attributes
-        put_u32(directory, entry.offset);
-        directory += entry.name;
-    }
-    const std::uint64_t start = file_.size(), length = directory.size();
-    put_u32(directory, 0x06054b50);
-    put_u16(directory, 0);  // this disk
-    put_u16(directory, 0);  // the directory's disk
-    put_u16(directory, entries_.size());
-    put_u16(directory, entries_.size());
-    put_u32(directory, length);
-    put_u32(directory, start);
-    put_u16(directory, 0);  // no comment
+    put_directory(directory, entries_, file_.size(), ZipMethod::deflated);
     put(directory);
     file_.sync();
     file_.close();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "printers/output_file.h"
+#include "printers/zip_records.h"
 
 namespace lamella {
 
@@ -32,13 +33,6 @@ class ZipWriter {
     void finish();
 
   private:
-    struct Entry {
-        std::string name;
-        std::uint64_t offset = 0;
-        std::uint64_t packed = 0;
-        std::uint64_t size = 0;
-        std::uint32_t crc = 0;
-    };
     struct Deflater;
 
     void deflate_all(std::string_view text, bool last);
@@ -48,7 +42,7 @@ class ZipWriter {
     std::filesystem::path path_, unfinished_;
     OutputFile file_;
     std::unique_ptr<Deflater> deflater_;
-    std::vector<Entry> entries_;
+    std::vector<ZipEntry> entries_;
     bool open_ = false;  ///< an entry is being written
     bool finished_ = false;
 };

@@ -1,0 +1,205 @@
+// The archive's entries, and what its two descriptions say.
+#include "printers/sl1.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "engine/error.h"
+#include "engine/number_format.h"
+#include "printers/png_mask.h"
+#include "printers/stored_zip.h"
+#include "printers/unfinished_file.h"
+
+namespace lamella {
+namespace {
+
+constexpr int first_layers = 3;  // that the machine exposes like the first one
+
+/// `key = value`, a line each, sorted by key.
+using Description = std::map<std::string, std::string>;
+
+std::string to_text(const Description& description) {
+    std::string text;
+    for (const auto& [key, value] : description) text += key + " = " + value + "\n";
+    return text;
+}
+
+/// The beginning of every layer's name. Machines take all images for layers that begin so: the previews'
+/// folder must not.
+std::string job_folder(const std::string& name) {
+    constexpr std::size_t longest = 64;
+    std::string clean;
+    for (const char c : name.substr(0, longest)) {
+        const bool plain = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') ||
+                           c == '-' || c == '_';
+        clean += plain ? c : '_';
+    }
+    return std::string_view("thumbnail").starts_with(clean) ? "job-" + clean : clean;
+}
+
+/// What goes into one line of a description.
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    return text;
+}
+
+class Sl1 : public Backend {
+  public:
+    Sl1(const PrinterProfile& profile, const std::string& path, bool force)
+        : profile_(profile), path_(path), output_(path, force) {}
+
+    int begin(const Job& job, LayerRange range, bool resume) override {
+        check_range(job, range);
+        layout_.emplace(profile_.image, job.bounds);
+        check_resin();
+        folder_ = job_folder(job.name);
+        layer_height_ = job.layer_height;
+        range_ = range;
+        height_ = job.layer_count * job.layer_height;
+        const ResinProfile& r = profile_.resin;
+        const std::string settings =
+            fmt::format("sl1 {} {} {} {} {} {} {} {} {}", mask_settings(profile_, job), profile_.name,
+                        r.machine, r.material, r.exposure, r.first_exposure, r.fade_layers, r.moves, r.notes);
+        const int next = output_.begin({job.identity, settings, range}, resume);
+        if (output_.resumed()) restore();
+        return next;
+    }
+
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+        return render_png_mask(layer, *layout_, profile_);
+    }
+
+    void write(const Layer& layer, LayerProduct& product) override {
+        const auto& file = dynamic_cast<MaskFile&>(product).file;
+        volume_ += (product.area + product.support_area) * layer.thickness();
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text for the archive
+        const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+        const std::string name = fmt::format("{}{:05}.png", folder_, layer.index() - range_.first);
+        const std::string entry = zip_.entry(name, bytes);
+        output_.commit(entry, layer.index() + 1, {volume_, zip_.size()});
+    }
+
+    void end() override {
+        std::string text = zip_.entry("config.ini", to_text(for_machine()));
+        text += zip_.entry("prusaslicer.ini", to_text(for_programs()));
+        output_.end(text + zip_.directory());
+    }
+
+  private:
+    void check_resin() const {
+        constexpr int most_layers = 99999;  // names have five digits
+        const ResinProfile& r = profile_.resin;
+        const auto positive = [](double v) { return v > 0 && v <= 1e4; };
+        if (!positive(r.exposure) || !positive(r.first_exposure)) {
+            throw InputError(fmt::format("exposures of {} and {} s: must be above 0, at most 10000",
+                                         r.exposure, r.first_exposure));
+        }
+        if (range_.count() > most_layers) {
+            throw InputError(fmt::format("{} layers are too many for an SL1 archive; accepted: {} or fewer",
+                                         range_.count(), most_layers));
+        }
+    }
+
+    void restore() {
+        try {
+            const nlohmann::ordered_json& state = output_.state();
+            volume_ = state.at(0).get<double>();
+            zip_.take_up(path_ + ".partial", state.at(1).get<std::uint64_t>());
+        } catch (const nlohmann::json::exception&) {
+            throw InputError("the journal of the unfinished archive is damaged; discard it with --force");
+        }
+    }
+
+    /// Exposure of a layer, s: the first ones, a linear ramp, then all others.
+    double exposure(int layer) const {
+        const ResinProfile& r = profile_.resin;
+        const int faded = layer - first_layers + 1;
+        if (faded <= 0) return r.first_exposure;
+        if (faded > r.fade_layers) return r.exposure;
+        return r.first_exposure + (r.exposure - r.first_exposure) * faded / (r.fade_layers + 1);
+    }
+
+    double print_time() const {
+        const int ramp = std::min(range_.count(), first_layers + profile_.resin.fade_layers);
+        double seconds = (range_.count() - ramp) * profile_.resin.exposure;
+        for (int layer = 0; layer < ramp; ++layer) seconds += exposure(layer);
+        return seconds + range_.count() * profile_.resin.moves;
+    }
+
+    Description for_machine() const {
+        const ResinProfile& r = profile_.resin;
+        constexpr double ml = 1000;  // mm^3
+        return {{"action", "print"},
+                {"expTime", format_number(r.exposure, 4)},
+                {"expTimeFirst", format_number(r.first_exposure, 4)},
+                {"expUserProfile", "0"},
+                {"fileCreationTimestamp", "1980-01-01 at 00:00:00 UTC"},
+                {"hollow", "0"},
+                {"jobDir", folder_},
+                {"layerHeight", format_number(layer_height_, 6)},
+                {"layerHeightFirst", format_number(layer_height_, 6)},
+                {"materialName", one_line(r.material)},
+                {"numFade", std::to_string(r.fade_layers)},
+                {"numFast", std::to_string(range_.count())},
+                {"numSlow", "0"},
+                {"printProfile", format_number(layer_height_, 6) + " Lamella"},
+                {"printTime", format_number(print_time(), 3)},
+                {"printerModel", one_line(r.machine)},
+                {"printerProfile", one_line(profile_.name)},
+                {"printerVariant", "default"},
+                {"prusaSlicerVersion", "Lamella " LAMELLA_VERSION},
+                {"usedMaterial", format_number(volume_ / ml, 6)}};
+    }
+
+    /// What the display is, in a slicer's words. One that stands upright swaps the axes, which mirrors by
+    /// itself: there `display_mirror_x` means that the image is not mirrored any further.
+    Description for_programs() const {
+        const ImageProfile& image = profile_.image;
+        const ResinProfile& r = profile_.resin;
+        const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
+        const bool mirror_x = image.portrait != image.mirror_x;
+        const std::string layer = format_number(layer_height_, 6);
+        return {{"display_height", format_number(image.height * image.pixel_y, 6)},
+                {"display_mirror_x", flag(mirror_x)},
+                {"display_mirror_y", flag(image.mirror_y)},
+                {"display_orientation", image.portrait ? "portrait" : "landscape"},
+                {"display_pixels_x", std::to_string(image.width)},
+                {"display_pixels_y", std::to_string(image.height)},
+                {"display_width", format_number(image.width * image.pixel_x, 6)},
+                {"exposure_time", format_number(r.exposure, 4)},
+                {"faded_layers", std::to_string(r.fade_layers)},
+                {"gamma_correction", image.antialiasing == Antialiasing::off ? "0" : "1"},
+                {"initial_exposure_time", format_number(r.first_exposure, 4)},
+                {"initial_layer_height", layer},
+                {"layer_height", layer},
+                {"material_notes", ""},
+                {"max_print_height", format_number(height_, 6)},
+                {"printer_model", one_line(r.machine)},
+                {"printer_notes", one_line(r.notes)},
+                {"printer_settings_id", one_line(profile_.name)},
+                {"printer_technology", "SLA"}};
+    }
+
+    PrinterProfile profile_;
+    std::string path_;
+    UnfinishedFile output_;
+    StoredZip zip_;
+    std::optional<MaskLayout> layout_;
+    std::string folder_;
+    double layer_height_ = 0, height_ = 0;  ///< mm
+    LayerRange range_;
+    double volume_ = 0;  ///< mm^3
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_sl1(const PrinterProfile& profile, const std::string& path, bool force) {
+    return std::make_unique<Sl1>(profile, path, force);
+}
+
+}  // namespace lamella
