@@ -23,7 +23,7 @@ using Description = std::map<std::string, std::string>;
 
 std::string to_text(const Description& description) {
     std::string text;
-    for (const auto& [key, value] : description) text += key + " = " + value + "\n";
+    for (const auto& [key, value] : description) text += fmt::format("{} = {}\n", key, value);
     return text;
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("what is no archive begun here is not taken up", "[stored_zip]") {
     const TemporaryFolder folder;
     StoredZip zip;
     const std::string good = zip.entry("a", "hello") + zip.entry("b", "world");
-    const auto taken = [&](std::string bytes, std::uint64_t size) {
+    const auto taken = [&](const std::string& bytes, std::uint64_t size) {
         write_text(folder / "x", bytes);
         StoredZip other;
         other.take_up(folder / "x", size);
