@@ -75,6 +75,20 @@ void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.first_exposure; }>(
         "printer", "first_exposure", "--printer-first-exposure",
         {.unit = "s", .limits = {0.01, 1000}, .help = "Exposure of the first layers."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.first_layers; }>(
+        "printer", "first_layers", "--printer-first-layers",
+        {.unit = "layers",
+         .limits = {1, 100},
+         .help = "Layers that are exposed like the first one; SL1 machines take 3."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.lift; }>(
+        "printer", "lift", "--printer-lift",
+        {.unit = "mm", .limits = {0.1, 100}, .help = "Height by which the plate rises after each layer."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.lift_speed; }>(
+        "printer", "lift_speed", "--printer-lift-speed",
+        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed of rising."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.retract_speed; }>(
+        "printer", "retract_speed", "--printer-retract-speed",
+        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed of coming down again."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.fade_layers; }>(
         "printer", "fade_layers", "--printer-fade-layers",
         {.unit = "layers",

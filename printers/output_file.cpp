@@ -65,6 +65,16 @@ void OutputFile::write(std::span<const std::byte> bytes) {
     }
 }
 
+void OutputFile::rewrite_start(std::string_view text) {
+    for (off_t at = 0; !text.empty();) {
+        const ssize_t written = ::pwrite(descriptor_, text.data(), text.size(), at);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail("write", path_);
+        text.remove_prefix(static_cast<std::size_t>(written));
+        at += written;
+    }
+}
+
 void OutputFile::sync() {
     // Pipes and devices cannot be synced, and need not be.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("store", path_);

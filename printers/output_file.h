@@ -25,6 +25,8 @@ class OutputFile {
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
+    /// Replaces bytes at the beginning, which exist already.
+    void rewrite_start(std::string_view text);
     /// Bytes in the file.
     std::uint64_t size() const { return size_; }
     /// Waits until the bytes are on the medium.

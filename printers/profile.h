@@ -1,6 +1,7 @@
 // What a recipe says about the machine: one plain struct that every back-end reads its part of.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace lamella {
@@ -34,8 +35,13 @@ struct ResinProfile {
     std::string material = "resin";
     double exposure = 2.5;       ///< of a layer, s
     double first_exposure = 25;  ///< of the first layers, s
+    int first_layers = 4;        ///< exposed like the first one; SL1 machines take 3 whatever is said
     int fade_layers = 10;        ///< over which the one becomes the other
     double moves = 6;            ///< s that a layer takes besides its exposure
+    double lift = 6;  ///< by which the plate rises after each layer, mm; SL1 machines know by themselves
+    double lift_speed = 60;      ///< mm/min
+    double retract_speed = 150;  ///< mm/min
+    std::uint8_t light = 255;    ///< share of the full power, 255 all of it
     std::string notes;           ///< keywords for converters to other formats, such as FILEFORMAT_goo
 };
 

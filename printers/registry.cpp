@@ -8,6 +8,7 @@
 
 #include "engine/error.h"
 #include "printers/gcode.h"
+#include "printers/goo.h"
 #include "printers/png_stack.h"
 #include "printers/sl1.h"
 #include "printers/svg.h"
@@ -19,6 +20,7 @@ constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others",
                 OutputKind::file, make_sl1},
+    BackendInfo{"goo", "file for resin printers with 8-bit displays", OutputKind::file, make_goo},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
                 OutputKind::file_or_folder, make_svg},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
@@ -94,7 +96,7 @@ std::span<const BackendInfo> backends() { return backend_table; }
 
 SupportProfile usual_supports(std::string_view backend) {
     SupportProfile support;
-    if (backend != "png" && backend != "sl1") return support;
+    if (backend != "png" && backend != "sl1" && backend != "goo") return support;
     support.spacing = 4;
     support.own_bridge = 2;
     support.bridge = 8;

@@ -10,13 +10,15 @@
 #include "engine/error.h"
 #include "engine/number_format.h"
 #include "printers/png_mask.h"
+#include "printers/resin.h"
 #include "printers/stored_zip.h"
 #include "printers/unfinished_file.h"
 
 namespace lamella {
 namespace {
 
-constexpr int first_layers = 3;  // that the machine exposes like the first one
+constexpr int first_layers = 3;      // that the machine exposes like the first one
+constexpr int most_layers = 99'999;  // names have five digits
 
 /// `key = value`, a line each, sorted by key.
 using Description = std::map<std::string, std::string>;
@@ -51,20 +53,24 @@ std::string one_line(std::string text) {
 class Sl1 : public Backend {
   public:
     Sl1(const PrinterProfile& profile, const std::string& path, bool force)
-        : profile_(profile), path_(path), output_(path, force) {}
+        : profile_(profile), path_(path), output_(path, force) {
+        profile_.resin.first_layers = first_layers;
+    }
 
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         layout_.emplace(profile_.image, job.bounds);
-        check_resin();
+        check_resin_profile(profile_.resin);
+        if (range.count() > most_layers) {
+            throw InputError(fmt::format("{} layers are too many for an SL1 archive; accepted: {} or fewer",
+                                         range.count(), most_layers));
+        }
         folder_ = job_folder(job.name);
         layer_height_ = job.layer_height;
         range_ = range;
         height_ = job.layer_count * job.layer_height;
-        const ResinProfile& r = profile_.resin;
-        const std::string settings =
-            fmt::format("sl1 {} {} {} {} {} {} {} {} {}", mask_settings(profile_, job), profile_.name,
-                        r.machine, r.material, r.exposure, r.first_exposure, r.fade_layers, r.moves, r.notes);
+        const std::string settings = "sl1 " + mask_settings(profile_, job) + " " + profile_.name + " " +
+                                     describe_resin(profile_.resin);
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) restore();
         return next;
@@ -91,20 +97,6 @@ class Sl1 : public Backend {
     }
 
   private:
-    void check_resin() const {
-        constexpr int most_layers = 99999;  // names have five digits
-        const ResinProfile& r = profile_.resin;
-        const auto positive = [](double v) { return v > 0 && v <= 1e4; };
-        if (!positive(r.exposure) || !positive(r.first_exposure)) {
-            throw InputError(fmt::format("exposures of {} and {} s: must be above 0, at most 10000",
-                                         r.exposure, r.first_exposure));
-        }
-        if (range_.count() > most_layers) {
-            throw InputError(fmt::format("{} layers are too many for an SL1 archive; accepted: {} or fewer",
-                                         range_.count(), most_layers));
-        }
-    }
-
     void restore() {
         try {
             const nlohmann::ordered_json& state = output_.state();
@@ -113,22 +105,6 @@ class Sl1 : public Backend {
         } catch (const nlohmann::json::exception&) {
             throw InputError("the journal of the unfinished archive is damaged; discard it with --force");
         }
-    }
-
-    /// Exposure of a layer, s: the first ones, a linear ramp, then all others.
-    double exposure(int layer) const {
-        const ResinProfile& r = profile_.resin;
-        const int faded = layer - first_layers + 1;
-        if (faded <= 0) return r.first_exposure;
-        if (faded > r.fade_layers) return r.exposure;
-        return r.first_exposure + (r.exposure - r.first_exposure) * faded / (r.fade_layers + 1);
-    }
-
-    double print_time() const {
-        const int ramp = std::min(range_.count(), first_layers + profile_.resin.fade_layers);
-        double seconds = (range_.count() - ramp) * profile_.resin.exposure;
-        for (int layer = 0; layer < ramp; ++layer) seconds += exposure(layer);
-        return seconds + range_.count() * profile_.resin.moves;
     }
 
     Description for_machine() const {
@@ -148,7 +124,7 @@ class Sl1 : public Backend {
                 {"numFast", std::to_string(range_.count())},
                 {"numSlow", "0"},
                 {"printProfile", format_number(layer_height_, 6) + " Lamella"},
-                {"printTime", format_number(print_time(), 3)},
+                {"printTime", format_number(resin_print_time(r, range_.count()), 3)},
                 {"printerModel", one_line(r.machine)},
                 {"printerProfile", one_line(profile_.name)},
                 {"printerVariant", "default"},

@@ -30,6 +30,8 @@ class UnfinishedFile {
     /// Appends the text of what lies before layer `next`, which is complete with it. `state` is what a run
     /// that continues here has to know.
     void commit(std::string_view text, int next, const nlohmann::ordered_json& state = nullptr);
+    /// Replaces bytes at the beginning by as many others, once all layers are there.
+    void rewrite_start(std::string_view text) { file_.rewrite_start(text); }
     /// Appends the end of the file and gives it its name.
     void end(std::string_view text);
 
