@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view magic("\x07\x00\x00\x00\x44\x4c\x50\x00", 8);
 constexpr std::string_view line_end = "\r\n";
-constexpr int small_preview = 116, large_preview = 290;  // px
+constexpr std::size_t small_preview = 116, large_preview = 290;  // px
 
 /// Appends numbers, highest byte first.
 class BigEndian {

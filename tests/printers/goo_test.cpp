@@ -103,9 +103,9 @@ GooFile read_goo(const std::string& path) {
     CHECK(magic == std::string("\x07\0\0\0DLP\0", 8));
     CHECK(in.text(32) == "Lamella");
     in.raw(24 + 24 + 32 + 32 + 32 + 6);
-    in.raw(116 * 116 * 2);
+    in.raw(std::size_t{116} * 116 * 2);
     CHECK(in.raw(2) == "\r\n");
-    in.raw(290 * 290 * 2);
+    in.raw(std::size_t{290} * 290 * 2);
     CHECK(in.raw(2) == "\r\n");
     GooFile file{};
     file.layers = in.number(4);
@@ -130,7 +130,7 @@ GooFile read_goo(const std::string& path) {
         in.raw(6);
         layer.z = in.real();
         layer.exposure = in.real();
-        in.raw(12 * 4);
+        in.raw(48);
         CHECK(in.number(2) == 255);
         CHECK(in.raw(2) == "\r\n");
         layer.pixels = decode(in.raw(in.number(4)));
