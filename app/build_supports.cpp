@@ -8,6 +8,7 @@
 
 #include "app/build_process.h"
 #include "app/identity.h"
+#include "app/progress.h"
 #include "engine/csg.h"
 #include "engine/error.h"
 #include "engine/primitives.h"
@@ -213,6 +214,14 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     const Box box = unite(job.bounds, scaffold->bounds());
     job.bounds = {{box.lo.x, box.lo.y, job.bounds.lo.z}, {box.hi.x, box.hi.y, job.bounds.hi.z}};
     return supports;
+}
+
+std::optional<BuiltSupports> add_supports_with_progress(const Recipe& recipe, BuiltJob& built,
+                                                        SupportOptions options, bool quiet) {
+    if (recipe.support == SupportKind::none) return {};
+    ProgressDisplay display(quiet, "survey for supports: ");
+    options.on_progress = [&](const Progress& progress) { display.show(progress); };
+    return add_supports(recipe, built, options);
 }
 
 std::string supports_text(const BuiltSupports& supports) {

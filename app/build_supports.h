@@ -34,6 +34,10 @@ struct BuiltSupports {
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options);
 
+/// The same, with the survey's progress on standard error unless quiet.
+std::optional<BuiltSupports> add_supports_with_progress(const Recipe& recipe, BuiltJob& built,
+                                                        SupportOptions options, bool quiet);
+
 /// The number of layers by which add_supports will raise the part: its lift, rounded up.
 int lifted_layers(const Recipe& recipe, const Job& job);
 

@@ -133,34 +133,9 @@ void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, 
     survey.threads = options.threads;
     survey.cancel = &cancel;
     survey.on_progress = [&](const Progress& progress) { display.show(progress); };
-    try {
-        drop_islands(recipe, built, survey);
-    } catch (...) {
-        display.finish();
-        throw;
-    }
+    drop_islands(recipe, built, survey);
     display.finish();
     if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
-}
-
-void plan_supports(const Recipe& recipe, BuiltJob& built, const SliceOptions& options,
-                   const CancelToken& cancel) {
-    if (recipe.support == SupportKind::none) return;
-    ProgressDisplay display(options.quiet, "survey for supports: ");
-    SupportOptions planning;
-    planning.plans = options.plans;
-    planning.threads = options.threads;
-    planning.cancel = &cancel;
-    planning.on_progress = [&](const Progress& progress) { display.show(progress); };
-    std::optional<BuiltSupports> supports;
-    try {
-        supports = add_supports(recipe, built, planning);
-    } catch (...) {
-        display.finish();
-        throw;
-    }
-    display.finish();
-    if (!options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
 }
 
 void run(SliceOptions options) {
@@ -189,7 +164,9 @@ void run(SliceOptions options) {
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
-    plan_supports(recipe, built, options, cancel);
+    const auto supports = add_supports_with_progress(
+        recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
+    if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.

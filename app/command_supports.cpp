@@ -8,7 +8,6 @@
 #include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/progress.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
@@ -143,14 +142,8 @@ void run(const SupportsCommand& options) {
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
-    ProgressDisplay display(options.quiet, "survey for supports: ");
-    SupportOptions planning;
-    planning.plans = options.plans;
-    planning.threads = options.threads;
-    planning.cancel = &cancel;
-    planning.on_progress = [&](const Progress& progress) { display.show(progress); };
-    const BuiltSupports supports = *add_supports(recipe, built, planning);
-    display.finish();
+    const BuiltSupports supports = *add_supports_with_progress(
+        recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     TextOutput out(options.output);
     out.write(options.json ? as_json(supports, built.job) : as_text(supports, built.job));
     out.close();

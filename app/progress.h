@@ -13,6 +13,9 @@ class ProgressDisplay {
   public:
     /// Shows nothing when quiet; `what` is being done, for the front of every line.
     explicit ProgressDisplay(bool quiet, std::string what = "");
+    ~ProgressDisplay() { finish(); }
+    ProgressDisplay(const ProgressDisplay&) = delete;
+    ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void show(const Progress& progress);
     /// Ends the bar's line.

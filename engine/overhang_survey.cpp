@@ -222,7 +222,7 @@ void check(const Job& job, const OverhangSurveyOptions& options) {
         check_number("bond", s.bond, true);
         check_number("contact", s.contact, false);
         check_number("density", s.density, true);
-        check_number("stub", s.stub, true);
+        check_number("least height", s.least_height, true);
     }
     if (!job.part) throw InputError("overhang survey: there is no part");
     const dvec3 size = job.bounds.size();

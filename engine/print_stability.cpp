@@ -194,7 +194,7 @@ void PrintStability::make_steady(Component& c, double height, std::vector<dvec3>
             c.hull = convex_hull(std::move(c.fresh));
             c.fresh.clear();
         }
-        if (height - c.lowest < limits_.stub && c.hull.size() >= 3) return;
+        if (height - c.lowest < limits_.least_height && c.hull.size() >= 3) return;
         const dvec3* help = nullptr;
         if (c.hull.size() >= 3) {
             const Edge edge = weakest_edge(c, height);

@@ -19,7 +19,8 @@ struct StabilityLimits {
     double bond = 1;         ///< of the part to a support point, MPa: fused, not merely laid on a plate
     double contact = 0.3;    ///< area by which a support point sticks, mm^2
     double density = 1.24;   ///< of the material, g/cm^3
-    double stub = 1;  ///< what reaches no higher over its hold does not tip: the nozzle is above it, mm
+    double least_height =
+        1;  ///< over its hold, that a component must reach to tip, mm: below, the nozzle passes above it
 };
 
 /// The components of a print that nothing joins yet, each with its mass and with what holds it. A component

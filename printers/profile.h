@@ -83,8 +83,8 @@ struct SupportProfile {
     double wall = 0;               ///< thickness of a cross's arms; 0: a line's width
     double bar_width = 0.9;
     double bar_height = 0.6;
-    double foot = 7;  ///< diameter of a pillar's foot on the bed
-    double foot_height = 0.4;
+    double foot = 6;  ///< diameter of a pillar's foot on the bed
+    double foot_height = 0.2;
     double lift = 0;         ///< by which the part is raised over the bed
     double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds the part
     double push = 0.1;       ///< sideways force of the nozzle, N

@@ -17,7 +17,7 @@ BridgeWorth::BridgeWorth(const ScaffoldShape& shape) {
     const double pillar = shape.round_pillars ? pi / 4 * shape.pillar * shape.pillar
                                               : (2 * shape.pillar - shape.wall) * shape.wall;
     const double middle = (shape.tip + shape.bar_width) / 2;
-    bar_ = shape.bar_width * shape.bar_height / pillar;
+    bar_ = share_of_bar * shape.bar_width * shape.bar_height / pillar;
     connector_ = pi / 4 * middle * middle / pillar;
 }
 

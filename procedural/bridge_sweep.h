@@ -32,10 +32,13 @@ struct BridgeCandidate {
 
 /// What lengths are worth. The published gain of a bar is the length of the legs' parts below it that it
 /// saves, less its own two legs and its length; the score takes off the longest connector for each element.
-/// Here bars and connectors count by their sections against a pillar's, so that what is saved is material;
-/// with equal sections it is the published one.
+/// Here bars and connectors count by their sections against a pillar's, so that what is saved is material.
 class BridgeWorth {
   public:
+    /// A bar is charged for the whole of its legs, which bars below often take over: on real models it takes
+    /// least material in all to count the bars themselves for less than they are.
+    static constexpr double share_of_bar = 0.75;
+
     explicit BridgeWorth(const ScaffoldShape& shape);
     double gain(double saved, double legs, double bar) const { return saved - legs - bar_ * bar; }
     double score(double gain, std::size_t held, double longest_connector) const {

@@ -29,8 +29,8 @@ struct ScaffoldShape {
     double wall = 0.45;            ///< thickness of a cross's walls
     double bar_width = 0.9;
     double bar_height = 0.6;   ///< a scaffold has the next whole number of layers
-    double foot = 7;           ///< diameter of a pillar's foot on the bed; less under low pillars
-    double foot_height = 0.4;  ///< in whole layers, too
+    double foot = 6;           ///< diameter of a pillar's foot on the bed; less under low pillars
+    double foot_height = 0.2;  ///< in whole layers, too; a brim sticks by its area
 };
 
 /// A horizontal bar; its upper side lies at the height of its ends.

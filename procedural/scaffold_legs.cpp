@@ -216,7 +216,7 @@ std::optional<Leg> LegFinder::strut(dvec3 top, double longest, bool contact) con
 }
 
 /// Straight down to the bed from a layer or two above it, where nothing can be in between.
-Leg LegFinder::stub(dvec3 top) const {
+Leg LegFinder::post(dvec3 top) const {
     Leg leg;
     const dvec3 end(top.x, top.y, shape_.bed);
     leg.connectors = {{top, shape_.tip / 2, end, shape_.tip / 2}};
@@ -227,7 +227,7 @@ Leg LegFinder::stub(dvec3 top) const {
 
 std::optional<Leg> LegFinder::under_point(dvec3 point) const {
     const dvec3 top = tip_center(point);
-    if (top.z - shape_.bed < 2.5 * shape_.layer_height) return stub(top);
+    if (top.z - shape_.bed < 2.5 * shape_.layer_height) return post(top);
     std::optional<Leg> leg = best_detour(top, shape_.connector, shape_.tip / 2, true);
     if (leg && leg->on_bed) return leg;
     // Where short, thin struts leave smaller marks on the part than pillars.

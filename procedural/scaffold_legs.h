@@ -42,7 +42,7 @@ class LegFinder {
     std::optional<Leg> strut_along(dvec3 top, dvec3 way, bool contact) const;
     std::optional<Leg> strut(dvec3 top, double longest, bool contact) const;
     bool level_enough(dvec3 place) const;
-    Leg stub(dvec3 top) const;
+    Leg post(dvec3 top) const;
     double layer_below(double z) const;
     double foot_radius(double upper, double length, dvec3 way) const;
     double foot_radius_on_bed(dvec2 at, double height) const;

@@ -205,7 +205,7 @@ TEST_CASE("legs stand on floors and not on walls", "[scaffold]") {
     }
 }
 
-TEST_CASE("what stands close above the bed needs no more than a stub", "[scaffold]") {
+TEST_CASE("what stands close above the bed needs no more than a post", "[scaffold]") {
     for (const double z : {0.1, 0.2, 0.4}) {
         const Case scene{plate(z), {}};
         const auto leg = scene.under({0, 0, z});

@@ -228,7 +228,7 @@ TEST_CASE("the vault of a closed cavity is held from its floor", "[scaffold]") {
     walk(scaffold, *part);
 }
 
-TEST_CASE("points close above the bed stand on stubs", "[scaffold]") {
+TEST_CASE("points close above the bed stand on posts", "[scaffold]") {
     for (const double z : {0.1, 0.2, 0.4, 0.6, 1.0}) {
         INFO(z << " mm above the bed");
         const FieldPtr part = box({-8, -8, z}, {8, 8, z + 4});
