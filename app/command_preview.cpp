@@ -9,7 +9,7 @@
 #include "app/build_process.h"
 #include "app/build_supports.h"
 #include "app/commands.h"
-#include "app/preview_render.h"
+#include "app/job_picture.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
@@ -30,7 +30,7 @@ struct PreviewCommand {
 
 /// Writes under a name of its own first, so that the picture appears complete. The ending tells
 /// the format and therefore stays last.
-void save(const Image& image, const std::string& path) {
+void save(const Picture& image, const std::string& path) {
     const std::filesystem::path final_path(path);
     const std::filesystem::path unfinished =
         final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
@@ -60,13 +60,7 @@ void run(PreviewCommand& options) {
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     const auto added = add_supports(recipe, built, {});
-    // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
-    const FieldPtr supports = added ? added->before_offsets : nullptr;
-    const Box bounds = supports ? unite(built.designed.bounds, supports->bounds()) : built.designed.bounds;
-    // Supports are planned for the part as scaled for the machine.
-    const FieldPtr part =
-        supports ? make_scaled(recipe, built.designed, built.designed.part) : built.designed.part;
-    save(render_preview(part, supports, bounds, options.picture), path);
+    save(render_job(recipe, built, added, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(
@@ -82,7 +76,7 @@ void add_preview_command(CLI::App& root) {
     CLI::App& command =
         *root.add_subcommand("preview", "Make a shaded picture of the part, whole or cut open");
     options->recipe.add_to(command);
-    command.add_option("-o,--output", options->output, "Image file; default: the part's name and .png")
+    command.add_option("-o,--output", options->output, "Picture file; default: the part's name and .png")
         ->type_name("FILE");
     command.add_option("--size", options->size, "Edge of the picture, px")
         ->check(CLI::Range(16, 8192))

@@ -15,13 +15,14 @@
 #include "app/grading_report.h"
 #include "app/interrupt.h"
 #include "app/island_report.h"
+#include "app/job_picture.h"
+#include "app/outputs.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/layer_stream.h"
-#include "printers/registry.h"
 
 namespace lamella {
 
@@ -29,7 +30,7 @@ namespace {
 
 struct SliceOptions {
     RecipeOptions recipe;
-    std::string output;
+    std::vector<std::string> output;
     std::string layers;
     std::string plans = default_plan_folder();
     int threads = 0;
@@ -89,12 +90,12 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-void summarise(const SliceOptions& options, const BuiltJob& built, const StreamReport& report,
-               const ProgressDisplay& display, const std::optional<BeamLatticeReport>& beams,
-               const Recipe& recipe) {
+void summarise(const SliceOptions& options, const std::vector<Output>& outputs, const BuiltJob& built,
+               const StreamReport& report, const ProgressDisplay& display,
+               const std::optional<BeamLatticeReport>& beams, const Recipe& recipe) {
     const double seconds = display.seconds();
     if (options.json) {
-        nlohmann::ordered_json summary{{"output", options.output},
+        nlohmann::ordered_json summary{{"output", outputs.front().path},
                                        {"identity", built.job.identity},
                                        {"layers", report.layers_written},
                                        {"layers_kept", report.layers_kept},
@@ -102,6 +103,7 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                                        {"first_layer_seconds", display.first_layer_seconds()},
                                        {"peak_memory_bytes", peak_memory_bytes()},
                                        {"volume_mm3", report.volume}};
+        for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
         if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
@@ -119,8 +121,10 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
     const std::string supports =
         built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
+    std::string paths;
+    for (const Output& output : outputs) paths += (paths.empty() ? "" : ", ") + output.path;
     std::fputs(
-        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", options.output,
+        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", paths,
                     report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
             .c_str(),
         stderr);
@@ -138,12 +142,12 @@ void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, 
     if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
 }
 
-void run(SliceOptions options) {
+void run(const SliceOptions& options) {
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
-    if (options.output.empty()) options.output = default_output(recipe.printer, recipe.part.name);
+    const std::vector<Output> outputs = read_outputs(options.output, recipe);
     BuiltJob built = build_job(recipe);
     if (!options.quiet) note_unused(options.recipe, recipe);
     if (built.mesh && !options.quiet) {
@@ -167,6 +171,7 @@ void run(SliceOptions options) {
     const auto supports = add_supports_with_progress(
         recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
+    add_picture(recipe, built, supports, options.threads);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.
@@ -179,7 +184,7 @@ void run(SliceOptions options) {
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
     StreamReport report;
     try {
-        const auto backend = make_backend(recipe.printer, options.output, options.force);
+        const auto backend = make_outputs(outputs, options.force);
         report = stream_layers(built.job, *backend, stream);
     } catch (const Interrupted&) {
         display.finish();
@@ -188,7 +193,7 @@ void run(SliceOptions options) {
     display.finish();
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
-    summarise(options, built, report, display, beams, recipe);
+    summarise(options, outputs, built, report, display, beams, recipe);
 }
 
 }  // namespace
@@ -198,8 +203,14 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     options->repeat = resuming(arguments);
     CLI::App& command = *root.add_subcommand("slice", "Turn a recipe or a model into printable layers");
     options->recipe.add_to(command);
-    command.add_option("-o,--output", options->output, "File or folder to make; default: the part's name")
-        ->type_name("PATH");
+    command
+        .add_option(
+            "-o,--output", options->output,
+            "File or folder to make; default: the part's name. Several, each with -o, are made in one "
+            "run; the ending chooses the format, @PROFILE another machine")
+        ->type_name("PATH[@PROFILE]")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         .add_option("--layers", options->layers,
                     "Layers A up to, not including, B, counted from 0; default: all")
@@ -222,6 +233,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella slice insole.toml -o insole/\n"
         "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --layer-height 0.05 --printer png -o out/\n"
         "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
+        "  lamella slice insole.toml -o insole.sl1@prusa-sl1s -o insole.gcode@marlin\n"
         "  lamella slice insole.toml --layers 100:200 --json\n"
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
     command.callback([options] { run(*options); });

@@ -279,17 +279,17 @@ dvec3 encoded(dvec3 c) {
     return c;
 }
 
-class Picture {
+class Painter {
   public:
-    Picture(const Scene& scene, int width, int height) : scene_(scene), width_(width), height_(height) {
+    Painter(const Scene& scene, int width, int height) : scene_(scene), width_(width), height_(height) {
         pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     }
 
-    Image render() {
+    Picture render() {
         tbb::parallel_for(0, height_, [&](int j) {
             for (int i = 0; i < width_; ++i) pixels_[at(i, j)] = encoded(sample(i + 0.5, j + 0.5));
         });
-        Image image{width_, height_, std::vector<std::uint8_t>(pixels_.size() * 3)};
+        Picture image{width_, height_, std::vector<std::uint8_t>(pixels_.size() * 3)};
         tbb::parallel_for(0, height_, [&](int j) {
             for (int i = 0; i < width_; ++i) {
                 const dvec3 c = on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)];
@@ -337,8 +337,8 @@ class Picture {
 
 }  // namespace
 
-Image render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
-                     const PreviewOptions& options) {
+Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
+                       const PreviewOptions& options) {
     constexpr int most_cells = 512;
     const FieldPtr all = supports ? make_union({part, supports}) : part;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -350,7 +350,7 @@ Image render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& 
         camera = frame(cut.kept, options);
         zoom_to(camera, grid.solid_places(), options);
         const Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
-        return Picture(scene, options.width, options.height).render();
+        return Painter(scene, options.width, options.height).render();
     });
 }
 

@@ -1,10 +1,8 @@
 // A shaded picture of an implicit solid, straight from the field: no mesh is made.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "engine/field.h"
+#include "engine/picture.h"
 
 namespace lamella {
 
@@ -18,17 +16,10 @@ struct PreviewOptions {
     int threads = 0;        ///< 0: one a core
 };
 
-/// Rows from the top, three bytes a pixel.
-struct Image {
-    int width = 0;
-    int height = 0;
-    std::vector<std::uint8_t> rgb;
-};
-
 /// Perspective view of the part and, in a colour of their own, its supports (null for none) within `bounds`
 /// (finite, not empty) on a light ground. Kept of them is one bit for each cell of a grid of the picture's
 /// resolution, made from slices; surfaces and normals come from the fields themselves.
-Image render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
-                     const PreviewOptions& options);
+Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
+                       const PreviewOptions& options);
 
 }  // namespace lamella

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/error.h"
 #include "printers/registry.h"
@@ -41,12 +42,26 @@ PrinterProfile profile_named(const std::string& name) {
     return profile;
 }
 
+std::string backend_of_ending(const std::string& path) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    for (const BackendInfo& backend : backends()) {
+        const std::string_view endings = backend.endings;
+        for (std::size_t at = 0; at < endings.size();) {
+            const std::size_t end = std::min(endings.find(' ', at), endings.size());
+            if (endings.substr(at, end - at) == ending) return backend.name;
+            at = end + 1;
+        }
+    }
+    return "";
+}
+
 std::string default_output(const PrinterProfile& printer, const std::string& part_name) {
     const OutputKind kind = find_backend(printer.backend).output;
     const bool folder =
         kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
     if (folder) return part_name + ".layers";
-    return part_name + "." + printer.backend;
+    const std::string_view endings = find_backend(printer.backend).endings;
+    return part_name + std::string(endings.substr(0, endings.find(' ')));
 }
 
 std::string printers_listing() {

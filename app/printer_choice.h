@@ -18,6 +18,9 @@ PrinterProfile default_profile();
 /// InputError when it is neither.
 PrinterProfile profile_named(const std::string& name);
 
+/// The back-end that files with this path's ending are for; empty where the ending says nothing.
+std::string backend_of_ending(const std::string& path);
+
 /// Where a run without -o writes: the part's name, with the back-end's usual ending.
 std::string default_output(const PrinterProfile& printer, const std::string& part_name);
 /// Back-ends and profiles as text for people.

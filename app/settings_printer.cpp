@@ -113,6 +113,9 @@ void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.moves; }>(
         "printer", "layer_moves", "--printer-layer-moves",
         {.unit = "s", .limits = {0, 1000}, .help = "Time that a layer takes besides its exposure."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.preview; }>(
+        "printer", "preview", "--printer-preview",
+        {.help = "Put pictures of the part into resin printers' files."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.notes; }>(
         "printer", "notes", "--printer-notes",
         {.help = "Keywords for programs that convert SL1 archives, such as FILEFORMAT_goo."}));

@@ -1,11 +1,13 @@
 // A layer, the unit that is streamed, and the job that the layers belong to.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/contours.h"
 #include "engine/field.h"
+#include "engine/picture.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -19,6 +21,9 @@ struct Job {
     Box bounds;                  ///< finite bounds of part and supports; the bed lies at its lower side, mm
     double layer_height = 0.05;  ///< h, mm
     int layer_count = 0;
+    /// The part with its supports, seen from the front in a square of so many pixels, for files that carry
+    /// such a picture; may be empty.
+    std::function<Picture(int size)> picture{};
     std::string identity;  ///< hash of recipe and inputs: two jobs with equal identity make the same bytes
 
     double z0() const { return bounds.lo.z; }

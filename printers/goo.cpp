@@ -12,6 +12,7 @@
 #include "printers/goo_rle.h"
 #include "printers/png_mask.h"
 #include "printers/resin.h"
+#include "printers/thumbnail.h"
 #include "printers/unfinished_file.h"
 
 namespace lamella {
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::string_view magic("\x07\x00\x00\x00\x44\x4c\x50\x00", 8);
 constexpr std::string_view line_end = "\r\n";
-constexpr std::size_t small_preview = 116, large_preview = 290;  // px
+constexpr int small_preview = 116, large_preview = 290;  // px
 
 /// Appends numbers, highest byte first.
 class BigEndian {
@@ -58,13 +59,14 @@ class Goo : public Backend {
         layout_.emplace(profile_.image, job.bounds);
         layer_height_ = job.layer_height;
         range_ = range;
+        if (resin_.preview) picture_ = job.picture;
         const std::string settings =
             "goo " + mask_settings(profile_, job) + " " + profile_.name + " " + describe_resin(resin_);
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) {
             restore();
         } else {
-            output_.commit(header(), next, {volume_});
+            output_.commit(header({}), next, {volume_});
         }
         return next;
     }
@@ -103,7 +105,7 @@ class Goo : public Backend {
     }
 
     void end() override {
-        output_.rewrite_start(header());
+        output_.rewrite_start(header(picture_ ? picture_(large_preview) : Picture()));
         BigEndian out;
         out.zeros(3);
         out.raw(magic);
@@ -140,7 +142,8 @@ class Goo : public Backend {
         for (int k = 0; k < 8; ++k) out.f32(0);
     }
 
-    std::string header() const {
+    /// Its preview is black where the picture is empty.
+    std::string header(const Picture& preview) const {
         const ImageProfile& image = profile_.image;
         const bool swapped = layout_->width() != image.width;
         constexpr double mm3_per_ml = 1000;
@@ -156,10 +159,11 @@ class Goo : public Backend {
         out.u16(image.antialiasing == Antialiasing::rows ? static_cast<std::uint32_t>(image.sub_rows) : 1);
         out.u16(0);  // grey level and blur: the masks are as they shall be
         out.u16(0);
-        out.zeros(2 * small_preview * small_preview);
-        out.raw(line_end);
-        out.zeros(2 * large_preview * large_preview);
-        out.raw(line_end);
+        for (const int size : {small_preview, large_preview}) {
+            const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+            out.raw(preview.rgb.empty() ? std::string(2 * pixels, '\0') : rgb565(shrunk(preview, size)));
+            out.raw(line_end);
+        }
         out.u32(static_cast<std::uint32_t>(range_.count()));
         out.u16(static_cast<std::uint32_t>(layout_->width()));
         out.u16(static_cast<std::uint32_t>(layout_->height()));
@@ -196,6 +200,7 @@ class Goo : public Backend {
     const ResinProfile& resin_;
     UnfinishedFile output_;
     std::optional<MaskLayout> layout_;
+    std::function<Picture(int)> picture_;
     double layer_height_ = 0;  ///< mm
     LayerRange range_;
     double volume_ = 0;  ///< mm^3

@@ -196,6 +196,7 @@ class SolidMask {
 /// The planes of a layer whose masks are averaged.
 std::vector<double> shares_of(const ImageProfile& profile) {
     std::vector<double> shares;
+    shares.reserve(static_cast<std::size_t>(profile.sub_layers));
     for (int k = 0; k < profile.sub_layers; ++k) shares.push_back((k + 0.5) / profile.sub_layers);
     return shares;
 }

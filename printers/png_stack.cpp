@@ -25,7 +25,10 @@ class PngStack : public Backend {
         description_.update(describe_mask(profile_.image));
         description_["placement"] = placement();
         if (job.supports) description_["support_grey"] = profile_.support.grey;
-        const std::string settings = extension(profile_.image.format) + (" " + mask_settings(profile_, job));
+        description_["exposure"] = exposures();
+        const std::string settings =
+            extension(profile_.image.format) +
+            (" " + mask_settings(profile_, job) + " " + description_["exposure"].dump());
         return output_.begin({job.identity, settings, range}, resume);
     }
 
@@ -37,7 +40,7 @@ class PngStack : public Backend {
     }
 
     void write(const Layer& layer, LayerProduct& product) override {
-        output_.write(layer.index(), dynamic_cast<MaskFile&>(product).file);
+        output_.write(layer.index(), dynamic_cast<MaskFile&>(product).file, product);
     }
 
     void end() override { output_.end(description_); }
@@ -67,6 +70,15 @@ class PngStack : public Backend {
                 {"column_step", band.along_pitch},
                 {"row_0_edge", band.across_origin},
                 {"row_step", band.across_pitch}};
+    }
+
+    /// How long layers are exposed, s: the first ones, a linear ramp over the next, then all others.
+    nlohmann::ordered_json exposures() const {
+        const ResinProfile& resin = profile_.resin;
+        return {{"first_layers", resin.first_layers},
+                {"first_exposure", resin.first_exposure},
+                {"fade_layers", resin.fade_layers},
+                {"exposure", resin.exposure}};
     }
 
     PrinterProfile profile_;

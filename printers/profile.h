@@ -47,6 +47,7 @@ struct ResinProfile {
     double lift_speed = 60;      ///< mm/min
     double retract_speed = 150;  ///< mm/min
     std::uint8_t light = 255;    ///< share of the full power, 255 all of it
+    bool preview = true;         ///< files carry a picture of the part
     std::string notes;           ///< keywords for converters to other formats, such as FILEFORMAT_goo
 };
 

@@ -17,13 +17,15 @@ namespace lamella {
 namespace {
 
 constexpr std::array backend_table = {
-    BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack},
-    BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others",
+    BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
+                make_png_stack},
+    BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
                 OutputKind::file, make_sl1},
-    BackendInfo{"goo", "file for resin printers with 8-bit displays", OutputKind::file, make_goo},
-    BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
+    BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo},
+    BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
                 OutputKind::file_or_folder, make_svg},
-    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
+    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", ".gcode", OutputKind::file,
+                make_gcode},
 };
 
 PrinterProfile display(const char* name, int width, int height, double pixel, bool portrait) {
@@ -86,7 +88,7 @@ const Entry& find(std::span<const Entry> entries, std::string_view name, const c
         }
     }
     std::string message = "no " + std::string(kind) + " '" + std::string(shown) + "'";
-    if (nearest != nullptr) message += "; did you mean '" + std::string(nearest->name) + "'?";
+    message += nearest != nullptr ? "; did you mean '" + std::string(nearest->name) + "'?" : ".";
     throw InputError(message + " Known: " + known);
 }
 

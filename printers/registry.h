@@ -17,6 +17,7 @@ enum class OutputKind : unsigned char { file, folder, file_or_folder };
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend
     const char* description;  ///< one line
+    const char* endings;  ///< of its files, with their dots, separated by spaces; the first is the usual one
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
 };

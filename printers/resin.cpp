@@ -37,9 +37,9 @@ double resin_print_time(const ResinProfile& resin, int layers) {
 }
 
 std::string describe_resin(const ResinProfile& r) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", r.machine, r.material, r.exposure,
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", r.machine, r.material, r.exposure,
                        r.first_exposure, r.first_layers, r.fade_layers, r.moves, r.lift, r.lift_speed,
-                       r.retract_speed, r.light, r.notes);
+                       r.retract_speed, r.light, r.preview, r.notes);
 }
 
 }  // namespace lamella

@@ -12,12 +12,14 @@
 #include "printers/png_mask.h"
 #include "printers/resin.h"
 #include "printers/stored_zip.h"
+#include "printers/thumbnail.h"
 #include "printers/unfinished_file.h"
 
 namespace lamella {
 namespace {
 
 constexpr int first_layers = 3;      // that the machine exposes like the first one
+constexpr int small_preview = 400;   // px
 constexpr int most_layers = 99'999;  // names have five digits
 
 /// `key = value`, a line each, sorted by key.
@@ -68,6 +70,7 @@ class Sl1 : public Backend {
         folder_ = job_folder(job.name);
         layer_height_ = job.layer_height;
         range_ = range;
+        if (profile_.resin.preview) picture_ = job.picture;
         height_ = job.layer_count * job.layer_height;
         const std::string settings = "sl1 " + mask_settings(profile_, job) + " " + profile_.name + " " +
                                      describe_resin(profile_.resin);
@@ -93,6 +96,11 @@ class Sl1 : public Backend {
     void end() override {
         std::string text = zip_.entry("config.ini", to_text(for_machine()));
         text += zip_.entry("prusaslicer.ini", to_text(for_programs()));
+        if (picture_) {
+            const Picture square = picture_(small_preview);
+            text += zip_.entry("thumbnail/thumbnail400x400.png", png_file(square));
+            text += zip_.entry("thumbnail/thumbnail800x480.png", png_file(centred(square, 800, 480)));
+        }
         output_.end(text + zip_.directory());
     }
 
@@ -167,6 +175,7 @@ class Sl1 : public Backend {
     UnfinishedFile output_;
     StoredZip zip_;
     std::optional<MaskLayout> layout_;
+    std::function<Picture(int)> picture_;
     std::string folder_;
     double layer_height_ = 0, height_ = 0;  ///< mm
     LayerRange range_;

@@ -184,7 +184,7 @@ class SvgFolder : public Svg {
     void write(const Layer& layer, LayerProduct& product) override {
         const std::string text =
             svg_start(page()) + group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;
-        output_.write(layer.index(), std::as_bytes(std::span(text)));
+        output_.write(layer.index(), std::as_bytes(std::span(text)), product);
     }
     void end() override { output_.end(description_); }
 

@@ -15,11 +15,16 @@ namespace {
 
 constexpr const char* job_file = "job.json";
 constexpr const char* stamp_file = "unfinished.json";
+constexpr const char* journal_file = "unfinished.layers";
 
 nlohmann::ordered_json read_json(const fs::path& path) {
     std::ifstream in(path);
     if (!in) return nullptr;
     return nlohmann::ordered_json::parse(in, nullptr, false);
+}
+
+std::string journal_line(double area, double support_area) {
+    return nlohmann::json{area, support_area}.dump() + "\n";
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ std::string UnfinishedFolder::file_name(int layer) const { return fmt::format("{
 
 bool UnfinishedFolder::is_ours(const fs::path& file) const {
     const std::string name = file.filename().string();
-    if (name == job_file || name == stamp_file) return true;
+    if (name == job_file || name == stamp_file || name == journal_file) return true;
     std::string_view stem = name;
     if (stem.ends_with(".tmp")) stem.remove_suffix(4);
     if (stem == job_file || stem == stamp_file) return true;
@@ -95,19 +100,46 @@ int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
     fs::create_directories(partial_, error);
     if (error) throw FaultError("cannot make the folder " + partial_.string() + ": " + error.message());
     write_whole_file(partial_ / stamp_file, to_json(stamp).dump(2) + "\n");
-    int next = stamp.range.first;
-    while (next < stamp.range.last && is_present(partial_ / file_name(next))) ++next;
-    return next;
+    read_journal(stamp);
+    // Written anew, so that no half a line is left in it.
+    journal_ = OutputFile::create(partial_ / journal_file);
+    for (std::size_t i = 0; i < areas_.size(); ++i)
+        journal_.write(journal_line(areas_[i], support_areas_[i]));
+    return stamp.range.first + static_cast<int>(areas_.size());
 }
 
-void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes) {
+/// Takes over the layers whose files and areas are both there.
+void UnfinishedFolder::read_journal(const JobStamp& stamp) {
+    areas_.clear();
+    support_areas_.clear();
+    std::ifstream in(partial_ / journal_file);
+    std::string line;
+    for (int layer = stamp.range.first; layer < stamp.range.last; ++layer) {
+        if (!is_present(partial_ / file_name(layer)) || !std::getline(in, line)) return;
+        const auto areas = nlohmann::json::parse(line, nullptr, false);
+        if (!areas.is_array() || areas.size() != 2 || !areas[0].is_number() || !areas[1].is_number()) return;
+        areas_.push_back(areas[0]);
+        support_areas_.push_back(areas[1]);
+    }
+}
+
+void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes, const LayerProduct& product) {
     write_whole_file(partial_ / file_name(layer), bytes);
+    journal_.write(journal_line(product.area, product.support_area));
+    areas_.push_back(product.area);
+    support_areas_.push_back(product.support_area);
 }
 
-void UnfinishedFolder::end(const nlohmann::ordered_json& job) {
+void UnfinishedFolder::end(nlohmann::ordered_json job) {
+    job["areas"] = areas_;
+    const auto is_some = [](double area) { return area > 0; };
+    if (std::any_of(support_areas_.begin(), support_areas_.end(), is_some))
+        job["support_areas"] = support_areas_;
     write_whole_file(partial_ / job_file, job.dump(2) + "\n");
-    std::error_code ignored;  // a stamp that stays behind harms nobody
+    journal_.close();
+    std::error_code ignored;  // what stays behind harms nobody
     fs::remove(partial_ / stamp_file, ignored);
+    fs::remove(partial_ / journal_file, ignored);
     if (is_present(path_)) {
         // The old folder steps aside first and goes last, so that at no time both are gone.
         fs::path old = path_;

@@ -6,12 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "printers/job_stamp.h"
+#include "printers/output_file.h"
 
 namespace lamella {
 
-/// Writes NAME.partial/00000.png and so on, each file whole or absent, and job.json at the end. Files are
+/// Writes NAME.partial/00000.png and so on, each file whole or absent, the layers' areas in a journal beside
+/// them, and job.json at the end. Files are
 /// numbered by the layer's index, so that the folders of two ranges hold the files of the whole.
 class UnfinishedFolder {
   public:
@@ -21,10 +24,11 @@ class UnfinishedFolder {
 
     /// Makes the folder and returns the first missing layer. Throws as UnfinishedFile::begin does.
     int begin(const JobStamp& stamp, bool resume);
-    /// Writes the file of a layer.
-    void write(int layer, std::span<const std::byte> bytes);
-    /// Writes job.json, which marks the folder complete, and gives the folder its name.
-    void end(const nlohmann::ordered_json& job);
+    /// Writes the file of a layer, the next one.
+    void write(int layer, std::span<const std::byte> bytes, const LayerProduct& product);
+    /// Writes job.json, which marks the folder complete, with the areas of all layers, and gives the folder
+    /// its name.
+    void end(nlohmann::ordered_json job);
     /// Name of a layer's file, "00042.png".
     std::string file_name(int layer) const;
 
@@ -32,11 +36,14 @@ class UnfinishedFolder {
     void check_replaceable() const;
     void remove_ours(const std::filesystem::path& folder) const;
     bool is_ours(const std::filesystem::path& file) const;
+    void read_journal(const JobStamp& stamp);
 
     std::filesystem::path path_;
     std::filesystem::path partial_;
     std::string extension_;
     bool force_;
+    OutputFile journal_;
+    std::vector<double> areas_, support_areas_;  ///< of the layers that are there, mm^2
 };
 
 /// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.

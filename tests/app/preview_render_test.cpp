@@ -13,7 +13,7 @@ namespace {
 enum class Kind { ground, part, cut, support };
 
 /// By hue: the ground is grey, the part blue, its cut orange, supports and their cut sand.
-Kind kind_at(const Image& image, int x, int y) {
+Kind kind_at(const Picture& image, int x, int y) {
     const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                 static_cast<std::size_t>(x));
     const int r = image.rgb[at], g = image.rgb[at + 1], b = image.rgb[at + 2];
@@ -22,7 +22,7 @@ Kind kind_at(const Image& image, int x, int y) {
     return 2 * g > r + b + (r - b) / 5 ? Kind::support : Kind::cut;
 }
 
-int count(const Image& image, Kind kind) {
+int count(const Picture& image, Kind kind) {
     int sum = 0;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) sum += kind_at(image, x, y) == kind ? 1 : 0;
@@ -48,13 +48,13 @@ PreviewOptions from_the_front(char cut) {
 
 TEST_CASE("supports stand off from the part in a picture, whole and cut", "[preview]") {
     const FieldPtr part = make_box(slab);
-    const Image none = render_preview(part, nullptr, whole, from_the_front('-'));
+    const Picture none = render_preview(part, nullptr, whole, from_the_front('-'));
     CHECK(count(none, Kind::support) == 0);
     CHECK(count(none, Kind::cut) == 0);
     const int slab_pixels = count(none, Kind::part);
     CHECK(slab_pixels > 500);
 
-    const Image both = render_preview(part, make_box(wall), whole, from_the_front('-'));
+    const Picture both = render_preview(part, make_box(wall), whole, from_the_front('-'));
     CHECK(count(both, Kind::cut) == 0);
     CHECK(count(both, Kind::support) > 300);
     // Along a row through the wall's middle: only supports; above it: only the part.
@@ -74,7 +74,7 @@ TEST_CASE("supports stand off from the part in a picture, whole and cut", "[prev
 
     // Cut through the wall: the part's face is orange, the wall's sand.
     PreviewOptions cut = from_the_front('y');
-    const Image open = render_preview(part, make_box(wall), whole, cut);
+    const Picture open = render_preview(part, make_box(wall), whole, cut);
     CHECK(count(open, Kind::cut) > 500);
     CHECK(count(open, Kind::support) > 300);
     for (int y = open.height * 2 / 3; y < open.height; ++y) {
@@ -87,7 +87,7 @@ TEST_CASE("supports stand off from the part in a picture, whole and cut", "[prev
 TEST_CASE("a picture does not change with the number of threads", "[preview]") {
     PreviewOptions options = from_the_front('x');
     options.threads = 1;
-    const Image one = render_preview(make_box(slab), make_box(wall), whole, options);
+    const Picture one = render_preview(make_box(slab), make_box(wall), whole, options);
     options.threads = 3;
     CHECK(render_preview(make_box(slab), make_box(wall), whole, options).rgb == one.rgb);
 }

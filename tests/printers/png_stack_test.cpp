@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "engine/error.h"
 #include "tests/printers/decode_image.h"
@@ -234,6 +235,26 @@ TEST_CASE("a stopped stack is continued and equals one made in one go", "[png_st
     }
 }
 
+TEST_CASE("job.json has every layer's area, those of an earlier run included", "[png_stack]") {
+    const TemporaryFolder folder;
+    const Job job = cone();
+    run_layers(job, *make_png_stack(small_display(), folder / "out", false), {2, 12}, false, 5);
+    // Half a line was written when the machine went down: its layer is made again.
+    const fs::path journal = fs::path(folder / "out.partial") / "unfinished.layers";
+    write_text(journal, read_text(journal).substr(0, read_text(journal).size() - 4));
+    CHECK(make_png_stack(small_display(), folder / "out", false)->begin(job, {2, 12}, true) == 4);
+    run_layers(job, *make_png_stack(small_display(), folder / "out", false), {2, 12}, true);
+    const auto json = nlohmann::json::parse(read_text(folder / "out/job.json"));
+    REQUIRE(json["areas"].size() == 10);
+    CHECK(!json.contains("support_areas"));
+    for (int layer = 2; layer < 12; ++layer) {
+        const double radius = 5.5 / (1 + (layer + 0.5) * 0.5 * 0.3);
+        CHECK(json["areas"][static_cast<std::size_t>(layer - 2)].get<double>() ==
+              Approx(std::numbers::pi * radius * radius).epsilon(2e-3));
+    }
+    CHECK(json["exposure"]["exposure"] == small_display().resin.exposure);
+}
+
 TEST_CASE("shards hold the files of the whole", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = cone();
@@ -262,7 +283,8 @@ TEST_CASE("what another job began is not continued", "[png_stack]") {
     job.identity = "another";
     CHECK_THROWS_WITH(begin(small_display(), {0, 12}, true, false), Catch::Contains("another job"));
     CHECK(begin(small_display(), {0, 12}, false, true) == 0);
-    CHECK(names_in(folder / "out.partial") == std::vector<std::string>{"unfinished.json"});
+    CHECK(names_in(folder / "out.partial") ==
+          std::vector<std::string>{"unfinished.json", "unfinished.layers"});
     write_text(folder / "out.partial/unfinished.json", "{\"broken");
     CHECK_THROWS_AS(begin(small_display(), {0, 12}, true, false), InputError);
     write_text(folder / "out.partial/unfinished.json", "[1]");

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/error.h"
+#include "engine/image_file.h"
 #include "printers/png_stack.h"
 #include "printers/registry.h"
 #include "tests/printers/plane_solids.h"
@@ -109,6 +110,47 @@ TEST_CASE("what an archive was begun with decides whether it is continued", "[sl
     write_text(path + ".partial", std::string(read_text(path + ".partial").size(), 'x'));
     CHECK_THROWS_WITH(make_sl1(small_machine(), path, false)->begin(cone(), {0, 20}, true),
                       Catch::Contains("--force"));
+}
+
+TEST_CASE("an SL1 archive carries pictures of the part", "[sl1]") {
+    const TemporaryFolder folder;
+    Job job = cone();
+    job.picture = [](int size) {
+        Picture picture{size, size, {}};
+        for (int i = 0; i < size * size; ++i) {
+            const auto column = static_cast<std::uint8_t>(i % size % 256);
+            picture.rgb.insert(picture.rgb.end(), {column, static_cast<std::uint8_t>(i / size % 256), 7});
+        }
+        return picture;
+    };
+    run_layers(job, *make_sl1(small_machine(), folder / "a.sl1s", false), {0, 20});
+    const auto entries = read_zip(folder / "a.sl1s");
+    REQUIRE(entries.size() == 24);
+    CHECK(entries[22].first == "thumbnail/thumbnail400x400.png");
+    CHECK(entries[23].first == "thumbnail/thumbnail800x480.png");
+    for (const auto& [entry, width, height, left, top] :
+         {std::tuple(22, 400, 400, 0, 0), std::tuple(23, 800, 480, 200, 40)}) {
+        write_text(folder / "picture.png", entries[static_cast<std::size_t>(entry)].second);
+        const auto image = open_images(folder / "picture.png");
+        REQUIRE(image);
+        const auto page = image->next_page();
+        REQUIRE((page && page->width == width && page->height == height && page->channels == 3));
+        std::vector<std::uint8_t> red(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        std::vector<std::uint8_t> green(red.size());
+        REQUIRE(image->read_channel(0, red.data()).empty());
+        REQUIRE(image->read_channel(1, green.data()).empty());
+        for (int row = 0; row < height; row += 13) {
+            for (int column = 0; column < width; column += 11) {
+                const auto at = static_cast<std::size_t>(row * width + column);
+                CHECK(red[at] == std::clamp(column - left, 0, 399) % 256);
+                CHECK(green[at] == std::clamp(row - top, 0, 399) % 256);
+            }
+        }
+    }
+    PrinterProfile without = small_machine();
+    without.resin.preview = false;
+    run_layers(job, *make_sl1(without, folder / "b.sl1s", false), {0, 20});
+    CHECK(read_zip(folder / "b.sl1s").size() == 22);
 }
 
 TEST_CASE("no layer is called as the previews' folder begins", "[sl1]") {

@@ -1,0 +1,16 @@
+// A picture in colour.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lamella {
+
+/// Rows from the top, three bytes a pixel: red, green, blue.
+struct Picture {
+    int width = 0;   ///< px
+    int height = 0;  ///< px
+    std::vector<std::uint8_t> rgb;
+};
+
+}  // namespace lamella
