@@ -23,6 +23,7 @@
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/layer_stream.h"
+#include "engine/plate.h"
 
 namespace lamella {
 
@@ -33,6 +34,7 @@ struct SliceOptions {
     std::vector<std::string> output;
     std::string layers;
     std::string plans = default_plan_folder();
+    std::vector<std::string> beside;
     int threads = 0;
     int look_ahead = 0;
     bool resume = false;
@@ -142,6 +144,33 @@ void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, 
     if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
 }
 
+/// The recipes of what stands beside the part, with its machine, layers and supports.
+std::vector<Recipe> read_beside(const SliceOptions& options, const Recipe& first) {
+    std::vector<Recipe> recipes;
+    for (const std::string& input : options.beside) {
+        Recipe recipe = read_recipe(input);
+        recipe.printer = first.printer;
+        recipe.layer_height = first.layer_height;
+        recipe.support = first.support;
+        recipes.push_back(std::move(recipe));
+    }
+    return recipes;
+}
+
+/// Makes the job one of all parts and their copies.
+void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
+                const SliceOptions& options, const CancelToken& cancel) {
+    std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
+    for (const Recipe& other : others) {
+        BuiltJob beside = build_job(other);
+        if (other.foam && other.foam->drop_islands) survey(other, beside, options, cancel);
+        add_supports_with_progress(other, beside, {options.plans, options.threads, {}, &cancel},
+                                   options.quiet);
+        items.push_back({beside.job, other.plate.copies});
+    }
+    built.job = arrange_plate(items, recipe.plate.gap, plate_width(recipe.printer));
+}
+
 void run(const SliceOptions& options) {
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
@@ -165,6 +194,7 @@ void run(const SliceOptions& options) {
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    std::vector<Recipe> others = read_beside(options, recipe);
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
@@ -172,6 +202,7 @@ void run(const SliceOptions& options) {
         recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
     add_picture(recipe, built, supports, options.threads);
+    if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);
     // Of several runs for ranges of layers, the first writes the beams.
@@ -215,6 +246,14 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         .add_option("--layers", options->layers,
                     "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
+    command
+        .add_option(
+            "--beside", options->beside,
+            "Another recipe or model on the same plate; with several, --beside stands before each. It "
+            "is cut and supported as the first one says")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--threads", options->threads, "Threads to use; 0: one a core")
         ->check(CLI::Range(0, 1024));
     command.add_option("--look-ahead", options->look_ahead, "Layers in flight at most; 0: two a thread")

@@ -42,6 +42,12 @@ PrinterProfile profile_named(const std::string& name) {
     return profile;
 }
 
+double plate_width(const PrinterProfile& printer) {
+    if (printer.backend == "gcode") return printer.filament.bed_x;
+    if (printer.backend == "svg") return infinity;
+    return printer.image.width * printer.image.pixel_x - 2 * printer.image.margin;
+}
+
 std::string backend_of_ending(const std::string& path) {
     const std::string ending = std::filesystem::path(path).extension().string();
     for (const BackendInfo& backend : backends()) {

@@ -18,6 +18,9 @@ PrinterProfile default_profile();
 /// InputError when it is neither.
 PrinterProfile profile_named(const std::string& name);
 
+/// Width of what the machine can print on, mm; infinite where it has no bounds.
+double plate_width(const PrinterProfile& printer);
+
 /// The back-end that files with this path's ending are for; empty where the ending says nothing.
 std::string backend_of_ending(const std::string& path);
 

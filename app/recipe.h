@@ -202,6 +202,12 @@ struct HoleRecipe {
     bool through = false;  ///< through the filling, too
 };
 
+/// How many of a part are made at once.
+struct PlateRecipe {
+    int copies = 1;
+    double gap = 5;  ///< between neighbours, mm
+};
+
 /// What is written besides the layers.
 struct OutputRecipe {
     std::string beams;     ///< path of a 3MF beam lattice; empty for none
@@ -222,6 +228,7 @@ struct Recipe {
     std::vector<HoleRecipe> holes;
     SupportKind support = SupportKind::none;
     double layer_height = 0.05;  ///< mm
+    PlateRecipe plate;
     OutputRecipe output;
     PrinterProfile printer;
 };

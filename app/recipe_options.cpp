@@ -55,6 +55,14 @@ std::string option_help(const Setting& setting) {
                        setting.fallback, setting.name());
 }
 
+void read_input(RecipeDraft& draft, const std::string& input) {
+    if (names_recipe(input)) {
+        draft.read_file(input);
+    } else if (!input.empty()) {
+        draft.assign_flag(*find_setting("part", "mesh"), input);
+    }
+}
+
 }  // namespace
 
 void RecipeOptions::add_to(CLI::App& command) {
@@ -80,14 +88,16 @@ void RecipeOptions::add_to(CLI::App& command) {
 Recipe RecipeOptions::read(bool needs_body) const {
     RecipeDraft draft;
     draft.require_body(needs_body);
-    if (names_recipe(input_)) {
-        draft.read_file(input_);
-    } else if (!input_.empty()) {
-        draft.assign_flag(*find_setting("part", "mesh"), input_);
-    }
+    read_input(draft, input_);
     for (std::size_t i = 0; i < options_.size(); ++i) {
         if (options_[i] && options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
     }
+    return draft.finish();
+}
+
+Recipe read_recipe(const std::string& input) {
+    RecipeDraft draft;
+    read_input(draft, input);
     return draft.finish();
 }
 

@@ -29,6 +29,9 @@ class RecipeOptions {
     std::vector<CLI::Option*> options_;  ///< by row of the table; null for rows without a flag
 };
 
+/// The recipe of a file, or of a model without foam and skin. Throws InputError with all mistakes at once.
+Recipe read_recipe(const std::string& input);
+
 /// Says in a line on standard error which entries of the recipe nothing uses, if there are any.
 void note_unused(const RecipeOptions& options, const Recipe& recipe);
 

@@ -29,6 +29,8 @@ void add_frame_settings(std::vector<Setting>& table);
 
 /// The rows of the [process] section.
 void add_process_settings(std::vector<Setting>& table);
+/// The rows of the [plate] section.
+void add_plate_settings(std::vector<Setting>& table);
 /// The rows of the [support] section.
 void add_support_settings(std::vector<Setting>& table);
 /// The rows of the [skin] and [[hole]] sections.

@@ -313,6 +313,7 @@ std::vector<Setting> make_table() {
     add_layers(table);
     add_process_settings(table);
     add_support_settings(table);
+    add_plate_settings(table);
     add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
@@ -374,6 +375,7 @@ std::span<const Section> sections() {
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
         {"support", "what holds up what would hang in the air; without this section there are none"},
+        {"plate", "how many of the part are made at once"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};
     return list;

@@ -1,0 +1,87 @@
+// Parts side by side on a plate: none overlap, each is what it is alone, and one alone stays where it is.
+#include "engine/plate.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/csg.h"
+#include "engine/error.h"
+#include "engine/primitives.h"
+
+using namespace lamella;
+
+namespace {
+
+Job job_of(FieldPtr part, double layer_height = 0.5) {
+    Job job;
+    job.bounds = part->bounds();
+    job.part = std::move(part);
+    job.layer_height = layer_height;
+    job.layer_count = count_layers(job.bounds.size().z, layer_height);
+    job.identity = "job";
+    return job;
+}
+
+Job box(dvec3 lo, dvec3 size, double layer_height = 0.5) {
+    return job_of(make_box({lo, lo + size}), layer_height);
+}
+
+/// Area of a layer by its contours, mm^2.
+double area_of(const Job& job, int layer) {
+    const Layer cut(job, layer);
+    double area = 0;
+    for (const Contour& contour : cut.contours(0.01)) area += signed_area(contour.points);
+    return area;
+}
+
+}  // namespace
+
+TEST_CASE("a part alone keeps its place and its identity", "[plate]") {
+    const Job alone = box({3, 4, 5}, {2, 2, 2});
+    const Job plate = arrange_plate(std::vector<PlateItem>{{alone, 1}}, 5, 100);
+    CHECK(plate.part == alone.part);
+    CHECK(plate.identity == alone.identity);
+    CHECK(plate.bounds.lo == alone.bounds.lo);
+}
+
+TEST_CASE("copies stand in rows with gaps, and none overlap", "[plate]") {
+    const Job plate = arrange_plate(std::vector<PlateItem>{{box({3, 4, 5}, {10, 5, 2}), 7}}, 2, 1000);
+    // About square: 7 cells of 12 x 7 mm have a square of 24.2 mm, which two of them fit into.
+    CHECK(plate.bounds.lo == dvec3(3, 4, 5));
+    CHECK(plate.bounds.size().x == Approx(22));
+    CHECK(plate.bounds.size().y == Approx(4 * 5 + 3 * 2));
+    CHECK(plate.layer_count == 4);
+    for (const int layer : {0, 3}) CHECK(area_of(plate, layer) == Approx(7 * 50).epsilon(1e-6));
+    int inside = 0;
+    for (int copy = 0; copy < 8; ++copy) {
+        const dvec3 middle(3 + 5 + 12 * (copy % 2), 4 + 2.5 + 7 * (copy / 2), 6);
+        inside += plate.part->value(middle) < 0 ? 1 : 0;
+    }
+    CHECK(inside == 7);
+}
+
+TEST_CASE("rows are no longer than the plate is wide", "[plate]") {
+    const Job plate = arrange_plate(std::vector<PlateItem>{{box({0, 0, 0}, {10, 1, 1}), 4}}, 1, 21);
+    CHECK(plate.bounds.size().x <= 21);
+    const Job too_narrow = arrange_plate(std::vector<PlateItem>{{box({0, 0, 0}, {10, 1, 1}), 4}}, 1, 5);
+    CHECK(too_narrow.bounds.size().x == Approx(10));
+}
+
+TEST_CASE("parts of several heights stand on one bed, with their supports", "[plate]") {
+    Job tall = box({0, 0, -3}, {4, 4, 10});
+    tall.supports = make_box({{0, 0, -3}, {1, 1, -2}});
+    const Job low = box({50, 50, 20}, {6, 3, 1});
+    const Job plate = arrange_plate(std::vector<PlateItem>{{tall, 1}, {low, 2}}, 1, 1000);
+    CHECK(plate.z0() == -3);
+    CHECK(plate.layer_count == 20);
+    CHECK(area_of(plate, 0) == Approx(16 + 2 * 18).epsilon(1e-6));
+    CHECK(area_of(plate, 2) == Approx(16).epsilon(1e-6));
+    CHECK(plate.supports);
+    CHECK(plate.identity != tall.identity);
+}
+
+TEST_CASE("plates that make no sense are refused", "[plate]") {
+    CHECK_THROWS_AS(arrange_plate({}, 1, 100), InputError);
+    const std::vector<PlateItem> mixed{{box({0, 0, 0}, {1, 1, 1}, 0.5), 1},
+                                       {box({0, 0, 0}, {1, 1, 1}, 0.25), 1}};
+    CHECK_THROWS_WITH(arrange_plate(mixed, 1, 100), Catch::Contains("0.25") && Catch::Contains("0.5"));
+}
