@@ -168,7 +168,7 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
                                    options.quiet);
         items.push_back({beside.job, other.plate.copies});
     }
-    built.job = arrange_plate(items, recipe.plate.gap, plate_width(recipe.printer));
+    built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
 }
 
 void run(const SliceOptions& options) {

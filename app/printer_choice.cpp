@@ -42,10 +42,11 @@ PrinterProfile profile_named(const std::string& name) {
     return profile;
 }
 
-double plate_width(const PrinterProfile& printer) {
-    if (printer.backend == "gcode") return printer.filament.bed_x;
-    if (printer.backend == "svg") return infinity;
-    return printer.image.width * printer.image.pixel_x - 2 * printer.image.margin;
+dvec2 plate_size(const PrinterProfile& printer) {
+    if (printer.backend == "gcode") return {printer.filament.bed_x, printer.filament.bed_y};
+    if (printer.backend == "svg") return {infinity, infinity};
+    const ImageProfile& image = printer.image;
+    return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
 }
 
 std::string backend_of_ending(const std::string& path) {

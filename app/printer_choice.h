@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry.h"
 #include "printers/profile.h"
 
 namespace lamella {
@@ -18,8 +19,8 @@ PrinterProfile default_profile();
 /// InputError when it is neither.
 PrinterProfile profile_named(const std::string& name);
 
-/// Width of what the machine can print on, mm; infinite where it has no bounds.
-double plate_width(const PrinterProfile& printer);
+/// What the machine can print on, x and y in mm; infinite where it has no bounds.
+dvec2 plate_size(const PrinterProfile& printer);
 
 /// The back-end that files with this path's ending are for; empty where the ending says nothing.
 std::string backend_of_ending(const std::string& path);

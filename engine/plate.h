@@ -14,10 +14,11 @@ struct PlateItem {
     int copies = 1;
 };
 
-/// One job with all of the parts, their beds at one height, in rows along x from the lower left on: a row
-/// ends where it would become longer than the square root of the plate's area asks for, or than `width` (mm).
-/// `gap` lies between the bounds of neighbours, mm. The first part keeps its place, so that a single one is
-/// returned as it is. Throws InputError when layer heights differ or there are no parts.
-Job arrange_plate(std::span<const PlateItem> items, double gap, double width);
+/// One job with all of the parts, their beds at one height, in rows along x from the lower left on, of the
+/// length at which they take up least of the machine's plate (its size x, y in mm, infinite for none: the
+/// plate becomes about square). `gap` lies between the bounds of neighbours, mm. The first part keeps its
+/// place; a single one is returned as it is. Whether all fit is for the back-end to say. Throws InputError
+/// when layer heights differ or there are no parts.
+Job arrange_plate(std::span<const PlateItem> items, double gap, dvec2 machine);
 
 }  // namespace lamella
