@@ -124,6 +124,8 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                     report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
             .c_str(),
         stderr);
+    if (const char* warning = find_backend(recipe.printer.backend).warning)
+        std::fputs(fmt::format("{}: {}\n", options.output, warning).c_str(), stderr);
     if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
 }
 

@@ -1,26 +1,21 @@
-// The machines that a recipe can name: back-ends and profiles, as words.
+// The machines that a recipe can name, as words and text for people.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "printers/profile.h"
+#include "app/machine_profiles.h"
 
 namespace lamella {
 
 /// Names of all back-ends.
 std::vector<std::string> backend_words();
-/// Names of all profiles, then those of the back-ends.
-std::vector<std::string> profile_words();
-/// What a recipe without [printer] gets.
-PrinterProfile default_profile();
-/// The profile of this name; the default profile with this back-end when it is a back-end's name. Throws
-/// InputError when it is neither.
-PrinterProfile profile_named(const std::string& name);
 
 /// Where a run without -o writes: the part's name, with the back-end's usual ending.
 std::string default_output(const PrinterProfile& printer, const std::string& part_name);
-/// Back-ends and profiles as text for people.
-std::string printers_listing();
+/// Back-ends and profiles as text for people, with what is wrong with those that cannot be used.
+std::string printers_listing(const MachineProfiles& profiles);
+/// A profile with all its values, as the text of a profile's file.
+std::string profile_as_toml(const MachineProfile& profile);
 
 }  // namespace lamella

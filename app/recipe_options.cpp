@@ -59,6 +59,7 @@ std::string option_help(const Setting& setting) {
 
 void RecipeOptions::add_to(CLI::App& command) {
     command.add_option("INPUT", input_, "Recipe (.toml) or model (.stl, .obj, .ply, .3mf)")->type_name("");
+    add_profile_folder_option(command, profile_folder_);
     texts_.resize(settings().size());
     for (std::size_t i = 0; i < texts_.size(); ++i) {
         const Setting& setting = settings()[i];
@@ -80,6 +81,7 @@ void RecipeOptions::add_to(CLI::App& command) {
 Recipe RecipeOptions::read(bool needs_body) const {
     RecipeDraft draft;
     draft.require_body(needs_body);
+    draft.use_profiles(machine_profiles(profile_folder_));
     if (names_recipe(input_)) {
         draft.read_file(input_);
     } else if (!input_.empty()) {
@@ -89,6 +91,21 @@ Recipe RecipeOptions::read(bool needs_body) const {
         if (options_[i] && options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
     }
     return draft.finish();
+}
+
+void add_profile_folder_option(CLI::App& command, std::string& folder) {
+    command
+        .add_option("--printers", folder,
+                    "Folder of machine profiles (.toml) besides the built-in ones and those in "
+                    "~/.config/lamella/printers")
+        ->type_name("DIR");
+}
+
+MachineProfiles machine_profiles(const std::string& folder) {
+    MachineProfiles profiles;
+    if (const std::string users = user_profile_folder(); !users.empty()) profiles.add_folder(users, false);
+    if (!folder.empty()) profiles.add_folder(folder, true);
+    return profiles;
 }
 
 void note_unused(const RecipeOptions& options, const Recipe& recipe) {
