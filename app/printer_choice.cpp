@@ -43,11 +43,11 @@ std::string profile_line(const MachineProfiles& profiles, const std::string& nam
         const PrinterProfile& p = found->printer;
         std::string facts = size_of(p);
         if (const std::string pixel = pixel_of(p); !pixel.empty()) facts += ", pixel " + pixel;
-        std::string line = fmt::format("  {:<24}{:<7}{}\n", name, p.backend, facts);
-        return line + fmt::format("  {:<31}{}{}({})\n", "", found->description,
+        std::string line = fmt::format("  {:<25} {:<6}{}\n", name, p.backend, facts);
+        return line + fmt::format("  {:<32}{}{}({})\n", "", found->description,
                                   found->description.empty() ? "" : " ", found->source);
     } catch (const InputError& error) {
-        return fmt::format("  {:<24}cannot be used: {}\n", name, error.what());
+        return fmt::format("  {:<25} cannot be used: {}\n", name, error.what());
     }
 }
 
@@ -74,7 +74,7 @@ std::string setting_line(const Setting& setting, const Recipe& recipe) {
     // An empty text is no value: the key is there to be filled in.
     const std::string assignment = fmt::format("{}{} = {}", is_text && text.empty() ? "# " : "", setting.key,
                                                is_text ? quoted(text) : text);
-    return fmt::format("{:<32}# {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
+    return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
                        setting.help);
 }
 
@@ -97,7 +97,7 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
 std::string printers_listing(const MachineProfiles& profiles) {
     std::string text = "Back-ends (--printer-kind, printer.kind)\n";
     for (const BackendInfo& backend : backends())
-        text += fmt::format("  {:<24}{}\n", backend.name, backend.description);
+        text += fmt::format("  {:<25} {}\n", backend.name, backend.description);
     text += "\nProfiles (--printer, printer.profile)\n";
     const std::vector<std::string> words = backend_words();
     for (const std::string& name : profiles.names()) {

@@ -18,9 +18,9 @@ void add_exchange_settings(std::vector<Setting>& t) {
         "printer", "cli_empty_layer", "--printer-cli-empty-layer",
         {.help = "Begin a CLI file with an empty layer below the first one, from which machines take the "
                  "first one's thickness."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.exchange.part_layers; }>(
-        "printer", "part_layers", "--printer-part-layers",
-        {.unit = "layers", .limits = {1, 100000}, .help = "Slices in each part of a 3MF package."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.exchange.package_layers; }>(
+        "printer", "package_layers", "--printer-package-layers",
+        {.unit = "layers", .limits = {1, 100000}, .help = "Slices in each file inside a 3MF package."}));
 }
 
 }  // namespace lamella

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string_view>
 
 #include "engine/error.h"
 #include "engine/number_format.h"
@@ -20,12 +21,13 @@ constexpr int part_id = 1, support_id = 2;
 constexpr std::uint64_t layer_command = 127, polyline_command = 130;
 constexpr double most_units = 1e9;  // that a coordinate may be
 
-/// What goes into a label: printable ASCII without what parts its fields.
+/// What goes into a label: printable ASCII without what parts fields and begins commands.
 std::string label_text(const std::string& name) {
     constexpr std::size_t longest = 80;
+    constexpr std::string_view special = ",/$";
     std::string text;
     for (const char c : name.substr(0, longest))
-        text += ' ' <= c && c <= '~' && c != ',' && c != '/' ? c : '_';
+        text += ' ' <= c && c <= '~' && special.find(c) == std::string_view::npos ? c : '_';
     return text;
 }
 
@@ -53,7 +55,7 @@ class CliText {
             return;
         }
         text_ += "$$LAYER/";
-        append_number(text_, z / units_, decimals_);
+        append_number(text_, z / units_, std::min(decimals_ + 2, 9));  // layers may be of any height
         text_ += '\n';
     }
 

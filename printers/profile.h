@@ -58,7 +58,7 @@ struct ExchangeProfile {
     CliFormat cli_format = CliFormat::binary;
     double cli_units = 1;         ///< of coordinates in CLI files, mm
     bool cli_empty_layer = true;  ///< begin CLI files with an empty layer at the height of the plate
-    int part_layers = 50;         ///< slices in each part of a 3MF package
+    int package_layers = 50;      ///< slices in each file inside a 3MF package
 };
 
 struct FilamentProfile {

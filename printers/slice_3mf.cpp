@@ -67,7 +67,7 @@ class Slice3mf : public Backend {
   public:
     Slice3mf(const PrinterProfile& profile, const std::string& path, bool force)
         : tolerance_(profile.vector.tolerance),
-          part_layers_(profile.exchange.part_layers),
+          package_layers_(profile.exchange.package_layers),
           path_(path),
           output_(path, force) {}
 
@@ -75,14 +75,15 @@ class Slice3mf : public Backend {
         check_range(job, range);
         if (!(tolerance_ >= 1e-4 && tolerance_ <= 10))
             throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", tolerance_));
-        if (part_layers_ < 1)
-            throw InputError(fmt::format("part_layers = {}: must be 1 or more", part_layers_));
+        if (package_layers_ < 1)
+            throw InputError(fmt::format("package_layers = {}: must be 1 or more", package_layers_));
         name_ = job.name;
         bounds_ = job.bounds;
         layer_height_ = job.layer_height;
         range_ = range;
         with_supports_ = job.supports != nullptr;
-        const std::string settings = fmt::format("3mf tolerance={} part_layers={}", tolerance_, part_layers_);
+        const std::string settings =
+            fmt::format("3mf tolerance={} package_layers={}", tolerance_, package_layers_);
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) {
             restore();
@@ -113,7 +114,8 @@ class Slice3mf : public Backend {
         const int next = layer.index() + 1;
         const int number = part_number(layer.index());
         if (next < range_.last && part_number(next) == number) return;
-        output_.commit(finish_part(number), next, zip_.size());
+        const std::string text = finish_part(number);
+        output_.commit(text, next, zip_.size());
     }
 
     void end() override {
@@ -129,12 +131,12 @@ class Slice3mf : public Backend {
         zip_.take_up(path_ + ".partial", output_.state().get<std::uint64_t>());
     }
 
-    int part_number(int layer) const { return (layer - range_.first) / part_layers_; }
+    int part_number(int layer) const { return (layer - range_.first) / package_layers_; }
     int parts() const { return part_number(range_.last - 1) + 1; }
     static std::string part_path(int number) { return fmt::format("2D/slices{:05}.model", number); }
 
     /// Where the stack begins, mm over the plate.
-    double bottom(int part = 0) const { return (range_.first + part * part_layers_) * layer_height_; }
+    double bottom(int part = 0) const { return (range_.first + part * package_layers_) * layer_height_; }
 
     std::string stack_start(int id, int part) const {
         return fmt::format("<s:slicestack id=\"{}\" zbottom=\"{}\">\n", id,
@@ -224,7 +226,7 @@ class Slice3mf : public Backend {
     }
 
     double tolerance_;
-    int part_layers_;
+    int package_layers_;
     std::string path_;
     UnfinishedFile output_;
     DeflatedZip zip_;

@@ -10,7 +10,7 @@
 namespace lamella {
 
 /// Writes one package. The model holds an object for the part and, where there are supports, one for them;
-/// their slices stand in parts of the package with ExchangeProfile::part_layers slices each, to which the
+/// their slices stand in parts of the package with ExchangeProfile::package_layers slices each, to which the
 /// model's slice stacks refer. What is held in memory is one such part, compressed, and a run that was
 /// stopped is continued where the last one begins.
 ///

@@ -85,7 +85,7 @@ class CliReader {
     void ascii() {
         REQUIRE(text_.substr(at_).starts_with("\n$$GEOMETRYSTART\n"));
         REQUIRE(text_.ends_with("\n$$GEOMETRYEND\n"));
-        std::istringstream body(text_.substr(at_ + 18));
+        std::istringstream body(text_.substr(at_ + std::strlen("\n$$GEOMETRYSTART\n")));
         for (std::string line; std::getline(body, line) && line != "$$GEOMETRYEND";) {
             const std::vector<double> values = numbers(line.substr(line.find('/') + 1));
             if (line.starts_with("$$LAYER/")) {
@@ -306,7 +306,7 @@ TEST_CASE("names cannot break a CLI header, and units must fit the part", "[cli]
     job.name = "a,b/c\n$$HEADEREND\xc3\xa4" + std::string(200, 'x');
     run_layers(job, *make_cli(printer(CliFormat::ascii), folder / "out.cli", false), {0, 10});
     const CliReader reader(folder / "out.cli");
-    CHECK(reader.content().labels.at(0).starts_with("1,a_b_c_$$HEADEREND__xx"));
+    CHECK(reader.content().labels.at(0).starts_with("1,a_b_c___HEADEREND__xx"));
     CHECK(reader.content().labels.at(0).size() == 82);
     CHECK(reader.content().layers.size() == 11);
     for (const double units : {0.0, -1.0, 1e-9, 1e5, std::nan("")}) {

@@ -94,9 +94,9 @@ Job rings() {
         });
 }
 
-PrinterProfile printer(int part_layers) {
+PrinterProfile printer(int package_layers) {
     PrinterProfile profile;
-    profile.exchange.part_layers = part_layers;
+    profile.exchange.package_layers = package_layers;
     return profile;
 }
 
@@ -105,12 +105,12 @@ PrinterProfile printer(int part_layers) {
 TEST_CASE("slices of a 3MF package rise, close and have the part's areas", "[3mf]") {
     const TemporaryFolder folder;
     const Job job = rings();
-    const int part_layers = GENERATE(1, 3, 5, 100);
-    CAPTURE(part_layers);
+    const int package_layers = GENERATE(1, 3, 5, 100);
+    CAPTURE(package_layers);
     const double volume =
-        run_layers(job, *make_slice_3mf(printer(part_layers), folder / "out.3mf", false), {0, 10});
+        run_layers(job, *make_slice_3mf(printer(package_layers), folder / "out.3mf", false), {0, 10});
     auto files = package(folder / "out.3mf");
-    const int parts = (10 + part_layers - 1) / part_layers;
+    const int parts = (10 + package_layers - 1) / package_layers;
     CHECK(static_cast<int>(files.size()) == parts + 4);
     const std::string model = files.at("3D/3dmodel.model");
     CHECK(count_of(model, "<s:sliceref slicestackid=\"1\"") == parts);
@@ -122,7 +122,7 @@ TEST_CASE("slices of a 3MF package rise, close and have the part's areas", "[3mf
     for (int i = 0; i < parts; ++i) {
         const std::string& text = files.at("2D/slices0000" + std::to_string(i) + ".model");
         std::size_t at = 0;
-        CHECK(attribute(text, "zbottom", at) == Approx(i * part_layers * 0.5));
+        CHECK(attribute(text, "zbottom", at) == Approx(i * package_layers * 0.5));
         for (const Slice& slice : slices_of(text)) slices.push_back(slice);
     }
     REQUIRE(slices.size() == 10);
