@@ -13,6 +13,7 @@
 #include "engine/error.h"
 #include "printers/profile_texts.h"
 #include "printers/registry.h"
+#include "tests/app/command_run.h"
 #include "tests/app/folder.h"
 #include "tests/app/recipes.h"
 
@@ -279,4 +280,42 @@ TEST_CASE("dots per inch are another way to say the size of a pixel") {
     draft.read_text(sphere + "[printer]\npixel_x = 0.03\npixel_y = 0.04\n", "test.toml");
     draft.assign_flag(*find_setting("printer", "dpi"), "1200");
     CHECK(draft.finish().printer.image.pixel_y == 25.4 / 1200);
+}
+
+TEST_CASE("the command finds profiles in the user's folder, in one that is named, and by their file") {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "config/lamella/printers");
+    std::filesystem::create_directories(folder / "more");
+    write(folder / "config/lamella/printers/mine.toml",
+          "description = \"my cutter\"\n[printer]\nkind = \"svg\"\nmargin = 3\n");
+    write(folder / "more/other.toml", "based_on = \"mine\"\n[printer]\nmargin = 4\n");
+    const auto run = [&](const std::string& arguments) {
+        setenv("XDG_CONFIG_HOME", (folder / "config").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+        Outcome outcome = run_lamella(arguments);
+        unsetenv("XDG_CONFIG_HOME");  // NOLINT(concurrency-mt-unsafe)
+        return outcome;
+    };
+    const Outcome list = run("printers --printers " + folder / "more");
+    CHECK(list.code == 0);
+    CHECK(mentions(list.out, "my cutter (" + folder / "config/lamella/printers/mine.toml)"));
+    CHECK(mentions(list.out, "(" + folder / "more/other.toml)"));
+    CHECK(mentions(list.out, "generic-8k"));
+    CHECK(mentions(run("printers mine").out, "\nmargin = 3 "));
+    CHECK(mentions(run("printers other --printers " + folder / "more").out, "\nmargin = 4 "));
+    CHECK(run("printers other").code == 2);
+    CHECK(mentions(run("printers mina").err, "\"mina\" is unknown, did you mean `mine`?"));
+
+    const std::string ball = "slice --shape sphere --shape-radius 2 --layer-height 0.5 --quiet --printer ";
+    CHECK(run(ball + "mine -o " + folder / "a.svg").code == 0);
+    CHECK(mentions(contents(folder / "a.svg"), "width=\"10mm\""));
+    CHECK(run(ball + "other --printers " + folder / "more -o " + folder / "b.svg").code == 0);
+    CHECK(mentions(contents(folder / "b.svg"), "width=\"12mm\""));
+    CHECK(run(ball + folder / "config/lamella/printers/mine.toml -o " + folder / "c.svg").code == 0);
+    CHECK(contents(folder / "c.svg") == contents(folder / "a.svg"));
+    CHECK(run(ball + "mine --printers " + folder / "absent -o " + folder / "d.svg").code == 2);
+    // What a program cannot know is told.
+    const Outcome sliced =
+        run("slice --shape sphere --shape-radius 2 --layer-height 0.5 --printer 3mf -o " + folder / "e.3mf");
+    CHECK(sliced.code == 0);
+    CHECK(mentions(sliced.err, "show a plain box instead of the part"));
 }

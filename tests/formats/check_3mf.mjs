@@ -17,53 +17,55 @@ function read(bytes) {
     reader.SetStrictModeActive(true);
     reader.ReadFromFile("/package.3mf");
     require(Number(reader.GetWarningCount()) === 0, "lib3mf warns of the package");
+    reader.delete();
     return model;
 }
 
-/** lib3mf's objects by name, each with its slices as {top, vertices, counts of indices}. */
+/** Looks at lib3mf's objects: slices by object's name, each as {top, vertices, counts of indices}. */
 function objects(model) {
     const found = {};
-    for (const all = model.GetObjects(); all.MoveNext();) {
+    const all = model.GetObjects();
+    while (all.MoveNext()) {
         const object = all.GetCurrentObject();
         require(object.HasSlices(true), "an object has no slices");
         require(object.IsValid(), "an object is not valid");
         require(object.GetSlicesMeshResolution() === wasm.eSlicesMeshResolution.Lowres, "the box is not declared lowres");
         const stack = object.GetSliceStack();
         stack.CollapseSliceReferences();
-        const slices = [];
-        for (let i = 0n; i < BigInt(stack.GetSliceCount()); ++i) {
-            const slice = stack.GetSlice(i);
-            const points = slice.GetVertices();
-            const vertices = [];
-            for (let v = 0; v < points.size(); ++v) {
-                const at = points.get(v);
-                vertices.push([at.get_Coordinates0?.() ?? at.Coordinates0, at.get_Coordinates1?.() ?? at.Coordinates1]);
-            }
-            points.delete();
-            const counts = [];
-            for (let p = 0n; p < BigInt(slice.GetPolygonCount()); ++p) counts.push(Number(slice.GetPolygonIndexCount(p)));
-            slices.push({top: slice.GetZTop(), vertices, counts});
-        }
-        found[object.GetName()] = slices;
+        found[object.GetName()] = Array.from({length: Number(stack.GetSliceCount())}, (_, i) => {
+            const slice = stack.GetSlice(BigInt(i));
+            const polygons = Array.from({length: Number(slice.GetPolygonCount())}, (_, p) => BigInt(p));
+            const facts = {top: slice.GetZTop(), vertices: Number(slice.GetVertexCount()),
+                           counts: polygons.map((p) => Number(slice.GetPolygonIndexCount(p)))};
+            slice.delete();
+            return facts;
+        });
+        stack.delete();
+        object.delete();
     }
+    all.delete();
     return found;
 }
 
-/** Polygons of the slices of a stack, as lists of indices, from the package's text; lib3mf's wasm cannot give them. */
-async function polygons(bytes, stackId) {
-    const zip = await JSZip.loadAsync(bytes);
-    const parts = Object.keys(zip.files).filter((name) => name.startsWith("2D/")).sort();
-    const slices = [];
-    for (const part of parts) {
-        const xml = new DOMParser().parseFromString(await zip.file(part).async("string"), "text/xml");
-        const stack = [...xml.getElementsByTagName("s:slicestack")].find((s) => s.getAttribute("id") === String(stackId));
-        for (const slice of [...stack.getElementsByTagName("s:slice")]) {
-            slices.push([...slice.getElementsByTagName("s:polygon")].map(
+/** Slices as lib3mf writes them again, by object's name: {vertices, polygons as lists of indices}. Its wasm has no way to
+ *  hand out their points. */
+async function rewritten(model) {
+    const writer = model.QueryWriter("3mf");
+    writer.WriteToFile("/again.3mf");
+    writer.delete();
+    const zip = await JSZip.loadAsync(wasm.FS.readFile("/again.3mf"));
+    const xml = new DOMParser().parseFromString(await zip.file("3D/3dmodel.model").async("string"), "text/xml");
+    const all = (node, name) => [...node.getElementsByTagName(`s:${name}`)];
+    const stacks = new Map(all(xml, "slicestack").map((stack) => [stack.getAttribute("id"), stack]));
+    return Object.fromEntries([...xml.getElementsByTagName("object")].map((object) => {
+        const slices = all(stacks.get(object.getAttribute("s:slicestackid")), "slice");
+        return [object.getAttribute("name"), slices.map((slice) => ({
+            vertices: all(slice, "vertex").map((v) => [Number(v.getAttribute("x")), Number(v.getAttribute("y"))]),
+            polygons: all(slice, "polygon").map(
                 (polygon) => [Number(polygon.getAttribute("startv")),
-                              ...[...polygon.getElementsByTagName("s:segment")].map((s) => Number(s.getAttribute("v2")))]));
-        }
-    }
-    return slices;
+                              ...all(polygon, "segment").map((segment) => Number(segment.getAttribute("v2")))])
+        }))];
+    }));
 }
 
 /** Area within closed rings of points, positive counter-clockwise. */
@@ -74,17 +76,16 @@ function ringArea(points) {
     }, 0);
 }
 
-/** Areas of one object's slices: lib3mf's vertices in the order of the package's indices. */
-function areas(slices, indices) {
-    require(slices.length === indices.length, `${slices.length} slices where ${indices.length} are written`);
-    return slices.map((slice, i) => {
-        let sum = 0;
-        indices[i].forEach((polygon, p) => {
+/** Areas of one object's slices. */
+function areas(slices, written) {
+    require(slices.length === written.length, `${slices.length} slices are read, ${written.length} are written again`);
+    return written.map(({vertices, polygons}, i) => {
+        require(vertices.length === slices[i].vertices, "lib3mf has lost vertices");
+        return polygons.reduce((sum, polygon, p) => {
             require(polygon[0] === polygon.at(-1), "a polygon is open");
-            require(polygon.length === slice.counts[p], "lib3mf has another number of indices");
-            sum += ringArea(polygon.slice(1).map((v) => slice.vertices[v]));
-        });
-        return sum;
+            require(polygon.length === slices[i].counts[p], "lib3mf has another number of indices");
+            return sum + ringArea(polygon.slice(1).map((v) => vertices[v]));
+        }, 0);
     });
 }
 
@@ -153,7 +154,9 @@ for (const [name, job] of Object.entries(jobs)) {
     slice("--printer", "svg", "-o", `${name}.svg`);
     slice("--printer", "cli", "--printer-kind", "cli", "--printer-cli-format", "ascii", "-o", `${name}.cli`);
     const bytes = readFileSync(`${name}.3mf`);
-    const found = objects(read(bytes));
+    const model = read(bytes);
+    const found = objects(model);
+    const written = await rewritten(model);
     const svg = svgAreas(readFileSync(`${name}.svg`, "utf8"));
     const cli = cliAreas(readFileSync(`${name}.cli`, "utf8"));
     const names = name === "supported" ? [name, `${name} supports`] : [name];
@@ -162,7 +165,7 @@ for (const [name, job] of Object.entries(jobs)) {
     for (const [k, object] of names.entries()) {
         const slices = found[object];
         require(slices.length === svg.length, `${slices.length} slices of ${svg.length} layers`);
-        const found3mf = areas(slices, await polygons(bytes, k + 1));
+        const found3mf = areas(slices, written[object]);
         let total = 0;
         slices.forEach((s, i) => {
             requireNear(s.top, (i + 1) * Number(job[job.indexOf("--layer-height") + 1]), 1e-6, "height of a slice");
