@@ -207,9 +207,14 @@ class TomlRecipe {
                 read_section(*find_section(name), line, node);
             } else {
                 const std::string near = nearest(name, {"description", "based_on", "printer", "support"});
+                const bool misplaced = find_setting("printer", name) || find_setting("support", name);
+                std::string hint = near.empty() ? "" : fmt::format(", did you mean `{}`?", near);
+                if (misplaced)
+                    hint = find_setting("printer", name) ? ", it belongs to [printer]"
+                                                         : ", it belongs to [support]";
                 refuse(line, shown(name),
-                       "does not belong into a machine profile" +
-                           (near.empty() ? "" : fmt::format(", did you mean `{}`?", near)),
+                       (misplaced ? "stands outside a section" : "does not belong into a machine profile") +
+                           hint,
                        "description, based_on, [printer] and [support]");
             }
         }

@@ -37,7 +37,7 @@ Setting dots_per_inch() {
     constexpr double inch = 25.4;  // mm
     Setting s = described<double>("printer", "dpi", "--printer-dpi",
                                   {.unit = "dots per inch",
-                                   .limits = {inch / any_length.hi, inch / any_length.lo},
+                                   .limits = {0.003, 25'000},
                                    .help = "Square pixels by their number an inch instead of pixel."});
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         r.printer.image.pixel_x = r.printer.image.pixel_y = inch / std::get<double>(value);

@@ -231,6 +231,9 @@ TEST_CASE("a profile that cannot be is refused with file, line and key") {
                    "mine.toml:2: support.kind: recipes ask for supports"));
     CHECK(mentions(wrong("[foam]\ncell = 3\n"), "mine.toml:1: foam: does not belong into a machine profile"));
     CHECK(mentions(wrong("[printr]\nkind = \"sl1\"\n"), "did you mean `printer`?"));
+    CHECK(mentions(wrong("width = 3\n"),
+                   "mine.toml:1: width: stands outside a section, it belongs to [printer]"));
+    CHECK(mentions(wrong("tip = 3\n"), "it belongs to [support]"));
     CHECK(mentions(wrong("printer = 3\n"), "mine.toml:1: printer: a whole number was found"));
     CHECK(mentions(wrong("[printer\n"), "mine.toml:1:9: not valid TOML"));
     CHECK(mentions(wrong("[printer]\nkind = \"sl1\"\n[support]\ntip = 5\n"),
