@@ -1,19 +1,49 @@
-// `lamella printers`: the back-ends and the machine profiles.
+// `lamella printers`: the back-ends and the machine profiles, or one profile as TOML.
+#include <memory>
+
 #include "app/commands.h"
 #include "app/printer_choice.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
+#include "engine/error.h"
 
 namespace lamella {
 
+namespace {
+
+struct PrintersOptions {
+    std::string name;
+    std::string folder;
+};
+
+void run(const PrintersOptions& options) {
+    const MachineProfiles profiles = machine_profiles(options.folder);
+    std::string text;
+    if (options.name.empty()) {
+        text = printers_listing(profiles);
+    } else {
+        const auto profile = profiles.find(options.name);
+        if (!profile) throw InputError("printer " + profiles.unknown(options.name));
+        text = profile_as_toml(*profile);
+    }
+    TextOutput out("");
+    out.write(text);
+    out.close();
+}
+
+}  // namespace
+
 void add_printers_command(CLI::App& root) {
+    auto options = std::make_shared<PrintersOptions>();
     CLI::App& command = *root.add_subcommand("printers", "List back-ends and machine profiles");
-    finish_command(command, "  lamella printers");
-    command.callback([] {
-        TextOutput out("");
-        out.write(printers_listing());
-        out.close();
-    });
+    command
+        .add_option("NAME", options->name, "Profile to write as TOML, with all its values; default: list all")
+        ->type_name("");
+    add_profile_folder_option(command, options->folder);
+    finish_command(command,
+                   "  lamella printers\n"
+                   "  lamella printers prusa-sl1s > ~/.config/lamella/printers/my-sl1s.toml");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace lamella

@@ -24,6 +24,7 @@
 #include "engine/error.h"
 #include "engine/layer_stream.h"
 #include "engine/plate.h"
+#include "printers/registry.h"
 
 namespace lamella {
 
@@ -130,6 +131,10 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
                     report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
             .c_str(),
         stderr);
+    for (const Output& output : outputs) {
+        if (const char* warning = find_backend(output.printer.backend).warning)
+            std::fputs(fmt::format("{}: {}\n", output.path, warning).c_str(), stderr);
+    }
     if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
 }
 
@@ -148,7 +153,7 @@ void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, 
 std::vector<Recipe> read_beside(const SliceOptions& options, const Recipe& first) {
     std::vector<Recipe> recipes;
     for (const std::string& input : options.beside) {
-        Recipe recipe = read_recipe(input);
+        Recipe recipe = read_recipe(input, options.recipe.profiles());
         recipe.printer = first.printer;
         recipe.layer_height = first.layer_height;
         recipe.support = first.support;
@@ -176,7 +181,7 @@ void run(const SliceOptions& options) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
-    const std::vector<Output> outputs = read_outputs(options.output, recipe);
+    const std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles());
     BuiltJob built = build_job(recipe);
     if (!options.quiet) note_unused(options.recipe, recipe);
     if (built.mesh && !options.quiet) {

@@ -21,17 +21,18 @@ std::size_t profile_mark(const std::string& named) {
     return mark;
 }
 
-Output read_output(const std::string& named, const Recipe& recipe) {
+Output read_output(const std::string& named, const Recipe& recipe, const MachineProfiles& profiles) {
     const std::size_t mark = profile_mark(named);
     Output output{named.substr(0, mark), recipe.printer};
     if (output.path.empty()) throw InputError("--output: \"" + named + "\" names no file");
     if (mark != std::string::npos) {
-        try {
-            output.printer = profile_named(named.substr(mark + 1));
-        } catch (const InputError& error) {
-            throw InputError("--output " + named + ": " + error.what() +
+        const std::string name = named.substr(mark + 1);
+        const std::optional<MachineProfile> profile = profiles.find(name);
+        if (!profile) {
+            throw InputError("--output " + named + ": " + profiles.unknown(name) +
                              " (a file whose own name has an @ needs an ending behind it)");
         }
+        output.printer = profile->printer;
     }
     const std::string backend = backend_of_ending(output.path);
     if (!backend.empty()) output.printer.backend = backend;
@@ -44,10 +45,11 @@ std::filesystem::path in_full(const std::string& path) {
 
 }  // namespace
 
-std::vector<Output> read_outputs(const std::vector<std::string>& named, const Recipe& recipe) {
+std::vector<Output> read_outputs(const std::vector<std::string>& named, const Recipe& recipe,
+                                 const MachineProfiles& profiles) {
     std::vector<Output> outputs;
     for (const std::string& text : named) {
-        outputs.push_back(read_output(text, recipe));
+        outputs.push_back(read_output(text, recipe, profiles));
         const auto same = [&](const Output& other) {
             return in_full(other.path) == in_full(outputs.back().path);
         };

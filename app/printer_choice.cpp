@@ -1,15 +1,85 @@
-// Words for machines, looked up in the printers' registry.
+// Listing machines, and writing one down as a file that can be edited.
 #include "app/printer_choice.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
+#include "app/settings.h"
 #include "engine/error.h"
 #include "printers/registry.h"
 
 namespace lamella {
+
+namespace {
+
+/// What can be made on the machine.
+std::string size_of(const PrinterProfile& p) {
+    switch (find_backend(p.backend).medium) {
+        case Medium::pixels:
+            return fmt::format("{} x {} px, {:.6g} x {:.6g} mm{}", p.image.width, p.image.height,
+                               p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
+                               p.image.portrait ? ", portrait" : "");
+        case Medium::beads:
+            return fmt::format("{:.6g} x {:.6g} x {:.6g} mm, nozzle {:.6g} mm", p.filament.bed_x,
+                               p.filament.bed_y, p.filament.bed_z, p.filament.nozzle);
+        case Medium::contours:
+            return "contours in mm";
+    }
+    return "";
+}
+
+std::string pixel_of(const PrinterProfile& p) {
+    if (find_backend(p.backend).medium != Medium::pixels) return "";
+    const auto um = [](double mm) { return fmt::format("{:.4g}", mm * 1000); };
+    return p.image.pixel_x == p.image.pixel_y ? um(p.image.pixel_x) + " um"
+                                              : um(p.image.pixel_x) + " x " + um(p.image.pixel_y) + " um";
+}
+
+std::string profile_line(const MachineProfiles& profiles, const std::string& name) {
+    try {
+        const auto found = profiles.find(name);
+        const PrinterProfile& p = found->printer;
+        std::string facts = size_of(p);
+        if (const std::string pixel = pixel_of(p); !pixel.empty()) facts += ", pixel " + pixel;
+        std::string line = fmt::format("  {:<25} {:<6}{}\n", name, p.backend, facts);
+        return line + fmt::format("  {:<32}{}{}({})\n", "", found->description,
+                                  found->description.empty() ? "" : " ", found->source);
+    } catch (const InputError& error) {
+        return fmt::format("  {:<25} cannot be used: {}\n", name, error.what());
+    }
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+/// Keys that say again what others say, or that belong to recipes alone.
+bool is_written(const Setting& setting) {
+    static const std::set<std::string> left_out{"printer.profile", "printer.pixel", "printer.dpi",
+                                                "support.kind"};
+    return !left_out.contains(setting.name());
+}
+
+std::string setting_line(const Setting& setting, const Recipe& recipe) {
+    const Value value = setting.load(recipe, 0);
+    const std::string text = format_value(value);
+    const bool is_text = std::holds_alternative<std::string>(value);
+    // An empty text is no value: the key is there to be filled in.
+    const std::string assignment = fmt::format("{}{} = {}", is_text && text.empty() ? "# " : "", setting.key,
+                                               is_text ? quoted(text) : text);
+    return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
+                       setting.help);
+}
+
+}  // namespace
 
 std::vector<std::string> backend_words() {
     std::vector<std::string> words;
@@ -17,36 +87,17 @@ std::vector<std::string> backend_words() {
     return words;
 }
 
-std::vector<std::string> profile_words() {
-    std::vector<std::string> words;
-    for (const PrinterProfile& profile : profiles()) words.push_back(profile.name);
-    for (const std::string& backend : backend_words()) {
-        if (std::find(words.begin(), words.end(), backend) == words.end()) words.push_back(backend);
-    }
-    return words;
-}
-
-PrinterProfile default_profile() { return profiles().front(); }
-
-PrinterProfile profile_named(const std::string& name) {
-    const auto machines = profiles();
-    const auto is_backend = backend_words();
-    const bool known =
-        std::any_of(machines.begin(), machines.end(), [&](const auto& p) { return p.name == name; });
-    if (known || std::find(is_backend.begin(), is_backend.end(), name) == is_backend.end())
-        return find_profile(name);
-    PrinterProfile profile;
-    profile.name = name;
-    profile.backend = name;
-    profile.support = usual_supports(name);
-    return profile;
-}
-
 dvec2 plate_size(const PrinterProfile& printer) {
-    if (printer.backend == "gcode") return {printer.filament.bed_x, printer.filament.bed_y};
-    if (printer.backend == "svg") return {infinity, infinity};
     const ImageProfile& image = printer.image;
-    return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
+    switch (find_backend(printer.backend).medium) {
+        case Medium::pixels:
+            return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
+        case Medium::beads:
+            return {printer.filament.bed_x, printer.filament.bed_y};
+        case Medium::contours:
+            break;
+    }
+    return {infinity, infinity};
 }
 
 std::string backend_of_ending(const std::string& path) {
@@ -71,18 +122,29 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
     return part_name + std::string(endings.substr(0, endings.find(' ')));
 }
 
-std::string printers_listing() {
+std::string printers_listing(const MachineProfiles& profiles) {
     std::string text = "Back-ends (--printer-kind, printer.kind)\n";
     for (const BackendInfo& backend : backends())
-        text += fmt::format("  {:<14}{}\n", backend.name, backend.description);
+        text += fmt::format("  {:<25} {}\n", backend.name, backend.description);
     text += "\nProfiles (--printer, printer.profile)\n";
-    for (const PrinterProfile& p : profiles()) {
-        std::string facts = p.backend;
-        if (p.backend == "png" || p.backend == "sl1") {
-            facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height,
-                                 p.image.pixel_x, p.image.pixel_y, p.image.portrait ? ", portrait" : "");
+    const std::vector<std::string> words = backend_words();
+    for (const std::string& name : profiles.names()) {
+        if (std::find(words.begin(), words.end(), name) == words.end()) text += profile_line(profiles, name);
+    }
+    return text + fmt::format("\n`lamella printers NAME` writes one as TOML, to be edited and kept in {}\n",
+                              user_profile_folder());
+}
+
+std::string profile_as_toml(const MachineProfile& profile) {
+    Recipe recipe;
+    recipe.printer = profile.printer;
+    std::string text;
+    if (!profile.description.empty()) text = "description = " + quoted(profile.description) + "\n";
+    for (const char* section : {"printer", "support"}) {
+        text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+        for (const Setting& setting : settings()) {
+            if (setting.section == section && is_written(setting)) text += setting_line(setting, recipe);
         }
-        text += fmt::format("  {:<14}{}\n", p.name, facts);
     }
     return text;
 }

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 
-#include "app/printer_choice.h"
 #include "app/recipe_formulas.h"
 #include "app/recipe_regions.h"
 #include "app/settings_rows.h"
@@ -210,27 +209,54 @@ void RecipeDraft::check_structure() {
     if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
 }
 
-void RecipeDraft::check_printer() {
-    const Entry* pixel = entry("printer", "pixel");
-    for (const char* key : {"pixel_x", "pixel_y"}) {
-        const Entry* one = entry("printer", key);
-        if (!pixel || !one) continue;
-        if (pixel->from_flag != one->from_flag) {
-            entries_.erase({"printer", 0, pixel->from_flag ? std::string(key) : "pixel"});
-            pixel = entry("printer", "pixel");
-        } else {
-            refuse(0, fmt::format("{}: contradicts {}; accepted: pixel alone, or pixel_x and pixel_y",
-                                  one->where, pixel->where));
+/// The size of a pixel is said in one way: by its edge, both its sides, or dots per inch. A flag's way holds.
+void RecipeDraft::check_pixels() {
+    const std::vector<std::vector<std::string>> ways{{"pixel"}, {"dpi"}, {"pixel_x", "pixel_y"}};
+    const auto given = [&](const std::vector<std::string>& way, bool flags_only) -> const Entry* {
+        for (const std::string& key : way) {
+            const Entry* one = entry("printer", key);
+            if (one && (one->from_flag || !flags_only)) return one;
         }
+        return nullptr;
+    };
+    const auto flagged = [&](const auto& way) { return given(way, true) != nullptr; };
+    if (std::any_of(ways.begin(), ways.end(), flagged)) {
+        for (const auto& way : ways) {
+            if (flagged(way)) continue;
+            for (const std::string& key : way) entries_.erase({"printer", 0, key});
+        }
+    }
+    const Entry* first = nullptr;
+    for (const auto& way : ways) {
+        const Entry* one = given(way, false);
+        if (first && one) {
+            refuse(0,
+                   fmt::format("{}: contradicts {}; accepted: pixel alone, dpi alone, or pixel_x and pixel_y",
+                               one->where, first->where));
+        }
+        if (!first) first = one;
+    }
+}
+
+/// Looks up the profile.
+void RecipeDraft::check_printer() {
+    check_pixels();
+    const Entry* given = entry("printer", "profile");
+    const std::string name = given && given->value ? std::get<std::string>(*given->value) : default_profile;
+    try {
+        if (const auto found = profiles_.find(name)) {
+            machine_ = found->printer;
+        } else {
+            refuse(0, fmt::format("{}: {}", where("printer", "profile"), profiles_.unknown(name)));
+        }
+    } catch (const InputError& error) {
+        refuse(0, error.what());
     }
 }
 
 Recipe RecipeDraft::assemble() const {
     Recipe recipe;
-    recipe.printer = default_profile();
-    if (const Entry* profile = entry("printer", "profile"); profile && profile->value) {
-        recipe.printer = profile_named(std::get<std::string>(*profile->value));
-    }
+    recipe.printer = machine_;
     for (const auto& [place, given] : entries_) {
         const Setting& setting = *find_setting(place.section, place.key);
         if (given.value && setting.name() != "printer.profile") {
@@ -278,13 +304,41 @@ Recipe RecipeDraft::finish() {
         for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
         for (std::string& mistake : region_mistakes(recipe)) refuse(0, std::move(mistake));
     }
-    if (mistakes_.empty()) return recipe;
+    throw_mistakes();
+    return recipe;
+}
+
+void RecipeDraft::throw_mistakes() {
+    if (mistakes_.empty()) return;
     std::stable_sort(mistakes_.begin(), mistakes_.end(), [](const Mistake& a, const Mistake& b) {
         return (a.line ? a.line : 1 << 30) < (b.line ? b.line : 1 << 30);
     });
     std::string text;
     for (const Mistake& mistake : mistakes_) text += (text.empty() ? "" : "\n") + mistake.text;
     throw InputError(text);
+}
+
+std::string RecipeDraft::profile_kind(const std::string& path) {
+    const Entry* kind = entry("printer", "kind");
+    if (!kind) {
+        refuse(0, fmt::format("{}: neither based_on nor printer.kind is given; accepted: the name of another "
+                              "profile, or {}",
+                              path, accepted(*find_setting("printer", "kind"))));
+    }
+    throw_mistakes();
+    return std::get<std::string>(*kind->value);
+}
+
+PrinterProfile RecipeDraft::finish_profile(const PrinterProfile& base) {
+    check_pixels();
+    Recipe recipe;
+    recipe.printer = base;
+    for (const auto& [place, given] : entries_) {
+        if (given.value) find_setting(place.section, place.key)->store(recipe, 0, *given.value);
+    }
+    if (mistakes_.empty()) check_support(recipe.printer);
+    throw_mistakes();
+    return recipe.printer;
 }
 
 }  // namespace lamella

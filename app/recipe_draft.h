@@ -8,12 +8,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "app/machine_profiles.h"
 #include "app/recipe_kinds.h"
 #include "app/settings.h"
 
 namespace lamella {
+
+/// What stands above the sections of a machine profile.
+struct ProfileHead {
+    std::string description;
+    std::string based_on;        ///< name or file of another profile; empty for none
+    std::string based_on_where;  ///< "mine.toml:2: based_on"
+};
 
 /// Collects assignments from a recipe file and from flags (later ones win) and all their mistakes.
 class RecipeDraft {
@@ -26,11 +35,22 @@ class RecipeDraft {
     /// Takes the text of a flag.
     void assign_flag(const Setting& setting, const std::string& text);
 
+    /// Where printer.profile is looked up; without this among the built-in profiles.
+    void use_profiles(MachineProfiles profiles) { profiles_ = std::move(profiles); }
+
     /// Whether the part needs a body: false for commands that look at the foam alone.
     void require_body(bool required) { body_required_ = required; }
 
     /// The recipe. Throws one InputError with every mistake, a line each, when there is any.
     Recipe finish();
+
+    /// Reads a machine profile instead of a recipe: `description`, `based_on`, [printer] and [support].
+    ProfileHead read_profile_file(const std::string& path);
+    ProfileHead read_profile(std::string_view text, const std::string& path);
+    /// The back-end that the profile names. Throws InputError with every mistake when it names none.
+    std::string profile_kind(const std::string& path);
+    /// `base` with the profile's values. Throws one InputError with every mistake, as `finish` does.
+    PrinterProfile finish_profile(const PrinterProfile& base);
 
   private:
     struct Entry {
@@ -73,6 +93,8 @@ class RecipeDraft {
     void check_need(const Part& part, const std::string& need, const std::string& why);
     void check_structure();
     void check_printer();
+    void check_pixels();
+    void throw_mistakes();
     Recipe assemble() const;
     template <typename Sizes>
     void check_shape(const Part& of, const std::string& shape, const Sizes& sizes);
@@ -91,6 +113,8 @@ class RecipeDraft {
     std::map<Part, std::string> sections_;  ///< those present in the file: where they begin
     std::vector<Mistake> mistakes_;
     bool body_required_ = true;
+    MachineProfiles profiles_;
+    PrinterProfile machine_;  ///< what printer.profile names
 };
 
 }  // namespace lamella

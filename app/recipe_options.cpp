@@ -67,6 +67,7 @@ void read_input(RecipeDraft& draft, const std::string& input) {
 
 void RecipeOptions::add_to(CLI::App& command) {
     command.add_option("INPUT", input_, "Recipe (.toml) or model (.stl, .obj, .ply, .3mf)")->type_name("");
+    add_profile_folder_option(command, profile_folder_);
     texts_.resize(settings().size());
     for (std::size_t i = 0; i < texts_.size(); ++i) {
         const Setting& setting = settings()[i];
@@ -88,6 +89,7 @@ void RecipeOptions::add_to(CLI::App& command) {
 Recipe RecipeOptions::read(bool needs_body) const {
     RecipeDraft draft;
     draft.require_body(needs_body);
+    draft.use_profiles(profiles());
     read_input(draft, input_);
     for (std::size_t i = 0; i < options_.size(); ++i) {
         if (options_[i] && options_[i]->count() > 0) draft.assign_flag(settings()[i], texts_[i]);
@@ -95,10 +97,28 @@ Recipe RecipeOptions::read(bool needs_body) const {
     return draft.finish();
 }
 
-Recipe read_recipe(const std::string& input) {
+MachineProfiles RecipeOptions::profiles() const { return machine_profiles(profile_folder_); }
+
+Recipe read_recipe(const std::string& input, const MachineProfiles& profiles) {
     RecipeDraft draft;
+    draft.use_profiles(profiles);
     read_input(draft, input);
     return draft.finish();
+}
+
+void add_profile_folder_option(CLI::App& command, std::string& folder) {
+    command
+        .add_option("--printers", folder,
+                    "Folder of machine profiles (.toml) besides the built-in ones and those in "
+                    "~/.config/lamella/printers")
+        ->type_name("DIR");
+}
+
+MachineProfiles machine_profiles(const std::string& folder) {
+    MachineProfiles profiles;
+    if (const std::string users = user_profile_folder(); !users.empty()) profiles.add_folder(users, false);
+    if (!folder.empty()) profiles.add_folder(folder, true);
+    return profiles;
 }
 
 void note_unused(const RecipeOptions& options, const Recipe& recipe) {

@@ -14,22 +14,26 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t largest_recipe = 1 << 20;
+constexpr std::size_t largest_file = 1 << 20;
 
-std::string read_whole(const std::string& path) {
+/// `kind`: "recipe" or "machine profile".
+std::string read_whole(const std::string& path, const char* kind) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
-        throw InputError(path + ": is a folder; a recipe file (TOML) is needed");
+        throw InputError(fmt::format("{}: is a folder; a {} file (TOML) is needed", path, kind));
     }
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError(path + ": cannot be opened; a readable recipe file (TOML) is needed");
-    std::string text(largest_recipe + 1, '\0');
+    if (!file) {
+        throw InputError(
+            fmt::format("{}: cannot be opened; a readable {} file (TOML) is needed", path, kind));
+    }
+    std::string text(largest_file + 1, '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (file.bad()) throw InputError(path + ": cannot be read");
     text.resize(static_cast<std::size_t>(file.gcount()));
-    if (text.size() > largest_recipe) {
+    if (text.size() > largest_file) {
         throw InputError(
-            fmt::format("{}: has more than {} bytes, which no recipe needs", path, largest_recipe));
+            fmt::format("{}: has more than {} bytes, which no {} needs", path, largest_file, kind));
     }
     return text;
 }
@@ -143,6 +147,16 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
     return std::nullopt;
 }
 
+toml::table parse(std::string_view text, const std::string& path) {
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        const auto begin = error.source().begin;
+        throw InputError(
+            fmt::format("{}:{}:{}: not valid TOML: {}", path, begin.line, begin.column, error.description()));
+    }
+}
+
 /// Keys are the user's text: cut to a length that a message can bear.
 std::string shown(std::string_view key) {
     std::string text;
@@ -178,7 +192,51 @@ class TomlRecipe {
         }
     }
 
+    ProfileHead read_profile(const toml::table& root) {
+        ProfileHead head;
+        for (const auto& [key, node] : root) {
+            const std::string name(key.str());
+            const int line = static_cast<int>(key.source().begin.line);
+            if (name == "description") {
+                read_text(line, name, node, head.description);
+            } else if (name == "based_on") {
+                read_text(line, name, node, head.based_on);
+                head.based_on_where = at(line, name);
+            } else if (name == "printer" || name == "support") {
+                in_profile_ = true;
+                read_section(*find_section(name), line, node);
+            } else {
+                const std::string near = nearest(name, {"description", "based_on", "printer", "support"});
+                const bool misplaced = find_setting("printer", name) || find_setting("support", name);
+                std::string hint = near.empty() ? "" : fmt::format(", did you mean `{}`?", near);
+                if (misplaced)
+                    hint = find_setting("printer", name) ? ", it belongs to [printer]"
+                                                         : ", it belongs to [support]";
+                refuse(line, shown(name),
+                       (misplaced ? "stands outside a section" : "does not belong into a machine profile") +
+                           hint,
+                       "description, based_on, [printer] and [support]");
+            }
+        }
+        return head;
+    }
+
   private:
+    /// A line of text above the sections of a profile.
+    void read_text(int line, const std::string& key, const toml::node& node, std::string& text) {
+        const auto* given = node.as_string();
+        const bool fine = given && !given->get().empty() && given->get().size() <= 1024 &&
+                          std::all_of(given->get().begin(), given->get().end(), [](char c) {
+                              return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
+                          });
+        if (fine) {
+            text = given->get();
+        } else {
+            refuse(line, key, given ? "the text is empty, too long or of several lines" : found_type(node),
+                   "a text of one line, at most 1024 bytes");
+        }
+    }
+
     std::string at(int line, const std::string& what) const {
         return fmt::format("{}:{}: {}", path_, line, what);
     }
@@ -239,6 +297,14 @@ class TomlRecipe {
                   const toml::node& node) {
         const Setting* setting = find_setting(section, key);
         if (!setting) return refuse_key(section, number, key, line);
+        if (in_profile_ && setting->name() == "printer.profile") {
+            return refuse(line, setting->name(), "a recipe has it, a profile does not",
+                          "based_on, above the sections");
+        }
+        if (in_profile_ && setting->name() == "support.kind") {
+            return refuse(line, setting->name(), "recipes ask for supports, profiles shape them",
+                          "the other keys of [support]");
+        }
         const std::string where = at(line, setting->name());
         const auto value = value_of(*setting, node);
         std::optional<std::string> wrong = value ? objection(*setting, *value) : found_type(node);
@@ -265,27 +331,32 @@ class TomlRecipe {
 
     /// Paths in a recipe start at the recipe's folder.
     Value located(const Setting& setting, const Value& value) const {
-        if (setting.type != ValueType::path) return value;
+        const bool is_file =
+            setting.name() == "printer.profile" && names_profile_file(std::get<std::string>(value));
+        if (setting.type != ValueType::path && !is_file) return value;
         const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
         return (folder / std::get<std::string>(value)).lexically_normal().string();
     }
 
     RecipeDraft& draft_;
     const std::string& path_;
+    bool in_profile_ = false;
 };
 
-void RecipeDraft::read_file(const std::string& path) { read_text(read_whole(path), path); }
+void RecipeDraft::read_file(const std::string& path) { read_text(read_whole(path, "recipe"), path); }
 
 void RecipeDraft::read_text(std::string_view text, const std::string& path) {
-    toml::table root;
-    try {
-        root = toml::parse(text, path);
-    } catch (const toml::parse_error& error) {
-        const auto begin = error.source().begin;
-        throw InputError(
-            fmt::format("{}:{}:{}: not valid TOML: {}", path, begin.line, begin.column, error.description()));
-    }
+    const toml::table root = parse(text, path);
     TomlRecipe(*this, path).read(root);
+}
+
+ProfileHead RecipeDraft::read_profile_file(const std::string& path) {
+    return read_profile(read_whole(path, "machine profile"), path);
+}
+
+ProfileHead RecipeDraft::read_profile(std::string_view text, const std::string& path) {
+    const toml::table root = parse(text, path);
+    return TomlRecipe(*this, path).read_profile(root);
 }
 
 }  // namespace lamella

@@ -1,4 +1,6 @@
 // The rows of the settings table about the machine: images, vectors, filament.
+#include <cmath>
+
 #include "app/printer_choice.h"
 #include "app/settings_rows.h"
 
@@ -21,13 +23,29 @@ constexpr Limits speed{0.1, 2000};
 void add_machine(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.name; }>(
         "printer", "profile", "--printer",
-        {.choices = profile_words(),
-         .fallback = default_profile().name,
-         .help =
-             "Machine profile to start from, or a back-end's name for that back-end with plain settings."}));
+        {.fallback = default_profile,
+         .help = "Machine profile to start from: a name that `lamella printers` lists, a back-end's name for "
+                 "plain settings, or a profile's .toml file, in a recipe relative to the recipe's folder."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.backend; }>(
         "printer", "kind", "--printer-kind",
         {.choices = backend_words(), .help = "Back-end that makes the output."}));
+}
+
+/// The pixel's edge as printheads state it. What is told is rounded to 1e-6, for a quotient's quotient is not
+/// quite the number that was given.
+Setting dots_per_inch() {
+    constexpr double inch = 25.4;  // mm
+    Setting s = described<double>("printer", "dpi", "--printer-dpi",
+                                  {.unit = "dots per inch",
+                                   .limits = {0.003, 25'000},
+                                   .help = "Square pixels by their number an inch instead of pixel."});
+    s.store = [](Recipe& r, std::size_t, const Value& value) {
+        r.printer.image.pixel_x = r.printer.image.pixel_y = inch / std::get<double>(value);
+    };
+    s.load = [](const Recipe& r, std::size_t) -> Value {
+        return std::round(inch / r.printer.image.pixel_x * 1e6) / 1e6;
+    };
+    return s;
 }
 
 void add_image(std::vector<Setting>& t) {
@@ -47,6 +65,7 @@ void add_image(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_y; }>(
         "printer", "pixel_y", "--printer-pixel-y",
         {.unit = "mm", .limits = any_length, .help = "Size of a pixel along the display's height."}));
+    t.push_back(dots_per_inch());
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.format; }>(
         "printer", "format", "--printer-format", {.help = "File format of the images of a stack."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.mirror_x; }>(
@@ -187,6 +206,7 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_resin(table);
     add_vector(table);
     add_filament(table);
+    add_exchange_settings(table);
 }
 
 }  // namespace lamella

@@ -11,6 +11,7 @@
 
 #include "engine/error.h"
 #include "engine/number_format.h"
+#include "printers/package_3mf.h"
 #include "printers/zip_writer.h"
 
 namespace lamella {
@@ -21,19 +22,6 @@ constexpr double units_per_mm = 1e5;
 constexpr double shortest = 1 / units_per_mm;  // mm; nodes that differ are at least this far apart
 constexpr double farthest = 1e6;               // mm
 constexpr std::size_t most_beams = (std::size_t{1} << 31U) - 1;
-
-constexpr std::string_view content_types =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
-    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
-    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
-    "</Types>\n";
-constexpr std::string_view relationships =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
-    "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
-    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
-    "</Relationships>\n";
 
 /// A place in units of 1e-5 mm.
 using Node = std::array<std::int64_t, 3>;
@@ -67,42 +55,6 @@ void check(std::span<const Beam> beams) {
                 " cannot be written: its ends must lie within 1e6 mm of the origin and its radii "
                 "between 0 and 1e6 mm");
     }
-}
-
-/// The bytes that begin a valid UTF-8 character of XML at the start of the text; 0 when there is none.
-std::size_t character_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned first = byte(0);
-    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
-    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-    std::uint32_t code = first & (0xffU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0U) != 0x80) return 0;
-        code = code << 6U | (byte(i) & 0x3fU);
-    }
-    const bool overlong = code < (length == 2 ? 0x80U : length == 3 ? 0x800U : 0x10000U);
-    const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-    return overlong || surrogate || code > 0x10ffff || code == 0xfffe || code == 0xffff ? 0 : length;
-}
-
-/// The text as the value of an XML attribute.
-std::string attribute_text(std::string_view text) {
-    std::string out;
-    while (!text.empty()) {
-        const std::size_t length = character_length(text);
-        if (length == 1 && text[0] == '&') {
-            out += "&amp;";
-        } else if (length == 1 && text[0] == '<') {
-            out += "&lt;";
-        } else if (length == 1 && text[0] == '"') {
-            out += "&quot;";
-        } else {
-            out += text.substr(0, length);
-        }
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return out;
 }
 
 /// Text that goes to the archive in pieces.
@@ -143,7 +95,7 @@ class LatticeWriter {
                 "requiredextensions=\"b\">\n"
                 "<metadata name=\"Application\">Lamella</metadata>\n"
                 "<resources>\n<object id=\"1\" type=\"model\" name=\""
-             << attribute_text(name) << "\">\n<mesh>\n<vertices>\n";
+             << xml_attribute(name) << "\">\n<mesh>\n<vertices>\n";
         write_nodes();
         out_ << "</vertices>\n";
         write_beams();
@@ -211,9 +163,9 @@ BeamLatticeReport write_beam_lattice(const std::filesystem::path& path, std::spa
     check(beams);
     ZipWriter zip(path);
     zip.begin_entry("[Content_Types].xml");
-    zip.write(content_types);
+    zip.write(package_content_types);
     zip.begin_entry("_rels/.rels");
-    zip.write(relationships);
+    zip.write(package_relationships);
     zip.begin_entry("3D/3dmodel.model");
     const BeamLatticeReport report = LatticeWriter(beams, zip).write(name);
     zip.finish();

@@ -16,4 +16,7 @@ const char* extension(ImageFormat format);
 std::vector<std::byte> encode_image(ImageFormat format, int width, int height,
                                     const std::vector<std::uint8_t>& pixels);
 
+/// Writes the size of a pixel, mm, into a BMP: machines take an image's size from it.
+void set_bmp_pixel_size(std::vector<std::byte>& file, double pixel_x, double pixel_y);
+
 }  // namespace lamella

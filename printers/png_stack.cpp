@@ -59,6 +59,8 @@ class PngStack : public Backend {
         product.area = area.part;
         product.support_area = area.supports;
         product.file = encode_image(profile_.image.format, layout_->width(), layout_->height(), pixels);
+        if (profile_.image.format == ImageFormat::bmp)
+            set_bmp_pixel_size(product.file, layout_->column_pitch(), layout_->row_pitch());
     }
 
     /// Part coordinates, mm, of the corner of pixel (0, 0) and the way to the next column and row.

@@ -57,6 +57,16 @@ struct VectorProfile {
     double margin = 1;         ///< mm round the part
 };
 
+/// How contours are written for other programs and powder-bed machines.
+enum class CliFormat : unsigned char { binary, ascii };
+
+struct ExchangeProfile {
+    CliFormat cli_format = CliFormat::binary;
+    double cli_units = 1;         ///< of coordinates in CLI files, mm
+    bool cli_empty_layer = true;  ///< begin CLI files with an empty layer at the height of the plate
+    int package_layers = 50;      ///< slices in each file inside a 3MF package
+};
+
 struct FilamentProfile {
     double bed_x = 220, bed_y = 220, bed_z = 250;  ///< mm
     double nozzle = 0.4;                           ///< mm
@@ -108,6 +118,7 @@ struct PrinterProfile {
     ImageProfile image;
     ResinProfile resin;
     VectorProfile vector;
+    ExchangeProfile exchange;
     FilamentProfile filament;
     SupportProfile support;
 };

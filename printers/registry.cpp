@@ -1,4 +1,4 @@
-// The tables of back-ends and profiles. A new printer is one file of its own and one line here.
+// The table of back-ends. A new one is a file of its own and one line here.
 #include "printers/registry.h"
 
 #include <algorithm>
@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "printers/cli.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
 #include "printers/png_stack.h"
 #include "printers/sl1.h"
+#include "printers/slice_3mf.h"
 #include "printers/svg.h"
 
 namespace lamella {
@@ -23,36 +25,16 @@ constexpr std::array backend_table = {
                 OutputKind::file, make_sl1},
     BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
-                OutputKind::file_or_folder, make_svg},
+                OutputKind::file_or_folder, make_svg, Medium::contours},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", ".gcode", OutputKind::file,
-                make_gcode},
+                make_gcode, Medium::beads},
+    BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
+                OutputKind::file, make_cli, Medium::contours},
+    BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
+                make_slice_3mf, Medium::contours,
+                "programs that do not know 3MF slices show a plain box instead of the part, most of them "
+                "without a word"},
 };
-
-PrinterProfile display(const char* name, int width, int height, double pixel, bool portrait) {
-    PrinterProfile profile;
-    profile.name = name;
-    profile.backend = "png";
-    profile.image.width = width;
-    profile.image.height = height;
-    profile.image.pixel_x = pixel;
-    profile.image.pixel_y = pixel;
-    profile.image.portrait = portrait;
-    profile.support = usual_supports("png");
-    return profile;
-}
-
-PrinterProfile archive(PrinterProfile profile, const char* machine) {
-    profile.backend = "sl1";
-    profile.resin.machine = machine;
-    return profile;
-}
-
-PrinterProfile plain(const char* name, const char* backend) {
-    PrinterProfile profile;
-    profile.name = name;
-    profile.backend = backend;
-    return profile;
-}
 
 /// Edits (insertions, deletions, replacements) that turn one word into the other (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -67,29 +49,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     }
     return row.back();
-}
-
-template <typename Entry>
-const Entry& find(std::span<const Entry> entries, std::string_view name, const char* kind) {
-    for (const Entry& entry : entries) {
-        if (entry.name == name) return entry;
-    }
-    constexpr std::size_t longest = 100;  // of what a message repeats and a distance is worked out for
-    const std::string_view shown = name.substr(0, longest);
-    std::string known;
-    const Entry* nearest = nullptr;
-    std::size_t least = 4;  // edits; beyond three it is no slip of the keys
-    for (const Entry& entry : entries) {
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
-        const std::size_t edits = edit_distance(shown, entry.name);
-        if (edits < least) {
-            least = edits;
-            nearest = &entry;
-        }
-    }
-    std::string message = "no " + std::string(kind) + " '" + std::string(shown) + "'";
-    message += nearest != nullptr ? "; did you mean '" + std::string(nearest->name) + "'?" : ".";
-    throw InputError(message + " Known: " + known);
 }
 
 }  // namespace
@@ -115,23 +74,25 @@ SupportProfile usual_supports(std::string_view backend) {
     return support;
 }
 
-std::span<const PrinterProfile> profiles() {
-    // The display of the SL1 is 120.96 x 68.04 mm with 2560 x 1440 px, that of the SL1S 128 x 81 mm with
-    // 2560 x 1620 px; both stand upright and show the plate mirrored (vendor's presets), which is what
-    // `portrait` without further mirrors gives.
-    static const std::array table = {
-        display("generic-8k", 7680, 4320, 0.025, false),
-        display("generic-4k", 3840, 2160, 0.05, false),
-        archive(display("prusa-sl1", 2560, 1440, 0.04725, true), "SL1"),
-        archive(display("prusa-sl1s", 2560, 1620, 0.05, true), "SL1S"),
-        plain("svg", "svg"),
-        plain("marlin", "gcode"),
-    };
-    return table;
+const BackendInfo& find_backend(std::string_view name) {
+    constexpr std::size_t longest = 100;  // of what a message repeats and a distance is worked out for
+    const std::string_view shown = name.substr(0, longest);
+    std::string known;
+    const BackendInfo* nearest = nullptr;
+    std::size_t least = 4;  // edits; beyond three it is no slip of the keys
+    for (const BackendInfo& entry : backend_table) {
+        if (entry.name == name) return entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+        const std::size_t edits = edit_distance(shown, entry.name);
+        if (edits < least) {
+            least = edits;
+            nearest = &entry;
+        }
+    }
+    std::string message = "no back-end '" + std::string(shown) + "'";
+    if (nearest != nullptr) message += "; did you mean '" + std::string(nearest->name) + "'?";
+    throw InputError(message + " Known: " + known);
 }
-
-const BackendInfo& find_backend(std::string_view name) { return find(backends(), name, "back-end"); }
-const PrinterProfile& find_profile(std::string_view name) { return find(profiles(), name, "printer"); }
 
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force) {

@@ -1,4 +1,4 @@
-// The back-ends and built-in printer profiles, by name.
+// The back-ends, by name.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,21 @@ namespace lamella {
 /// What a back-end leaves behind.
 enum class OutputKind : unsigned char { file, folder, file_or_folder };
 
+/// What a back-end makes of a layer.
+enum class Medium : unsigned char { pixels, contours, beads };
+
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend
     const char* description;  ///< one line
     const char* endings;  ///< of its files, with their dots, separated by spaces; the first is the usual one
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
+    Medium medium = Medium::pixels;
+    const char* warning = nullptr;  ///< what whoever gets such an output should know
 };
 
 /// All back-ends.
 std::span<const BackendInfo> backends();
-/// The built-in profiles.
-std::span<const PrinterProfile> profiles();
 
 /// Supports as a back-end's machines need them where nothing else is known. Resin is peeled off layer by
 /// layer and cannot span a void: more points, thick round pillars, large feet, and tips that break off.
@@ -33,7 +36,6 @@ SupportProfile usual_supports(std::string_view backend);
 
 /// Throws InputError, with the nearest known name, when there is none of this name.
 const BackendInfo& find_backend(std::string_view name);
-const PrinterProfile& find_profile(std::string_view name);
 
 /// The back-end that a profile names, writing to `output_path`. `force` lets it replace what lamella made
 /// there before. Throws InputError.

@@ -15,10 +15,9 @@ constexpr std::uint32_t first_day = 0x0021;  // 1980-01-01
 /// What local headers and the directory have in common, from the version needed to the length of the name.
 void put_common(std::string& out, const ZipEntry& entry, ZipMethod method, std::uint32_t version,
                 bool with_sizes) {
-    const bool deflated = method == ZipMethod::deflated;
     put_little(out, version, 2);
-    put_little(out, utf8_names | (deflated ? sizes_follow : 0), 2);
-    put_little(out, deflated ? 8 : 0, 2);
+    put_little(out, utf8_names | (method == ZipMethod::deflated ? sizes_follow : 0), 2);
+    put_little(out, method == ZipMethod::stored ? 0 : 8, 2);
     put_little(out, 0, 2);  // midnight
     put_little(out, first_day, 2);
     put_little(out, with_sizes ? entry.crc : 0, 4);
@@ -53,7 +52,7 @@ void put_little(std::string& out, std::uint64_t value, int bytes) {
 
 void put_local_header(std::string& out, const ZipEntry& entry, ZipMethod method) {
     put_little(out, zip_local_header, 4);
-    put_common(out, entry, method, plain_version, method == ZipMethod::stored);
+    put_common(out, entry, method, plain_version, method != ZipMethod::deflated);
     put_little(out, 0, 2);  // no extra field
     out += entry.name;
 }

@@ -18,8 +18,9 @@ struct ZipEntry {
 
 /// How entries are kept.
 enum class ZipMethod : std::uint8_t {
-    stored,   ///< as they are; sizes stand before the data
-    deflated  ///< sizes follow the data
+    stored,         ///< as they are; sizes stand before the data
+    deflated,       ///< sizes follow the data
+    deflated_ahead  ///< sizes stand before the data
 };
 
 inline constexpr std::uint32_t zip_local_header = 0x04034b50;
@@ -28,8 +29,8 @@ inline constexpr std::size_t zip_local_header_size = 30;
 /// The lowest so many bytes of a number, the least significant first.
 void put_little(std::string& out, std::uint64_t value, int bytes);
 
-/// What stands before an entry's data. All are dated 1980-01-01. Of deflated entries sizes and sum are left
-/// out.
+/// What stands before an entry's data. All are dated 1980-01-01. Where sizes
+/// follow the data, they and the sum are left out.
 void put_local_header(std::string& out, const ZipEntry& entry, ZipMethod method);
 
 /// The directory at the end of an archive, which begins `start` bytes into it. Entries beyond 4 GiB, and more

@@ -20,9 +20,10 @@ struct Outcome {
 };
 
 /// The shell's line that runs `lamella` with these arguments (a shell's words). Nothing of the user's cache
-/// is read or written: plans are kept in the folder `cache`.
+/// is read or written: plans are kept in the folder `cache`, and profiles in the user's home are not seen.
 inline std::string command_line(const std::string& arguments, const std::string& cache) {
-    return "XDG_CACHE_HOME=" + cache + " " + LAMELLA_COMMAND + " " + arguments;
+    return "XDG_CACHE_HOME=" + cache + " XDG_CONFIG_HOME=${XDG_CONFIG_HOME:-" + cache + "} " +
+           LAMELLA_COMMAND + " " + arguments;
 }
 
 /// Runs `lamella` with an empty cache.

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "app/identity.h"
-#include "app/printer_choice.h"
+#include "app/machine_profiles.h"
 #include "app/settings.h"
 #include "printers/registry.h"
 #include "tests/app/recipes.h"
@@ -81,7 +81,7 @@ TEST_CASE("the profile gives the numbers that a recipe leaves out") {
     CHECK_FALSE(filament.round_pillars);
     for (const char* name : {"generic-8k", "prusa-sl1s", "png"}) {
         INFO(name);
-        const SupportProfile resin = profile_named(name).support;
+        const SupportProfile resin = MachineProfiles().find(name)->printer.support;
         CHECK(resin.round_pillars);
         CHECK(resin.pillar == 1.2);
         CHECK(resin.tip == 0.5);
@@ -94,7 +94,7 @@ TEST_CASE("the profile gives the numbers that a recipe leaves out") {
 }
 
 TEST_CASE("every profile's own supports are accepted") {
-    for (const std::string& name : profile_words()) {
+    for (const std::string& name : MachineProfiles().names()) {
         for (const char* kind : {"bridges", "pillars"}) {
             INFO(name << " " << kind);
             CHECK(complaint("[printer]\nprofile = \"" + name + "\"\n[support]\nkind = \"" + kind + "\"\n")

@@ -34,8 +34,11 @@ double largest_resident_mb() {
 /// Masks with grey edges (4 lines a pixel row), or black and white. Memory means something only when this
 /// benchmark runs alone.
 void stack_8k(benchmark::State& state) {
-    PrinterProfile printer = find_profile("generic-8k");
+    PrinterProfile printer;
     printer.backend = "sl1";
+    printer.image.width = bench::plate_width;
+    printer.image.height = bench::plate_height;
+    printer.image.pixel_x = printer.image.pixel_y = bench::plate_pixel;
     printer.image.antialiasing = state.range(0) != 0 ? Antialiasing::rows : Antialiasing::off;
     const auto path = std::filesystem::temp_directory_path() / "lamella_stack_8k.sl1";
     for (auto _ : state) {

@@ -156,6 +156,24 @@ TEST_CASE("every image format holds the pixels of the PNG", "[png_stack]") {
     }
 }
 
+TEST_CASE("a BMP says how large its pixels are", "[png_stack]") {
+    const TemporaryFolder folder;
+    PrinterProfile profile = small_display();
+    profile.image.format = ImageFormat::bmp;
+    profile.image.pixel_x = 25.4 / 600;
+    profile.image.pixel_y = 25.4 / 300;
+    profile.image.width = 400;
+    run_layers(cone(), *make_png_stack(profile, folder / "out", false), {0, 1});
+    const std::string file = read_text(folder / "out/00000.bmp");
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 4; i-- > 0;) value = value << 8U | static_cast<unsigned char>(file.at(at + i));
+        return value;
+    };
+    CHECK(number(38) == 23622);  // an inch is 25.4 mm
+    CHECK(number(42) == 11811);
+}
+
 TEST_CASE("job.json says what the images are", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = asymmetric_l();

@@ -1,4 +1,4 @@
-// Every profile names a back-end that exists, and a mistyped name gets its neighbour.
+// Every back-end prints with its plain settings, and a mistyped name gets its neighbour.
 #include "printers/registry.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 using namespace lamella;
 using namespace lamella::test;
 
-TEST_CASE("every built-in profile can print", "[registry]") {
+TEST_CASE("every back-end can print", "[registry]") {
     const TemporaryFolder folder;
     const Job job = make_job(
         {{0, 0, 0}, {4, 4, 0.2}},
@@ -19,26 +19,25 @@ TEST_CASE("every built-in profile can print", "[registry]") {
         },
         0.1);
     std::set<std::string> names;
-    for (const PrinterProfile& profile : profiles()) {
-        INFO(profile.name);
-        CHECK(names.insert(profile.name).second);
-        CHECK(&find_profile(profile.name) == &profile);
-        const std::string path = folder / profile.name;
+    for (const BackendInfo& backend : backends()) {
+        INFO(backend.name);
+        CHECK(names.insert(backend.name).second);
+        CHECK(&find_backend(backend.name) == &backend);
+        PrinterProfile profile;
+        profile.name = profile.backend = backend.name;
+        const std::string path = folder / backend.name;
         const double volume = run_layers(job, *make_backend(profile, path, false), {0, 2});
         CHECK(volume == Approx(3.14159265 * 4 * 0.2).epsilon(0.01));
         CHECK(std::filesystem::exists(path));
-        CHECK(std::filesystem::is_directory(path) ==
-              (find_backend(profile.backend).output == OutputKind::folder));
+        CHECK(std::filesystem::is_directory(path) == (backend.output == OutputKind::folder));
         CHECK_THROWS_AS(make_backend(profile, path, false)->begin(job, {0, 2}, false), InputError);
     }
 }
 
-TEST_CASE("an unknown name gets the nearest one and the list", "[registry]") {
-    CHECK_THROWS_WITH(find_profile("generik-8k"),
-                      Catch::Contains("did you mean 'generic-8k'?") && Catch::Contains("prusa-sl1s"));
-    CHECK_THROWS_WITH(find_backend("pgn"), Catch::Contains("did you mean 'png'?"));
-    CHECK_THROWS_WITH(find_profile("quite something else"), !Catch::Contains("did you mean"));
-    CHECK_THROWS_AS(find_profile(std::string(100000, 'x')), InputError);
+TEST_CASE("an unknown back-end gets the nearest one and the list", "[registry]") {
+    CHECK_THROWS_WITH(find_backend("pgn"), Catch::Contains("did you mean 'png'?") && Catch::Contains("sl1"));
+    CHECK_THROWS_WITH(find_backend("quite something else"), !Catch::Contains("did you mean"));
+    CHECK_THROWS_AS(find_backend(std::string(100000, 'x')), InputError);
     PrinterProfile profile;
     profile.backend = "nothing";
     CHECK_THROWS_AS(make_backend(profile, "out", false), InputError);

@@ -29,7 +29,13 @@ Job cone(int layers = 20) {
 }
 
 PrinterProfile small_machine() {
-    PrinterProfile profile = find_profile("prusa-sl1s");
+    PrinterProfile profile;
+    profile.name = "prusa-sl1s";
+    profile.backend = "sl1";
+    profile.image.pixel_x = profile.image.pixel_y = 0.05;
+    profile.image.portrait = true;
+    profile.resin.machine = "SL1S";
+    profile.support = usual_supports("sl1");
     profile.image.width = 300;
     profile.image.height = 280;
     return profile;

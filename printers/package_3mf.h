@@ -1,0 +1,27 @@
+// What every 3MF package holds: its list of content types, the way to its model, and text in attributes.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lamella {
+
+/// [Content_Types].xml
+inline constexpr std::string_view package_content_types =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+    "</Types>\n";
+/// _rels/.rels: the model is 3D/3dmodel.model.
+inline constexpr std::string_view package_relationships =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+    "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
+    "</Relationships>\n";
+
+/// The text as the value of an XML attribute: what no attribute can hold is left out.
+std::string xml_attribute(std::string_view text);
+
+}  // namespace lamella
