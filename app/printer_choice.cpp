@@ -46,7 +46,8 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
     const bool folder =
         kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
     if (folder) return part_name + ".layers";
-    return part_name + "." + printer.backend;
+    const BackendInfo& info = find_backend(printer.backend);
+    return part_name + "." + (info.ending != nullptr ? info.ending : info.name);
 }
 
 std::string printers_listing() {
@@ -56,7 +57,7 @@ std::string printers_listing() {
     text += "\nProfiles (--printer, printer.profile)\n";
     for (const PrinterProfile& p : profiles()) {
         std::string facts = p.backend;
-        if (p.backend == "png" || p.backend == "sl1") {
+        if (p.backend != "svg" && p.backend != "gcode") {
             facts += fmt::format(", {} x {} px of {} x {} mm{}", p.image.width, p.image.height,
                                  p.image.pixel_x, p.image.pixel_y, p.image.portrait ? ", portrait" : "");
         }

@@ -29,6 +29,17 @@ struct ImageProfile {
     int sub_rows = 4;
 };
 
+/// How a display's pixels stand in the colours of an archive's images.
+enum class PanelPixels : unsigned char {
+    rgb,     ///< one pixel each, its grey in all three colours
+    packed,  ///< three pixels side by side are red, green and blue of one: panels without colour filters
+    grey     ///< grey images
+};
+
+struct NanoDlpProfile {
+    PanelPixels pixels = PanelPixels::rgb;
+};
+
 /// How a resin is cured.
 struct ResinProfile {
     std::string machine = "SL1S";  ///< printerModel: the machine refuses jobs for another one
@@ -100,6 +111,7 @@ struct PrinterProfile {
     std::string name = "generic-8k";
     std::string backend = "png";
     ImageProfile image;
+    NanoDlpProfile nanodlp;
     ResinProfile resin;
     VectorProfile vector;
     FilamentProfile filament;

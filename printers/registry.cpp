@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "printers/ember.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
+#include "printers/nanodlp.h"
 #include "printers/png_stack.h"
 #include "printers/sl1.h"
 #include "printers/svg.h"
@@ -17,13 +19,19 @@ namespace lamella {
 namespace {
 
 constexpr std::array backend_table = {
-    BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack},
+    BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", OutputKind::folder, make_png_stack,
+                true},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others",
-                OutputKind::file, make_sl1},
+                OutputKind::file, make_sl1, true},
     BackendInfo{"goo", "file for resin printers with 8-bit displays", OutputKind::file, make_goo},
+    BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", OutputKind::file,
+                make_nanodlp, true},
+    BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", OutputKind::file, make_ember, true,
+                "tar.gz"},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
-                OutputKind::file_or_folder, make_svg},
-    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
+                OutputKind::file_or_folder, make_svg, true},
+    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode,
+                true},
 };
 
 PrinterProfile display(const char* name, int width, int height, double pixel, bool portrait) {
@@ -42,6 +50,14 @@ PrinterProfile display(const char* name, int width, int height, double pixel, bo
 PrinterProfile archive(PrinterProfile profile, const char* machine) {
     profile.backend = "sl1";
     profile.resin.machine = machine;
+    return profile;
+}
+
+/// 1280 x 800 px projected to about 64 x 40 mm.
+PrinterProfile ember() {
+    PrinterProfile profile = display("ember", 1280, 800, 0.05, false);
+    profile.backend = "ember";
+    profile.resin.machine = "Ember";
     return profile;
 }
 
@@ -96,7 +112,8 @@ std::span<const BackendInfo> backends() { return backend_table; }
 
 SupportProfile usual_supports(std::string_view backend) {
     SupportProfile support;
-    if (backend != "png" && backend != "sl1" && backend != "goo") return support;
+    constexpr std::array resin{"png", "sl1", "goo", "nanodlp", "ember"};
+    if (std::ranges::find(resin, backend) == resin.end()) return support;
     support.spacing = 4;
     support.own_bridge = 2;
     support.bridge = 8;
@@ -122,6 +139,7 @@ std::span<const PrinterProfile> profiles() {
         display("generic-4k", 3840, 2160, 0.05, false),
         archive(display("prusa-sl1", 2560, 1440, 0.04725, true), "SL1"),
         archive(display("prusa-sl1s", 2560, 1620, 0.05, true), "SL1S"),
+        ember(),
         plain("svg", "svg"),
         plain("marlin", "gcode"),
     };
@@ -133,7 +151,18 @@ const PrinterProfile& find_profile(std::string_view name) { return find(profiles
 
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force) {
-    return find_backend(profile.backend).make(profile, output_path, force);
+    const BackendInfo& info = find_backend(profile.backend);
+    if (output_path == "-" && !info.streams) {
+        std::string able;
+        for (const BackendInfo& other : backends()) {
+            if (other.streams) able += (able.empty() ? "" : ", ") + std::string(other.name);
+        }
+        throw InputError(std::string(info.name) +
+                         " files cannot go to standard output, for their beginning is completed at the end; "
+                         "name a file, or use a back-end that can: " +
+                         able);
+    }
+    return info.make(profile, output_path, force);
 }
 
 }  // namespace lamella

@@ -19,6 +19,8 @@ struct BackendInfo {
     const char* description;  ///< one line
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
+    bool streams = false;          ///< writes to standard output as well
+    const char* ending = nullptr;  ///< of its files' names, without the dot; null: its name
 };
 
 /// All back-ends.
@@ -34,8 +36,8 @@ SupportProfile usual_supports(std::string_view backend);
 const BackendInfo& find_backend(std::string_view name);
 const PrinterProfile& find_profile(std::string_view name);
 
-/// The back-end that a profile names, writing to `output_path`. `force` lets it replace what lamella made
-/// there before. Throws InputError.
+/// The back-end that a profile names, writing to `output_path`, or to standard output for "-". `force` lets
+/// it replace what lamella made there before. Throws InputError.
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force);
 

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "engine/error.h"
-#include "printers/output_file.h"
 
 namespace lamella {
 namespace fs = std::filesystem;
@@ -79,6 +78,11 @@ void UnfinishedFolder::remove_ours(const fs::path& folder) const {
 }
 
 int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
+    if (names_standard_output(path_)) {
+        if (resume) throw InputError("standard output cannot be continued; name a folder for --resume");
+        pipe_ = OutputFile::standard_output();
+        return stamp.range.first;
+    }
     if (is_present(path_)) check_replaceable();
     if (is_present(partial_)) {
         if (resume) {
@@ -101,10 +105,18 @@ int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
 }
 
 void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes) {
-    write_whole_file(partial_ / file_name(layer), bytes);
+    if (names_standard_output(path_)) {
+        pipe_.write(bytes);
+    } else {
+        write_whole_file(partial_ / file_name(layer), bytes);
+    }
 }
 
 void UnfinishedFolder::end(const nlohmann::ordered_json& job) {
+    if (names_standard_output(path_)) {
+        pipe_.close();
+        return;
+    }
     write_whole_file(partial_ / job_file, job.dump(2) + "\n");
     std::error_code ignored;  // a stamp that stays behind harms nobody
     fs::remove(partial_ / stamp_file, ignored);

@@ -8,11 +8,14 @@
 #include <string>
 
 #include "printers/job_stamp.h"
+#include "printers/output_file.h"
 
 namespace lamella {
 
 /// Writes NAME.partial/00000.png and so on, each file whole or absent, and job.json at the end. Files are
 /// numbered by the layer's index, so that the folders of two ranges hold the files of the whole.
+///
+/// The path "-" is standard output: the files one after another, without job.json.
 class UnfinishedFolder {
   public:
     /// `extension` includes the dot. `force` lets a finished folder that holds nothing but a job of ours be
@@ -37,6 +40,7 @@ class UnfinishedFolder {
     std::filesystem::path partial_;
     std::string extension_;
     bool force_;
+    OutputFile pipe_;  // standard output where that is asked for
 };
 
 /// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.
