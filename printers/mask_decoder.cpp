@@ -1,0 +1,103 @@
+// OpenImageIO behind two functions, band by band.
+#include "printers/mask_decoder.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "engine/error.h"
+
+namespace lamella {
+namespace {
+
+/// An image file in memory, open for reading by the reader that its name asks for and no other.
+class OpenImage {
+  public:
+    OpenImage(const std::string& name, std::string_view bytes, const std::string& where)
+        : where_(where),
+          // The reader wants a pointer to what it may change, and changes nothing.
+          memory_(const_cast<char*>(bytes.data()), bytes.size()) {
+        input_ = OIIO::ImageInput::create(name);
+        if (!input_) reject(OIIO::geterror());
+        OIIO::ImageSpec config;
+        config.attribute("oiio:UnassociatedAlpha", 1);
+        void* const source = &memory_;
+        config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&source));
+        if (input_->supports("ioproxy") == 0) reject("its format is not read from memory");
+        if (!input_->open(name, spec_, config)) reject(input_->geterror());
+        if (spec_.width < 1 || spec_.height < 1 || spec_.width > 65535 || spec_.height > 65535 ||
+            std::int64_t{spec_.width} * spec_.height > most_mask_pixels || spec_.nchannels < 1 ||
+            spec_.nchannels > 4 || spec_.depth > 1 || spec_.tile_width != 0) {
+            reject(fmt::format("it is said to be of {} x {} px with {} channels, which no mask is",
+                               spec_.width, spec_.height, spec_.nchannels));
+        }
+    }
+
+    const OIIO::ImageSpec& spec() const { return spec_; }
+
+    /// Rows [first, last), the channels of a pixel side by side.
+    void read_rows(int first, int last, std::vector<std::uint8_t>& samples) {
+        samples.resize(static_cast<std::size_t>(last - first) * static_cast<std::size_t>(spec_.width) *
+                       static_cast<std::size_t>(spec_.nchannels));
+        if (!input_->read_scanlines(0, 0, spec_.y + first, spec_.y + last, 0, 0, spec_.nchannels,
+                                    OIIO::TypeDesc::UINT8, samples.data())) {
+            reject(input_->geterror());
+        }
+    }
+
+    [[noreturn]] void reject(std::string why) const {
+        while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
+        throw InputError(where_ + ": the image cannot be read" + (why.empty() ? "" : " (" + why + ")"));
+    }
+
+  private:
+    const std::string& where_;
+    OIIO::Filesystem::IOMemReader memory_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+    OIIO::ImageSpec spec_;
+};
+
+/// The greys of a row of pixels with several channels: alpha does not count.
+void append_brightest(std::span<const std::uint8_t> samples, int channels, std::vector<std::uint8_t>& out) {
+    const auto step = static_cast<std::size_t>(channels);
+    const std::size_t colors = channels >= 3 ? 3 : 1;
+    for (std::size_t i = 0; i < samples.size(); i += step)
+        out.push_back(*std::ranges::max_element(samples.subspan(i, colors)));
+}
+
+}  // namespace
+
+MaskSize image_size(const std::string& name, std::string_view bytes, const std::string& where) {
+    const OpenImage image(name, bytes, where);
+    return {image.spec().width, image.spec().height};
+}
+
+MaskImage decode_mask(const std::string& name, std::string_view bytes, MaskSize expected, MaskPacking packing,
+                      const std::string& where) {
+    OpenImage image(name, bytes, where);
+    const bool packed = packing == MaskPacking::in_colors;
+    const int channels = image.spec().nchannels;
+    if (packed && channels != 3) image.reject("it has no three colours, as the others");
+    MaskImage mask{packed ? 3 * image.spec().width : image.spec().width, image.spec().height, {}};
+    if (mask.width != expected.width || mask.height != expected.height) {
+        throw InputError(fmt::format("{}: the image is of {} x {} px where {} x {} px are expected", where,
+                                     mask.width, mask.height, expected.width, expected.height));
+    }
+    mask.pixels.reserve(static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height));
+    constexpr int band = 64;  // rows read at once
+    std::vector<std::uint8_t> samples;
+    for (int row = 0; row < mask.height; row += band) {
+        image.read_rows(row, std::min(row + band, mask.height), samples);
+        if (packed || channels == 1) {
+            mask.pixels.insert(mask.pixels.end(), samples.begin(), samples.end());
+        } else {
+            append_brightest(samples, channels, mask.pixels);
+        }
+    }
+    return mask;
+}
+
+}  // namespace lamella
