@@ -13,20 +13,26 @@
 namespace lamella {
 namespace {
 
-/// An image file in memory, open for reading by the reader that its name asks for and no other.
+/// OpenImageIO's name for the format that a file's ending tells.
+std::string reader_of(const std::string& name) {
+    const std::string ending = name.substr(std::min(name.rfind('.'), name.size()));
+    if (ending == ".tif") return "tiff";
+    if (ending == ".bmp") return "bmp";
+    return ending == ".pgm" ? "pnm" : "png";
+}
+
+/// An image file in memory, open for reading by the reader that its name asks for and by no other.
 class OpenImage {
   public:
     OpenImage(const std::string& name, std::string_view bytes, const std::string& where)
         : where_(where),
           // The reader wants a pointer to what it may change, and changes nothing.
           memory_(const_cast<char*>(bytes.data()), bytes.size()) {
-        input_ = OIIO::ImageInput::create(name);
+        input_ = OIIO::ImageInput::create(reader_of(name));
         if (!input_) reject(OIIO::geterror());
         OIIO::ImageSpec config;
         config.attribute("oiio:UnassociatedAlpha", 1);
-        void* const source = &memory_;
-        config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&source));
-        if (input_->supports("ioproxy") == 0) reject("its format is not read from memory");
+        if (!input_->set_ioproxy(&memory_)) reject("its format is not read from memory");
         if (!input_->open(name, spec_, config)) reject(input_->geterror());
         if (spec_.width < 1 || spec_.height < 1 || spec_.width > 65535 || spec_.height > 65535 ||
             std::int64_t{spec_.width} * spec_.height > most_mask_pixels || spec_.nchannels < 1 ||
