@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <span>
@@ -13,8 +14,36 @@
 namespace lamella {
 namespace {
 
+std::uint32_t big_endian(std::string_view bytes) {
+    std::uint32_t value = 0;
+    for (const char c : bytes.substr(0, 4)) value = value << 8U | static_cast<unsigned char>(c);
+    return value;
+}
+
+/// Throws InputError unless a PNG file consists of whole chunks with right checksums, from its beginning to its
+/// end (ISO/IEC 15948, section 5). The library below reports such damage, but prints it as well.
+void check_png(std::string_view bytes, const std::string& where) {
+    constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
+    const auto reject = [&](const char* why) {
+        throw InputError(where + ": the image cannot be read (" + why + ")");
+    };
+    if (!bytes.starts_with(signature)) reject("it is no PNG file");
+    constexpr std::size_t frame = 12;  // of a chunk: its length, name and checksum
+    std::string_view name;
+    for (std::size_t at = signature.size(); name != "IEND";) {
+        const std::string_view left = bytes.substr(at);
+        if (left.size() < frame || big_endian(left) > left.size() - frame) reject("it is cut off");
+        const std::size_t length = big_endian(left);
+        if (name.empty() && (left.substr(4, 4) != "IHDR" || length != 13)) reject("it has no header");
+        name = left.substr(4, 4);
+        if (libdeflate_crc32(0, left.data() + 4, length + 4) != big_endian(left.substr(length + 8)))
+            reject("a checksum is wrong");
+        at += length + frame;
+    }
+}
+
 /// OpenImageIO's name for the format that a file's ending tells.
-std::string reader_of(const std::string& name) {
+const char* reader_of(const std::string& name) {
     const std::string ending = name.substr(std::min(name.rfind('.'), name.size()));
     if (ending == ".tif") return "tiff";
     if (ending == ".bmp") return "bmp";
@@ -28,7 +57,9 @@ class OpenImage {
         : where_(where),
           // The reader wants a pointer to what it may change, and changes nothing.
           memory_(const_cast<char*>(bytes.data()), bytes.size()) {
-        input_ = OIIO::ImageInput::create(reader_of(name));
+        const char* const reader = reader_of(name);
+        if (std::string_view(reader) == "png") check_png(bytes, where);
+        input_ = OIIO::ImageInput::create(reader);
         if (!input_) reject(OIIO::geterror());
         OIIO::ImageSpec config;
         config.attribute("oiio:UnassociatedAlpha", 1);

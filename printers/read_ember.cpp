@@ -41,6 +41,17 @@ class GzipReader {
         }
     }
 
+    /// Reads what fills up the last record, so that the stream's own end is checked.
+    void finish() {
+        constexpr int most = 1 << 20;
+        std::string filling(most, '\0');
+        const int got = gzread(file_.get(), filling.data(), most);
+        int code = Z_OK;
+        gzerror(file_.get(), &code);
+        if (got < 0 || code < Z_OK) fail();
+        if (got == most) throw InputError(path_ + ": there is something behind the archive's end");
+    }
+
   private:
     [[noreturn]] void fail() const {
         int code = Z_OK;
@@ -130,6 +141,7 @@ class EmberFile : public JobFile {
             if ((kind == '0' || kind == '\0') && !name.empty())
                 files_.insert_or_assign(name, std::move(content));
         }
+        in.finish();
     }
 
     /// Grows with what is really there: the stated size may be a lie.
