@@ -1,5 +1,4 @@
 // `lamella preview`: a picture of the part, whole or cut open.
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,6 +13,7 @@
 #include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "engine/image_file.h"
 
 namespace lamella {
 
@@ -28,24 +28,22 @@ struct PreviewCommand {
     bool quiet = false;
 };
 
-/// Writes under a name of its own first, so that the picture appears complete. OpenImageIO picks the format
-/// by the ending, which therefore stays last.
+/// Writes under a name of its own first, so that the picture appears complete. The ending tells
+/// the format and therefore stays last.
 void save(const Image& image, const std::string& path) {
     const std::filesystem::path final_path(path);
     const std::filesystem::path unfinished =
         final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
-    const auto writer = OIIO::ImageOutput::create(path);
-    if (!writer) {
+    if (!is_image_name(path)) {
         throw InputError("--output: " + path +
                          " names no image format; accepted: a file ending in .png, .jpg, .tif, ...");
     }
-    const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    if (!writer->open(unfinished.string(), spec) ||
-        !writer->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) || !writer->close()) {
-        const std::string why = writer->geterror();
+    try {
+        write_image(unfinished.string(), {image.width, image.height, 3, image.rgb});
+    } catch (const FaultError&) {
         std::error_code ignored;
         std::filesystem::remove(unfinished, ignored);
-        throw FaultError(path + ": cannot be written: " + why);
+        throw;
     }
     std::error_code error;
     std::filesystem::rename(unfinished, final_path, error);

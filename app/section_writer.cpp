@@ -1,8 +1,6 @@
 // Writing one section: paths, polygons or pixels.
 #include "app/section_writer.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "engine/coverage.h"
 #include "engine/error.h"
+#include "engine/image_file.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -123,21 +122,11 @@ std::string section_png(const PlaneCut& cut, const PrinterProfile& printer) {
             grey[i] = std::max(grey[i], dimmed);
         }
     }
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const auto writer = OIIO::ImageOutput::create("section.png", &memory);
-    OIIO::ImageSpec spec(band.hi, band.count, 1, OIIO::TypeDesc::UINT8);
     // Grey is coverage, not light: no gamma may touch it.
-    spec.attribute("oiio:ColorSpace", "linear");
-    spec.attribute("ResolutionUnit", "cm");
-    spec.attribute("XResolution", static_cast<float>(10 / image.pixel_x));
-    spec.attribute("YResolution", static_cast<float>(10 / image.pixel_y));
-    if (!writer || !writer->open("section.png", spec) ||
-        !writer->write_image(OIIO::TypeDesc::UINT8, grey.data()) || !writer->close()) {
-        throw FaultError("the section's PNG cannot be made: " +
-                         (writer ? writer->geterror() : OIIO::geterror()));
-    }
-    return {bytes.begin(), bytes.end()};
+    const std::vector<std::byte> file =
+        encode_image("section.png", {band.hi, band.count, 1, grey, image.pixel_x, image.pixel_y, true});
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text
+    return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
 }  // namespace lamella

@@ -11,8 +11,9 @@ const std::vector<std::string>& words(PanelPixels) {
 void add_archive_settings(std::vector<Setting>& table) {
     table.push_back(row<[](Recipe & r) -> auto& { return r.printer.nanodlp.pixels; }>(
         "printer", "panel", "--printer-panel",
-        {.help = "How pixels stand in the images of NanoDLP archives: each in all three colours, three side by "
-                 "side as the colours of one (panels without colour filters), or as grey images."}));
+        {.help =
+             "How pixels stand in the images of NanoDLP archives: each in all three colours, three side by "
+             "side as the colours of one (panels without colour filters), or as grey images."}));
 }
 
 }  // namespace lamella

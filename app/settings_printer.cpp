@@ -61,6 +61,22 @@ void add_image(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_rows; }>(
         "printer", "sub_rows", "--printer-sub-rows",
         {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_layers; }>(
+        "printer", "sub_layers", "--printer-sub-layers",
+        {.limits = {1, 64},
+         .help = "Planes a layer whose masks are averaged, so that slopes get grey edges over z, too."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.gamma; }>(
+        "printer", "gamma", "--printer-gamma",
+        {.limits = {0.1, 10}, .help = "Grey of a pixel is its coverage to this power."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.least_grey; }>(
+        "printer", "least_grey", "--printer-least-grey",
+        {.limits = {0, 1}, .help = "Grey of pixels that are hardly touched, as a share of white."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.full_grey; }>(
+        "printer", "full_grey", "--printer-full-grey",
+        {.limits = {0, 1}, .help = "Grey of pixels that are wholly covered, as a share of white."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.margin; }>(
+        "printer", "display_margin", "--printer-display-margin",
+        {.unit = "mm", .limits = {0, 1000}, .help = "Edge of the display that a part must stay clear of."}));
 }
 
 void add_resin(std::vector<Setting>& t) {

@@ -1,4 +1,4 @@
-# Everything comes from Debian packages; tests/packages.txt names them. Some ship no CMake package, only
+# Everything comes from Debian packages; packages-build.txt names them. Some ship no CMake package, only
 # pkg-config files or bare headers: those get an imported target here.
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)

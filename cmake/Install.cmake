@@ -4,6 +4,7 @@ foreach(folder engine procedural printers)
 endforeach()
 install(TARGETS lamella lamella_engine lamella_procedural lamella_printers EXPORT lamella_targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS lamella_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lamella)
 install(EXPORT lamella_targets NAMESPACE lamella:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)
 configure_package_config_file(cmake/lamellaConfig.cmake.in ${PROJECT_BINARY_DIR}/lamellaConfig.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)

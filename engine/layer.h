@@ -42,6 +42,9 @@ class Layer {
     const SliceField& part() const { return *part_; }
     /// Null where the job has no supports.
     const SliceField* supports() const { return supports_; }
+    /// Both cut elsewhere within the layer, at a share of its thickness: 0 its lower side, 1 its upper one.
+    const SliceField& part_at(double share) const;
+    const SliceField* supports_at(double share) const;
 
     void spans(const RowBand& band, SpanRows& out) const { part_->spans(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
@@ -53,10 +56,13 @@ class Layer {
     }
 
   private:
+    double height_of(double share) const { return z_ + (share - 0.5) * thickness_; }
+
+    const Job* job_;
     int index_;
     double z_;
     double thickness_;
-    SliceContext context_;
+    mutable SliceContext context_;
     mutable Scratch scratch_;
     const SliceField* part_;
     const SliceField* supports_;

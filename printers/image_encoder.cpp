@@ -1,10 +1,8 @@
-// OpenImageIO behind one function.
+// Formats by name, and masks as images.
 #include "printers/image_encoder.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include "engine/error.h"
+#include "engine/image_file.h"
 
 namespace lamella {
 
@@ -24,22 +22,9 @@ const char* extension(ImageFormat format) {
 
 std::vector<std::byte> encode_image(ImageFormat format, int width, int height,
                                     const std::vector<std::uint8_t>& pixels) {
-    std::vector<unsigned char> file;
-    OIIO::Filesystem::IOVecOutput memory(file);
-    const std::string name = std::string("mask") + extension(format);
-    const auto output = OIIO::ImageOutput::create(name, &memory);
-    const auto fail = [&](const std::string& why) {
-        throw FaultError("a layer could not be written as " + name + ": " + why);
-    };
-    if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(width, height, 1, OIIO::TypeDesc::UINT8);
-    spec.attribute("compression", format == ImageFormat::tiff ? "packbits" : "rle");
-    if (!output->open(name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
-        !output->close()) {
-        fail(output->geterror());
-    }
-    const auto* bytes = reinterpret_cast<const std::byte*>(file.data());
-    return {bytes, bytes + file.size()};
+    const char* compression = format == ImageFormat::tiff ? "packbits" : "rle";
+    return encode_image(std::string("mask") + extension(format),
+                        {width, height, 1, pixels, 0, 0, false, compression});
 }
 
 }  // namespace lamella

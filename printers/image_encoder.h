@@ -1,4 +1,4 @@
-// Masks in image formats other than PNG, through OpenImageIO.
+// Masks in image formats other than PNG.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace lamella {
 /// The file name's ending of a format, with its dot.
 const char* extension(ImageFormat format);
 
-/// Encodes an 8-bit grey image, row by row from the top. Throws FaultError when OpenImageIO cannot.
+/// Encodes an 8-bit grey image, row by row from the top. Throws FaultError when that cannot be done.
 std::vector<std::byte> encode_image(ImageFormat format, int width, int height,
                                     const std::vector<std::uint8_t>& pixels);
 

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/error.h"
+#include "printers/grey_rows.h"
 #include "printers/png_writer.h"
 
 namespace lamella {
@@ -32,6 +32,26 @@ void check_profile(const ImageProfile& profile) {
     pitch("pixel_y", profile.pixel_y);
     if (profile.sub_rows < 1 || profile.sub_rows > 64) {
         throw InputError(fmt::format("sub_rows = {}: must be 1 to 64", profile.sub_rows));
+    }
+    if (profile.sub_layers < 1 || profile.sub_layers > 64) {
+        throw InputError(fmt::format("sub_layers = {}: must be 1 to 64", profile.sub_layers));
+    }
+    if (profile.sub_layers > 1 && profile.antialiasing == Antialiasing::off) {
+        throw InputError(
+            fmt::format("sub_layers = {} makes grey pixels, which antialiasing = \"off\" rules "
+                        "out; accepted: antialiasing = \"rows\" or \"exact\"",
+                        profile.sub_layers));
+    }
+    if (!(profile.gamma >= 0.1 && profile.gamma <= 10)) {
+        throw InputError(fmt::format("gamma = {}: must be 0.1 to 10", profile.gamma));
+    }
+    if (!(profile.least_grey >= 0 && profile.least_grey <= profile.full_grey && profile.full_grey <= 1)) {
+        throw InputError(
+            fmt::format("least_grey = {}, full_grey = {}: must be 0 <= least_grey <= full_grey <= 1",
+                        profile.least_grey, profile.full_grey));
+    }
+    if (!(profile.margin >= 0)) {
+        throw InputError(fmt::format("display_margin = {} mm: must be 0 or more", profile.margin));
     }
 }
 
@@ -63,7 +83,7 @@ RowSpan rows_meeting(const RowBand& grid, double lo, double hi, int height) {
 class SliceMask {
   public:
     SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile)
-        : slice_(slice), layout_(layout), antialiasing_(profile.antialiasing) {
+        : slice_(&slice), layout_(&layout), antialiasing_(profile.antialiasing) {
         if (antialiasing_ == Antialiasing::rows) sub_ = profile.sub_rows;
         const Rect solid = slice.bounds();
         if (solid.empty()) return;
@@ -78,16 +98,16 @@ class SliceMask {
     void add_rows(int row, int count, std::vector<GreyRun>& runs) {
         if (!meets(row, count)) {
             runs.insert(runs.end(), static_cast<std::size_t>(count),
-                        {static_cast<std::uint32_t>(layout_.width()), 0});
+                        {static_cast<std::uint32_t>(layout_->width()), 0});
         } else if (antialiasing_ == Antialiasing::exact) {
             const std::size_t first = runs.size();
-            coverage_exact(slice_, layout_.rows(row, count, 1), scratch_, runs);
+            coverage_exact(*slice_, layout_->rows(row, count, 1), scratch_, runs);
             for (std::size_t i = first; i < runs.size(); ++i)
                 pixels_ += runs[i].length * (runs[i].value / 255.0);
         } else {
-            const RowBand band = layout_.rows(row, count, sub_);
+            const RowBand band = layout_->rows(row, count, sub_);
             spans_.clear();
-            slice_.spans(band, scratch_, spans_);
+            slice_->spans(band, scratch_, spans_);
             if (antialiasing_ == Antialiasing::off) {
                 threshold(band, spans_, runs);
             } else {
@@ -100,8 +120,8 @@ class SliceMask {
     double pixels() const { return pixels_; }  ///< covered so far
 
   private:
-    const SliceField& slice_;
-    const MaskLayout& layout_;
+    const SliceField* slice_;
+    const MaskLayout* layout_;
     Antialiasing antialiasing_;
     int sub_ = 1;
     RowSpan rows_{0, 0};
@@ -110,50 +130,93 @@ class SliceMask {
     double pixels_ = 0;
 };
 
-/// Grey values times a share of 0 to 1.
-std::array<std::uint8_t, 256> dimming(double share) {
-    std::array<std::uint8_t, 256> dimmed{};
-    for (std::size_t value = 0; value < dimmed.size(); ++value)
-        dimmed[value] = static_cast<std::uint8_t>(std::floor(static_cast<double>(value) * share + 0.5));
-    return dimmed;
-}
+/// Pixels whose greys on several planes sum to one value.
+struct GreySum {
+    std::uint32_t length;
+    std::uint32_t value;
+};
 
-/// Appends, pixel by pixel, the brighter of two images of the same rows.
-void brighter(const std::vector<GreyRun>& a, const std::vector<GreyRun>& b, int width,
-              std::vector<GreyRun>& out) {
-    std::uint32_t left_a = 0;
-    std::uint32_t left_b = 0;
-    std::uint32_t column = 0;
-    for (std::size_t i = 0, j = 0; i < a.size();) {
-        if (left_a == 0) left_a = a[i].length;
-        if (left_b == 0) left_b = b[j].length;
-        const std::uint32_t length = std::min(left_a, left_b);
-        const std::uint8_t value = std::max(a[i].value, b[j].value);
-        if (column > 0 && out.back().value == value) {
-            out.back().length += length;
-        } else {
-            out.push_back({length, value});
-        }
-        column = column + length == static_cast<std::uint32_t>(width) ? 0 : column + length;
-        if ((left_a -= length) == 0) ++i;
-        if ((left_b -= length) == 0) ++j;
+/// The mean of a solid's masks on several planes, rows at a time from the top.
+class SolidMask {
+  public:
+    SolidMask(const std::vector<const SliceField*>& planes, const MaskLayout& layout,
+              const ImageProfile& profile)
+        : width_(layout.width()) {
+        for (const SliceField* plane : planes) planes_.emplace_back(*plane, layout, profile);
     }
+
+    bool meets(int row, int count) const {
+        return std::any_of(planes_.begin(), planes_.end(),
+                           [&](const SliceMask& plane) { return plane.meets(row, count); });
+    }
+
+    /// Appends the runs of rows [row, row + count).
+    void add_rows(int row, int count, std::vector<GreyRun>& runs) {
+        if (planes_.size() == 1 || !meets(row, count)) {
+            planes_.front().add_rows(row, count, runs);
+            return;
+        }
+        sums_.clear();
+        for (SliceMask& plane : planes_) {
+            image_.clear();
+            plane.add_rows(row, count, image_);
+            if (sums_.empty()) {
+                for (const GreyRun& run : image_) sums_.push_back({run.length, run.value});
+                continue;
+            }
+            next_sums_.clear();
+            combine_rows(
+                sums_, image_, [](std::uint32_t sum, std::uint8_t grey) { return sum + grey; },
+                [&](std::uint32_t length, std::uint32_t sum) {
+                    next_sums_.push_back({length, sum});
+                });
+            std::swap(sums_, next_sums_);
+        }
+        const auto n = static_cast<std::uint32_t>(planes_.size());
+        RowJoiner out(runs, width_);
+        for (const GreySum& run : sums_) {
+            out.push(run.length, static_cast<std::uint8_t>((run.value + n / 2) / n));
+        }
+    }
+
+    /// Covered so far, the mean of the planes.
+    double pixels() const {
+        double sum = 0;
+        for (const SliceMask& plane : planes_) sum += plane.pixels();
+        return sum / static_cast<double>(planes_.size());
+    }
+
+  private:
+    int width_;
+    std::vector<SliceMask> planes_;
+    std::vector<GreyRun> image_;
+    std::vector<GreySum> sums_, next_sums_;
+};
+
+/// The planes of a layer whose masks are averaged.
+std::vector<double> shares_of(const ImageProfile& profile) {
+    std::vector<double> shares;
+    for (int k = 0; k < profile.sub_layers; ++k) shares.push_back((k + 0.5) / profile.sub_layers);
+    return shares;
 }
 
 }  // namespace
 
 MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     check_profile(profile);
-    const double size_x = profile.width * profile.pixel_x;
-    const double size_y = profile.height * profile.pixel_y;
+    const double size_x = profile.width * profile.pixel_x - 2 * profile.margin;
+    const double size_y = profile.height * profile.pixel_y - 2 * profile.margin;
     const dvec3 size = part_bounds.size();
     // A part as large as the display fits, whatever the rounding of its bounds.
     constexpr double slack = 1e-9;
     if (size.x > size_x * (1 + slack) || size.y > size_y * (1 + slack)) {
-        throw InputError(
-            fmt::format("the part is {:.3f} x {:.3f} mm but the display is {:.3f} x {:.3f} mm ({} x {} px); "
-                        "scale or turn the part, or choose a larger printer",
-                        size.x, size.y, size_x, size_y, profile.width, profile.height));
+        throw InputError(fmt::format(
+            "the part is {:.3f} x {:.3f} mm but the display {} {:.3f} x {:.3f} mm ({} x {} px{}); "
+            "scale or turn the part, or choose a larger printer",
+            size.x, size.y, profile.margin > 0 ? "has room for" : "is", std::max(size_x, 0.0),
+            std::max(size_y, 0.0), profile.width, profile.height,
+            profile.margin > 0 ? fmt::format(", {} mm kept clear at its edge", profile.margin)
+                               : std::string()));
     }
     const dvec3 center = part_bounds.center();
     const bool flip = profile.mirror_x;
@@ -191,24 +254,34 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
 
 MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
                     double support_grey, const BandSink& sink) {
-    SliceMask part(layer.part(), layout, profile);
-    std::optional<SliceMask> supports;
-    if (layer.supports() != nullptr) supports.emplace(*layer.supports(), layout, profile);
-    const std::array<std::uint8_t, 256> dimmed = dimming(support_grey);
-    std::vector<GreyRun> runs;
-    std::vector<GreyRun> below;
-    std::vector<GreyRun> merged;
+    std::vector<const SliceField*> part_planes, support_planes;
+    for (const double share : shares_of(profile)) {
+        // The plane that contours and checks use is the layer's own one, not one that is equal to it.
+        const bool own = profile.sub_layers == 1;
+        part_planes.push_back(own ? &layer.part() : &layer.part_at(share));
+        if (layer.supports() != nullptr)
+            support_planes.push_back(own ? layer.supports() : layer.supports_at(share));
+    }
+    SolidMask part(part_planes, layout, profile);
+    std::optional<SolidMask> supports;
+    if (!support_planes.empty()) supports.emplace(support_planes, layout, profile);
+    const GreyTable of_part = grey_table(profile, 1), of_supports = grey_table(profile, support_grey);
+    std::vector<GreyRun> runs, below, spare;
     for (int row = 0; row < layout.height(); row += png_band_rows) {
         const int count = std::min(png_band_rows, layout.height() - row);
         runs.clear();
         part.add_rows(row, count, runs);
+        apply(of_part, layout.width(), runs, spare);
         if (supports && supports->meets(row, count)) {
             below.clear();
             supports->add_rows(row, count, below);
-            for (GreyRun& run : below) run.value = dimmed[run.value];
-            merged.clear();
-            brighter(runs, below, layout.width(), merged);
-            std::swap(runs, merged);
+            apply(of_supports, layout.width(), below, spare);
+            spare.clear();
+            RowJoiner out(spare, layout.width());
+            combine_rows(
+                runs, below, [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); },
+                [&](std::uint32_t length, std::uint8_t value) { out.push(length, value); });
+            std::swap(runs, spare);
         }
         sink(runs, count);
     }

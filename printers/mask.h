@@ -46,9 +46,9 @@ struct MaskArea {
     double supports = 0;
 };
 
-/// Hands the layer's mask to `sink` band by band, top to bottom, and returns the layer's areas. Supports are
-/// dimmed to `support_grey` (0 to 1); where they share a pixel with the part the brighter one counts. Memory:
-/// one band.
+/// Hands the layer's mask to `sink` band by band, top to bottom, and returns the layer's areas: with several
+/// planes a layer their means. Supports are dimmed to `support_grey` (0 to 1); where they share a pixel with
+/// the part the brighter one counts. Memory: one band.
 MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
                     double support_grey, const BandSink& sink);
 

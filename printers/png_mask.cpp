@@ -44,6 +44,11 @@ nlohmann::ordered_json describe_mask(const ImageProfile& image) {
         {"portrait", image.portrait},   {"mirror_x", image.mirror_x},
         {"mirror_y", image.mirror_y},   {"antialiasing", antialiasing_name(image.antialiasing)}};
     if (image.antialiasing == Antialiasing::rows) json["sub_rows"] = image.sub_rows;
+    const ImageProfile plain;
+    if (image.sub_layers != plain.sub_layers) json["sub_layers"] = image.sub_layers;
+    if (image.gamma != plain.gamma) json["gamma"] = image.gamma;
+    if (image.least_grey != plain.least_grey) json["least_grey"] = image.least_grey;
+    if (image.full_grey != plain.full_grey) json["full_grey"] = image.full_grey;
     return json;
 }
 

@@ -1,13 +1,12 @@
-// Which reader a path leads to, and image stacks through OpenImageIO.
+// Which reader a path leads to, and image stacks.
 #include "procedural/volume.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "engine/error.h"
+#include "engine/image_file.h"
 #include "procedural/tiff_pages.h"
 
 namespace lamella {
@@ -95,18 +94,14 @@ class StackReader {
 
     /// Appends all pages of a file.
     void add(const std::string& path) {
-        OIIO::ImageSpec config;
-        config["oiio:UnassociatedAlpha"] = 1;  // numbers as the file has them
-        const auto input = OIIO::ImageInput::open(path, &config);
+        const auto input = open_images(path);
         if (!input) {
-            OIIO::geterror();
             reject_volume(path,
                           "this is no image that can be read; volumes are image stacks, multi-page TIFF "
                           "or NRRD files, and a folder must hold nothing but images of one size");
         }
         int page = 0;
-        for (; input->seek_subimage(page, 0); ++page) add_page(*input, path, page);
-        input->geterror();
+        for (; const auto found = input->next_page(); ++page) add_page(*input, *found, path, page);
         std::ifstream file(path, std::ios::binary);
         const auto announced = count_tiff_pages(file, path);
         if (announced && *announced != static_cast<std::size_t>(page)) {
@@ -121,45 +116,43 @@ class StackReader {
     }
 
   private:
-    void add_page(OIIO::ImageInput& input, const std::string& path, int page) {
-        const OIIO::ImageSpec& spec = input.spec();
+    void add_page(ImageReader& input, const ImagePage& image, const std::string& path, int page) {
         const auto fail = [&](const std::string& what) {
             reject_volume(path, (page > 0 ? "page " + std::to_string(page + 1) + ": " : "") + what);
         };
-        if (spec.width < 1 || spec.height < 1) fail("the image has no pixels");
-        if (spec.depth > 1 || spec.deep) fail("deep images and images with depth are not read");
-        if (channel_ < 0 || channel_ >= spec.nchannels) {
+        if (image.width < 1 || image.height < 1) fail("the image has no pixels");
+        if (image.depth > 1 || image.deep) fail("deep images and images with depth are not read");
+        if (channel_ < 0 || channel_ >= image.channels) {
             fail("there is no channel " + std::to_string(channel_) + "; the image has " +
-                 std::to_string(spec.nchannels) + ", counted from 0");
+                 std::to_string(image.channels) + ", counted from 0");
         }
-        if (pages_ == 0) start(spec, path);
-        if (size_of(spec) != volume_size()) {
-            fail("is " + text(size_of(spec)) + " pixels large, the first page " + text(volume_size()));
+        if (pages_ == 0) start(image, path);
+        if (size_of(image) != volume_size()) {
+            fail("is " + text(size_of(image)) + " pixels large, the first page " + text(volume_size()));
         }
-        if (spec.format.basetype != type_) {
-            fail(std::string("its samples are ") + spec.format.c_str() + ", those of the first page " +
-                 OIIO::TypeDesc(type_).c_str());
+        if (image.stored_as != stored_as_) {
+            fail("its samples are " + image.stored_as + ", those of the first page " + stored_as_);
         }
         check_total(pages_ + 1, path);
-        std::visit([&](auto& samples) { read_into(samples, input, page, fail); }, volume_.samples);
+        std::visit([&](auto& samples) { read_into(samples, input, fail); }, volume_.samples);
         ++pages_;
     }
 
     using Size = std::array<std::size_t, 2>;
-    static Size size_of(const OIIO::ImageSpec& spec) {
-        return {static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height)};
+    static Size size_of(const ImagePage& image) {
+        return {static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height)};
     }
     Size volume_size() const { return {volume_.size[0], volume_.size[1]}; }
     static std::string text(Size size) { return std::to_string(size[0]) + " x " + std::to_string(size[1]); }
 
-    /// Takes over size and type of the first page: 8 and 16 bits as they are, other integers scaled to 0..1.
-    void start(const OIIO::ImageSpec& spec, const std::string& path) {
-        type_ = static_cast<OIIO::TypeDesc::BASETYPE>(spec.format.basetype);
-        volume_.size = {size_of(spec)[0], size_of(spec)[1], 0};
-        if (type_ == OIIO::TypeDesc::UINT8) {
+    /// Takes over size and type of the first page.
+    void start(const ImagePage& image, const std::string& path) {
+        stored_as_ = image.stored_as;
+        volume_.size = {size_of(image)[0], size_of(image)[1], 0};
+        if (image.samples == SampleType::u8) {
             volume_.samples = std::vector<std::uint8_t>();
             volume_.full_scale = 255;
-        } else if (type_ == OIIO::TypeDesc::UINT16) {
+        } else if (image.samples == SampleType::u16) {
             volume_.samples = std::vector<std::uint16_t>();
             volume_.full_scale = 65535;
         } else {
@@ -176,20 +169,13 @@ class StackReader {
         check_volume_size({volume_.size[0], volume_.size[1], pages}, bytes_each, path);
     }
 
-    /// The type of `volume_.samples` as start() chose it.
-    OIIO::TypeDesc memory_type() const {
-        return type_ == OIIO::TypeDesc::UINT8 || type_ == OIIO::TypeDesc::UINT16 ? type_
-                                                                                 : OIIO::TypeDesc::FLOAT;
-    }
-
     /// Reads one channel and turns its rows round: the lowest comes first.
     template <class T, class Fail>
-    void read_into(std::vector<T>& samples, OIIO::ImageInput& input, int page, const Fail& fail) {
+    void read_into(std::vector<T>& samples, ImageReader& input, const Fail& fail) {
         const std::size_t width = volume_.size[0], height = volume_.size[1], begin = samples.size();
         samples.resize(begin + width * height);
-        const bool read =
-            input.read_image(page, 0, channel_, channel_ + 1, memory_type(), samples.data() + begin);
-        if (!read) fail("cannot be read (" + input.geterror() + ")");
+        const std::string why = input.read_channel(channel_, samples.data() + begin);
+        if (!why.empty()) fail("cannot be read (" + why + ")");
         const auto row = [&](std::size_t y) {
             return samples.begin() + static_cast<std::ptrdiff_t>(begin + y * width);
         };
@@ -201,7 +187,7 @@ class StackReader {
     int channel_;
     std::size_t expected_;
     std::size_t pages_ = 0;
-    OIIO::TypeDesc::BASETYPE type_ = OIIO::TypeDesc::UNKNOWN;
+    std::string stored_as_;  ///< type of the first page's samples
     Volume volume_;
 };
 

@@ -10,3 +10,5 @@ cmake -S examples/embedding -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Rele
 cmake --build "$scratch/build" | tail -n 1
 "$scratch/build/print_areas"
 "$scratch/prefix/bin/lamella" --version
+# Needs the module for images, which must be found from where the program was installed to.
+env -u LD_LIBRARY_PATH "$scratch/prefix/bin/lamella" preview --shape sphere --shape-radius 5 --size 64 -q -o "$scratch/ball.png"

@@ -30,7 +30,7 @@ TEST_CASE("help and version are everywhere and say what a command takes") {
     CHECK(version.code == 0);
     CHECK(mentions(version.out, "lamella "));
     for (const std::string command :
-         {"slice", "preview", "info", "section", "dump", "supports", "printers", "keys"}) {
+         {"slice", "preview", "info", "extract", "section", "dump", "supports", "printers", "keys"}) {
         const Outcome help = run_lamella(command + " --help");
         CHECK(help.code == 0);
         CHECK(mentions(help.out, "Examples:"));
