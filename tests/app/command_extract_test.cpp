@@ -79,7 +79,7 @@ TEST_CASE("what is no job, or a damaged one, ends with code 2 and its name") {
     write(folder / "cut.goo", contents(folder / "a.goo").substr(0, 196000));
     write(folder / "text.sl1", "nothing");
     for (const std::string name : {"cut.goo", "text.sl1", "absent.sl1"}) {
-        for (const std::string command : {"info ", "extract -o " + (folder / "out") + " "}) {
+        for (const std::string& command : {std::string("info "), "extract -o " + (folder / "out") + " "}) {
             const Outcome outcome = run_lamella(command + (folder / name));
             CHECK(outcome.code == 2);
             CHECK(outcome.out.empty());
