@@ -309,6 +309,9 @@ void add_info_command(CLI::App& root) {
                              "Say what a recipe will make: size, layers, foam, mesh, memory; or what a "
                              "finished job (SL1, GOO, NanoDLP, Ember, folder of masks) holds");
     options->recipe.add_to(command);
+    command.get_option("INPUT")->description(
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
+        "masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
     command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
     command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
