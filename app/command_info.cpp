@@ -1,5 +1,6 @@
-// `lamella info`: what a recipe will make, before it is made.
+// `lamella info`: what a recipe will make, before it is made, and what a finished job holds.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <memory>
@@ -10,11 +11,13 @@
 #include "app/foam_statistics.h"
 #include "app/grading_report.h"
 #include "app/island_report.h"
+#include "app/job_report.h"
 #include "app/memory_bound.h"
 #include "app/recipe_options.h"
 #include "app/recipe_regions.h"
 #include "app/settings_rows.h"
 #include "app/text_output.h"
+#include "printers/read_job.h"
 
 namespace lamella {
 
@@ -263,7 +266,26 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
 }
 
+/// Facts and areas of a finished job.
+void run_job(const InfoOptions& options, const JobFile& job) {
+    const AreaSummary areas = measure_areas(job, options.threads, isatty(STDERR_FILENO) == 0);
+    TextOutput out("");
+    if (options.json) {
+        const Json info = job_json(options.recipe.input(), job.facts(), areas);
+        out.write(info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    } else {
+        out.write(job_text(job.facts(), areas));
+    }
+    out.close();
+}
+
 void run(const InfoOptions& options) {
+    if (!options.recipe.input().empty()) {
+        if (const auto job = open_if_job(options.recipe.input())) {
+            run_job(options, *job);
+            return;
+        }
+    }
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
@@ -283,14 +305,21 @@ void run(const InfoOptions& options) {
 void add_info_command(CLI::App& root) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App& command =
-        *root.add_subcommand("info", "Say what a recipe will make: size, layers, foam, mesh, memory");
+        *root.add_subcommand("info",
+                             "Say what a recipe will make: size, layers, foam, mesh, memory; or what a "
+                             "finished job (SL1, GOO, NanoDLP, Ember, folder of masks) holds");
     options->recipe.add_to(command);
+    command.get_option("INPUT")->description(
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
+        "masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
     command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
     command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
         ->check(CLI::Range(0, 1024));
     finish_command(command,
-                   "  lamella info insole.toml\n  lamella info model.stl --cell 3 --beam 0.5 --json");
+                   "  lamella info insole.toml\n"
+                   "  lamella info model.stl --cell 3 --beam 0.5 --json\n"
+                   "  lamella info insole.sl1");
     command.callback([options] { run(*options); });
 }
 

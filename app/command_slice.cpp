@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "app/island_report.h"
 #include "app/job_picture.h"
 #include "app/outputs.h"
+#include "app/layer_range.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
@@ -61,32 +61,6 @@ std::string resuming(const std::vector<std::string>& arguments) {
     return line + " --resume";
 }
 
-/// "A:B", either side may be left out.
-LayerRange parse_layers(const std::string& text, int count) {
-    LayerRange range{0, count};
-    const auto refuse = [&](const std::string& wrong) {
-        throw InputError(fmt::format(
-            "--layers: {}; accepted: A:B with 0 <= A < B <= {} (layers A up to, not including, B)", wrong,
-            count));
-    };
-    if (text.empty()) return range;
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos) refuse("\"" + text.substr(0, 64) + "\" has no colon");
-    const auto side = [&](std::string_view digits, int& out) {
-        if (digits.empty()) return;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
-        if (error != std::errc{} || end != digits.data() + digits.size()) {
-            refuse("\"" + std::string(digits.substr(0, 64)) + "\" is no whole number");
-        }
-    };
-    side(std::string_view(text).substr(0, colon), range.first);
-    side(std::string_view(text).substr(colon + 1), range.last);
-    if (range.first < 0 || range.first >= range.last || range.last > count) {
-        refuse(fmt::format("{}:{} is no range of the part's layers", range.first, range.last));
-    }
-    return range;
-}
-
 std::int64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -125,7 +99,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
     const std::string supports =
         built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
     std::string paths;
-    for (const Output& output : outputs) paths += (paths.empty() ? "" : ", ") + output.path;
+    for (const Output& output : outputs) paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
     std::fputs(
         fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", paths,
                     report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
@@ -176,7 +150,20 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
     built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
 }
 
+/// Standard output takes the layers and nothing else.
+void check_standard_output(const SliceOptions& options) {
+    if (options.json) {
+        throw InputError(
+            "--json: its summary goes to standard output, which -o - fills with the layers; name a "
+            "file with -o, or leave --json out");
+    }
+    if (options.resume)
+        throw InputError("--resume: standard output cannot be continued; name a file with -o");
+}
+
 void run(const SliceOptions& options) {
+    const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
+    if (to_pipe) check_standard_output(options);
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
     const InterruptGuard guard(cancel);
@@ -224,6 +211,7 @@ void run(const SliceOptions& options) {
         report = stream_layers(built.job, *backend, stream);
     } catch (const Interrupted&) {
         display.finish();
+        if (to_pipe) throw Interrupted("interrupted; standard output holds a part of the layers");
         throw Interrupted("interrupted; what is finished is kept. To go on: " + options.repeat);
     }
     display.finish();
@@ -242,7 +230,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     command
         .add_option(
             "-o,--output", options->output,
-            "File or folder to make; default: the part's name. Several, each with -o, are made in one "
+            "File or folder to make, \"-\" for standard output; default: the part's name. Several, each with -o, are made in one "
             "run; the ending chooses the format, @PROFILE another machine")
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
@@ -279,6 +267,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
         "  lamella slice insole.toml -o insole.sl1@prusa-sl1s -o insole.gcode@marlin\n"
         "  lamella slice insole.toml --layers 100:200 --json\n"
+        "  lamella slice insole.toml --printer ember -o - | ssh printer 'cat > insole.tar.gz'\n"
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
     command.callback([options] { run(*options); });
 }

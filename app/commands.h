@@ -11,6 +11,7 @@ namespace lamella {
 void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments);
 void add_preview_command(CLI::App& root);
 void add_info_command(CLI::App& root);
+void add_extract_command(CLI::App& root);
 void add_dump_command(CLI::App& root);
 void add_supports_command(CLI::App& root);
 void add_section_command(CLI::App& root);

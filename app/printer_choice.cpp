@@ -101,12 +101,13 @@ dvec2 plate_size(const PrinterProfile& printer) {
 }
 
 std::string backend_of_ending(const std::string& path) {
-    const std::string ending = std::filesystem::path(path).extension().string();
+    const std::string name = std::filesystem::path(path).filename().string();
     for (const BackendInfo& backend : backends()) {
         const std::string_view endings = backend.endings;
         for (std::size_t at = 0; at < endings.size();) {
             const std::size_t end = std::min(endings.find(' ', at), endings.size());
-            if (endings.substr(at, end - at) == ending) return backend.name;
+            const std::string_view ending = endings.substr(at, end - at);
+            if (name.size() > ending.size() && name.ends_with(ending)) return backend.name;
             at = end + 1;
         }
     }

@@ -75,6 +75,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_slice_command(root, arguments);
         add_preview_command(root);
         add_info_command(root);
+        add_extract_command(root);
         add_section_command(root);
         add_dump_command(root);
         add_supports_command(root);

@@ -204,6 +204,7 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_machine(table);
     add_image(table);
     add_resin(table);
+    add_archive_settings(table);
     add_vector(table);
     add_filament(table);
     add_exchange_settings(table);

@@ -20,6 +20,7 @@ const std::vector<std::string>& words(RegionMake);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 const std::vector<std::string>& words(CliFormat);
+const std::vector<std::string>& words(PanelPixels);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -36,6 +37,9 @@ void add_plate_settings(std::vector<Setting>& table);
 void add_support_settings(std::vector<Setting>& table);
 /// The rows of the [skin] and [[hole]] sections.
 void add_skin_settings(std::vector<Setting>& table);
+
+/// The rows of the [printer] section about archives of masks.
+void add_archive_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);

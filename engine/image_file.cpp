@@ -37,6 +37,10 @@ const ImageLibrary& library() {
 
 std::unique_ptr<ImageReader> open_images(const std::string& path) { return library().open(path); }
 
+std::unique_ptr<ImageReader> open_images(const std::string& name, std::string_view bytes, std::string& why) {
+    return library().open_bytes(name, bytes, why);
+}
+
 std::vector<std::byte> encode_image(const std::string& name, const ImageData& image) {
     std::vector<std::byte> file;
     const std::string why = library().encode(name, image, file);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lamella {
@@ -36,6 +37,9 @@ class ImageReader {
     /// Reads a channel of the page: width * height samples of its type, the highest row first. Returns what
     /// went wrong, or an empty text.
     virtual std::string read_channel(int channel, void* samples) = 0;
+    /// Reads all channels of the page side by side, whatever their type as 8 bits: width * height * channels
+    /// samples, the highest row first. Returns what went wrong, or an empty text.
+    virtual std::string read_bytes(std::uint8_t* samples) = 0;
 };
 
 /// An image to write, 8 bits a channel.
@@ -52,6 +56,10 @@ struct ImageData {
 /// The images of a file; null when it is none that can be read.
 std::unique_ptr<ImageReader> open_images(const std::string& path);
 
+/// The images of a file in memory, which must outlive the reader. It is read as what the ending of `name`
+/// says and as nothing else. Null when it cannot be; `why` then says what is wrong.
+std::unique_ptr<ImageReader> open_images(const std::string& name, std::string_view bytes, std::string& why);
+
 /// The bytes of a file of that name, whose ending tells the format. Throws FaultError when that cannot be
 /// made.
 std::vector<std::byte> encode_image(const std::string& name, const ImageData& image);
@@ -67,6 +75,8 @@ class ImageLibrary {
   public:
     virtual ~ImageLibrary() = default;
     virtual std::unique_ptr<ImageReader> open(const std::string& path) const = 0;
+    virtual std::unique_ptr<ImageReader> open_bytes(const std::string& name, std::string_view bytes,
+                                                    std::string& why) const = 0;
     virtual std::string encode(const std::string& name, const ImageData& image,
                                std::vector<std::byte>& file) const = 0;
     virtual bool knows(const std::string& path) const = 0;

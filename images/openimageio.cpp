@@ -2,6 +2,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+
 #include "engine/image_file.h"
 
 namespace lamella {
@@ -9,7 +11,9 @@ namespace {
 
 class Reader : public ImageReader {
   public:
-    explicit Reader(std::unique_ptr<OIIO::ImageInput> input) : input_(std::move(input)) {}
+    explicit Reader(std::unique_ptr<OIIO::ImageInput> input,
+                    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory = nullptr)
+        : memory_(std::move(memory)), input_(std::move(input)) {}
 
     std::optional<ImagePage> next_page() override {
         if (!input_->seek_subimage(page_ + 1, 0)) {
@@ -37,11 +41,25 @@ class Reader : public ImageReader {
         return input_->read_image(page_, 0, channel, channel + 1, type_, samples) ? "" : input_->geterror();
     }
 
+    std::string read_bytes(std::uint8_t* samples) override {
+        const int channels = input_->spec().nchannels;
+        return input_->read_image(page_, 0, 0, channels, OIIO::TypeDesc::UINT8, samples) ? ""
+                                                                                         : input_->geterror();
+    }
+
   private:
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
     std::unique_ptr<OIIO::ImageInput> input_;
     OIIO::TypeDesc type_;
     int page_ = -1;
 };
+
+/// The library's name for the format that a file's ending tells.
+std::string format_of(const std::string& name) {
+    std::string ending = name.substr(std::min(name.rfind('.') + 1, name.size()));
+    if (ending == "tif") return "tiff";
+    return ending == "pgm" ? "pnm" : ending;
+}
 
 OIIO::ImageSpec spec_of(const ImageData& image) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
@@ -74,6 +92,26 @@ class OpenImageIoLibrary : public ImageLibrary {
             return nullptr;
         }
         return std::make_unique<Reader>(std::move(input));
+    }
+
+    std::unique_ptr<ImageReader> open_bytes(const std::string& name, std::string_view bytes,
+                                            std::string& why) const override {
+        // By the format's name: a file's name would let every other reader try its luck as well.
+        auto input = OIIO::ImageInput::create(format_of(name));
+        if (!input) {
+            why = OIIO::geterror();
+            return nullptr;
+        }
+        // The reader wants a pointer to what it may change, and changes nothing.
+        auto memory =
+            std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()), bytes.size());
+        OIIO::ImageSpec spec, config;
+        config["oiio:UnassociatedAlpha"] = 1;  // numbers as the file has them
+        if (!input->set_ioproxy(memory.get()) || !input->open(name, spec, config)) {
+            why = input->geterror();
+            return nullptr;
+        }
+        return std::make_unique<Reader>(std::move(input), std::move(memory));
     }
 
     std::string encode(const std::string& name, const ImageData& image,

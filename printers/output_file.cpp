@@ -15,6 +15,8 @@ namespace lamella {
 namespace {
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& path) {
+    if (errno == EPIPE)
+        throw FaultError(path.string() + ": its reader has gone before all of it was written");
     throw FaultError(std::string("cannot ") + what + " " + path.string() + ": " +
                      std::generic_category().message(errno));
 }
@@ -53,6 +55,13 @@ OutputFile OutputFile::continue_at(const std::filesystem::path& path, std::uint6
     if (::ftruncate(file.descriptor_, static_cast<off_t>(size)) != 0) fail("shorten", path);
     if (::lseek(file.descriptor_, 0, SEEK_END) < 0) fail("continue", path);
     return file;
+}
+
+OutputFile OutputFile::standard_output() {
+    const std::filesystem::path name = "standard output";
+    const int descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (descriptor < 0) fail("open", name);
+    return {name, descriptor, 0};
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
@@ -96,6 +105,8 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::by
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
     write_whole_file(path, std::as_bytes(std::span(text.data(), text.size())));
 }
+
+bool names_standard_output(const std::filesystem::path& path) { return path == "-"; }
 
 bool is_present(const std::filesystem::path& path) {
     std::error_code error;

@@ -22,6 +22,8 @@ class OutputFile {
     static OutputFile create(const std::filesystem::path& path);
     /// Opens the file, cuts it to `size` bytes and goes on behind them.
     static OutputFile continue_at(const std::filesystem::path& path, std::uint64_t size);
+    /// Standard output, of which nothing can be rewritten.
+    static OutputFile standard_output();
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -44,6 +46,9 @@ class OutputFile {
 /// Writes a file under a temporary name beside `path` and renames it, so that `path` is whole or absent.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+/// The path that stands for standard output: "-".
+bool names_standard_output(const std::filesystem::path& path);
 
 /// True when something of that name exists, a dangling link included.
 bool is_present(const std::filesystem::path& path);

@@ -46,12 +46,21 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
         throw InputError("an image of " + std::to_string(header.width) + " x " +
                          std::to_string(header.height) + " px: each side must be 1 to 65535");
     }
+    const bool rgb = header.colors == PngColors::rgb, packed = header.colors == PngColors::packed;
+    if (rgb && header.width > 65535 / 3) {
+        throw InputError("an image of " + std::to_string(header.width) +
+                         " px in three colours: 21845 is the most");
+    }
+    if (packed && header.width % 3 != 0) {
+        throw InputError("an image of " + std::to_string(header.width) +
+                         " px cannot be packed into colours: its width must be a multiple of 3");
+    }
     for (const unsigned byte : {0x89U, 0x50U, 0x4eU, 0x47U, 0x0dU, 0x0aU, 0x1aU, 0x0aU}) put_u8(out_, byte);
     const std::size_t size = begin_chunk("IHDR");
-    put_u32(out_, static_cast<std::uint32_t>(header.width));
+    put_u32(out_, static_cast<std::uint32_t>(packed ? header.width / 3 : header.width));
     put_u32(out_, static_cast<std::uint32_t>(header.height));
     put_u8(out_, 8);  // bits a sample
-    put_u8(out_, 0);  // grey
+    put_u8(out_, rgb || packed ? 2 : 0);
     put_u8(out_, 0);  // deflate
     put_u8(out_, 0);  // the five standard filters
     put_u8(out_, 0);  // not interlaced
@@ -60,7 +69,7 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
     const auto known = [](double pixel) { return pixel >= 1e-6 && pixel <= 1000; };
     if (known(header.pixel_x) && known(header.pixel_y)) {
         const std::size_t pitch = begin_chunk("pHYs");
-        put_u32(out_, pixels_per_metre(header.pixel_x));
+        put_u32(out_, pixels_per_metre(packed ? 3 * header.pixel_x : header.pixel_x));
         put_u32(out_, pixels_per_metre(header.pixel_y));
         put_u8(out_, 1);  // the unit is the metre
         end_chunk(pitch);
@@ -82,7 +91,13 @@ void PngWriter::add_band(std::span<const std::byte> deflated, const Adler& adler
 void PngWriter::add_rows(std::span<const GreyRun> runs, int rows) {
     std::vector<std::byte> deflated;
     Adler adler;
-    compress_band(runs, header_.width, rows, deflated, adler);
+    if (header_.colors == PngColors::rgb) {
+        tripled_.assign(runs.begin(), runs.end());
+        for (GreyRun& run : tripled_) run.length *= 3;
+        compress_band(tripled_, 3 * header_.width, rows, deflated, adler);
+    } else {
+        compress_band(runs, header_.width, rows, deflated, adler);
+    }
     add_band(deflated, adler, rows);
 }
 

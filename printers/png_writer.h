@@ -1,4 +1,4 @@
-// PNG files of 8-bit grey masks, written from runs (ISO/IEC 15948).
+// PNG files of 8-bit masks, written from runs (ISO/IEC 15948).
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,27 @@
 
 namespace lamella {
 
+/// What the samples of a row are.
+enum class PngColors : unsigned char {
+    grey,    ///< one a pixel
+    rgb,     ///< a pixel's grey in each of its three colours
+    packed,  ///< three pixels side by side are the colours of one
+};
+
 /// Size of an image.
 struct PngHeader {
     int width = 1;       ///< px, 1 to 65535
     int height = 1;      ///< px, 1 to 65535
     double pixel_x = 0;  ///< mm, for the pHYs chunk; 0 when unknown
     double pixel_y = 0;  ///< mm
+    PngColors colors = PngColors::grey;
 };
 
 /// Writes one image band by band, each band an IDAT chunk. Memory: the compressed bytes and one band.
 class PngWriter {
   public:
     /// Starts an image at the end of `out`, which must outlive the writer. Throws InputError for a size
-    /// out of range.
+    /// out of range: the samples of a row are 65535 at most, and those that are packed a multiple of 3.
     PngWriter(const PngHeader& header, std::vector<std::byte>& out);
     /// Adds `rows` rows; their runs follow each other and sum to the width each.
     void add_rows(std::span<const GreyRun> runs, int rows);
@@ -38,6 +46,7 @@ class PngWriter {
     PngHeader header_;
     std::vector<std::byte>& out_;
     Adler adler_;
+    std::vector<GreyRun> tripled_;
     int rows_ = 0;
 };
 

@@ -34,6 +34,17 @@ struct ImageProfile {
     double margin = 0;      ///< at the display's edge, that a part must stay clear of, mm
 };
 
+/// How a display's pixels stand in the colours of an archive's images.
+enum class PanelPixels : unsigned char {
+    rgb,     ///< one pixel each, its grey in all three colours
+    packed,  ///< three pixels side by side are red, green and blue of one: panels without colour filters
+    grey     ///< grey images
+};
+
+struct NanoDlpProfile {
+    PanelPixels pixels = PanelPixels::rgb;
+};
+
 /// How a resin is cured.
 struct ResinProfile {
     std::string machine = "SL1S";  ///< printerModel: the machine refuses jobs for another one
@@ -116,6 +127,7 @@ struct PrinterProfile {
     std::string name = "generic-8k";
     std::string backend = "png";
     ImageProfile image;
+    NanoDlpProfile nanodlp;
     ResinProfile resin;
     VectorProfile vector;
     ExchangeProfile exchange;

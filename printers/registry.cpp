@@ -8,8 +8,10 @@
 
 #include "engine/error.h"
 #include "printers/cli.h"
+#include "printers/ember.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
+#include "printers/nanodlp.h"
 #include "printers/png_stack.h"
 #include "printers/sl1.h"
 #include "printers/slice_3mf.h"
@@ -20,18 +22,22 @@ namespace {
 
 constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
-                make_png_stack},
+                make_png_stack, Medium::pixels, true},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
-                OutputKind::file, make_sl1},
+                OutputKind::file, make_sl1, Medium::pixels, true},
     BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo},
+    BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
+                OutputKind::file, make_nanodlp, Medium::pixels, true},
+    BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file, make_ember,
+                Medium::pixels, true},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
-                OutputKind::file_or_folder, make_svg, Medium::contours},
+                OutputKind::file_or_folder, make_svg, Medium::contours, true},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", ".gcode", OutputKind::file,
-                make_gcode, Medium::beads},
+                make_gcode, Medium::beads, true},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
-                OutputKind::file, make_cli, Medium::contours},
+                OutputKind::file, make_cli, Medium::contours, true},
     BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
-                make_slice_3mf, Medium::contours,
+                make_slice_3mf, Medium::contours, true,
                 "programs that do not know 3MF slices show a plain box instead of the part, most of them "
                 "without a word"},
 };
@@ -57,7 +63,8 @@ std::span<const BackendInfo> backends() { return backend_table; }
 
 SupportProfile usual_supports(std::string_view backend) {
     SupportProfile support;
-    if (backend != "png" && backend != "sl1" && backend != "goo") return support;
+    constexpr std::array resin{"png", "sl1", "goo", "nanodlp", "ember"};
+    if (std::ranges::find(resin, backend) == resin.end()) return support;
     support.spacing = 4;
     support.own_bridge = 2;
     support.bridge = 8;
@@ -96,7 +103,18 @@ const BackendInfo& find_backend(std::string_view name) {
 
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force) {
-    return find_backend(profile.backend).make(profile, output_path, force);
+    const BackendInfo& info = find_backend(profile.backend);
+    if (output_path == "-" && !info.streams) {
+        std::string able;
+        for (const BackendInfo& other : backends()) {
+            if (other.streams) able += (able.empty() ? "" : ", ") + std::string(other.name);
+        }
+        throw InputError(std::string(info.name) +
+                         " files cannot go to standard output, for their beginning is completed at the end; "
+                         "name a file, or use a back-end that can: " +
+                         able);
+    }
+    return info.make(profile, output_path, force);
 }
 
 }  // namespace lamella

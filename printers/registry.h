@@ -24,6 +24,7 @@ struct BackendInfo {
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
     Medium medium = Medium::pixels;
+    bool streams = false;           ///< writes to standard output as well
     const char* warning = nullptr;  ///< what whoever gets such an output should know
 };
 
@@ -37,8 +38,8 @@ SupportProfile usual_supports(std::string_view backend);
 /// Throws InputError, with the nearest known name, when there is none of this name.
 const BackendInfo& find_backend(std::string_view name);
 
-/// The back-end that a profile names, writing to `output_path`. `force` lets it replace what lamella made
-/// there before. Throws InputError.
+/// The back-end that a profile names, writing to `output_path`, or to standard output for "-". `force` lets
+/// it replace what lamella made there before. Throws InputError.
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force);
 

@@ -2,6 +2,7 @@
 #include "printers/unfinished_file.h"
 
 #include <fstream>
+#include <utility>
 
 #include "engine/error.h"
 
@@ -41,13 +42,19 @@ bool UnfinishedFile::read_journal(const JobStamp& stamp, int& next, std::uint64_
         if (record_size > have || record_next < stamp.range.first || record_next > stamp.range.last) break;
         next = static_cast<int>(record_next);
         size = record_size;
-        state_ = record.value("state", nlohmann::ordered_json());
+        history_.push_back(record.value("state", nlohmann::ordered_json()));
+        records_ += record.dump() + "\n";
         found = true;
     }
     return found;
 }
 
 int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
+    if (names_standard_output(path_)) {
+        if (resume) throw InputError("standard output cannot be continued; name a file for --resume");
+        file_ = OutputFile::standard_output();
+        return stamp.range.first;
+    }
     if (fs::is_directory(path_)) throw InputError(path_.string() + " is a folder; name a file");
     if (is_present(path_) && !force_) {
         throw InputError(path_.string() + " exists already; choose another name or pass --force");
@@ -69,10 +76,7 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
     }
     file_ = OutputFile::continue_at(partial_, size);
     // The journal is written anew, so that a broken line in its middle cannot hide the lines to come.
-    std::string journal = to_json(stamp).dump() + "\n";
-    if (resumed_) {
-        journal += nlohmann::ordered_json{{"next", next}, {"size", size}, {"state", state_}}.dump() + "\n";
-    }
+    const std::string journal = to_json(stamp).dump() + "\n" + std::exchange(records_, {});
     write_whole_file(journal_path_, journal);
     journal_ = OutputFile::continue_at(journal_path_, journal.size());
     return next;
@@ -80,6 +84,7 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
 
 void UnfinishedFile::commit(std::string_view text, int next, const nlohmann::ordered_json& state) {
     file_.write(text);
+    if (names_standard_output(path_)) return;
     const nlohmann::ordered_json record = {{"next", next}, {"size", file_.size()}, {"state", state}};
     journal_.write(record.dump() + "\n");
 }
@@ -88,6 +93,7 @@ void UnfinishedFile::end(std::string_view text) {
     file_.write(text);
     file_.sync();
     file_.close();
+    if (names_standard_output(path_)) return;
     journal_.close();
     rename_output(partial_, path_);
     std::error_code ignored;  // a journal that stays behind harms nobody

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "printers/job_stamp.h"
 #include "printers/output_file.h"
@@ -14,6 +15,8 @@ namespace lamella {
 /// Writes NAME.partial layer by layer, and beside it NAME.partial.journal: the job's stamp on the first line,
 /// then a line for each complete layer with the size of the file behind it. A run that stops anywhere, in the
 /// middle of a layer included, is continued from the last complete one.
+///
+/// The path "-" is standard output: nothing but the bytes themselves, no journal, nothing to continue.
 class UnfinishedFile {
   public:
     /// `force` lets a finished file of that name be replaced and an unfinished one be discarded.
@@ -26,7 +29,9 @@ class UnfinishedFile {
     /// True when begin found an unfinished file whose prologue is complete.
     bool resumed() const { return resumed_; }
     /// What the last complete layer (or the prologue) handed to `commit`; null when there is none.
-    const nlohmann::ordered_json& state() const { return state_; }
+    const nlohmann::ordered_json& state() const { return history_.empty() ? no_state_ : history_.back(); }
+    /// What was handed to every `commit` before the place where begin continues, in order.
+    const std::vector<nlohmann::ordered_json>& history() const { return history_; }
     /// Appends the text of what lies before layer `next`, which is complete with it. `state` is what a run
     /// that continues here has to know.
     void commit(std::string_view text, int next, const nlohmann::ordered_json& state = nullptr);
@@ -43,7 +48,9 @@ class UnfinishedFile {
     std::filesystem::path journal_path_;
     bool force_;
     bool resumed_ = false;
-    nlohmann::ordered_json state_;
+    std::vector<nlohmann::ordered_json> history_;
+    nlohmann::ordered_json no_state_;
+    std::string records_;  // of the journal that is continued
     OutputFile file_;
     OutputFile journal_;
 };

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "engine/error.h"
-#include "printers/output_file.h"
 
 namespace lamella {
 namespace fs = std::filesystem;
@@ -84,6 +83,11 @@ void UnfinishedFolder::remove_ours(const fs::path& folder) const {
 }
 
 int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
+    if (names_standard_output(path_)) {
+        if (resume) throw InputError("standard output cannot be continued; name a folder for --resume");
+        pipe_ = OutputFile::standard_output();
+        return stamp.range.first;
+    }
     if (is_present(path_)) check_replaceable();
     if (is_present(partial_)) {
         if (resume) {
@@ -124,6 +128,10 @@ void UnfinishedFolder::read_journal(const JobStamp& stamp) {
 }
 
 void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes, const LayerProduct& product) {
+    if (names_standard_output(path_)) {
+        pipe_.write(bytes);
+        return;
+    }
     write_whole_file(partial_ / file_name(layer), bytes);
     journal_.write(journal_line(product.area, product.support_area));
     areas_.push_back(product.area);
@@ -131,6 +139,10 @@ void UnfinishedFolder::write(int layer, std::span<const std::byte> bytes, const 
 }
 
 void UnfinishedFolder::end(nlohmann::ordered_json job) {
+    if (names_standard_output(path_)) {
+        pipe_.close();
+        return;
+    }
     job["areas"] = areas_;
     const auto is_some = [](double area) { return area > 0; };
     if (std::any_of(support_areas_.begin(), support_areas_.end(), is_some))

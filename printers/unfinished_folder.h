@@ -16,6 +16,8 @@ namespace lamella {
 /// Writes NAME.partial/00000.png and so on, each file whole or absent, the layers' areas in a journal beside
 /// them, and job.json at the end. Files are
 /// numbered by the layer's index, so that the folders of two ranges hold the files of the whole.
+///
+/// The path "-" is standard output: the files one after another, without job.json.
 class UnfinishedFolder {
   public:
     /// `extension` includes the dot. `force` lets a finished folder that holds nothing but a job of ours be
@@ -44,6 +46,7 @@ class UnfinishedFolder {
     bool force_;
     OutputFile journal_;
     std::vector<double> areas_, support_areas_;  ///< of the layers that are there, mm^2
+    OutputFile pipe_;  ///< standard output where that is asked for
 };
 
 /// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.

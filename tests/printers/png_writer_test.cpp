@@ -115,6 +115,33 @@ Mask flat(int width, int height, std::uint8_t value) {
 
 }  // namespace
 
+TEST_CASE("a pixel is a colour's three samples, or three pixels are", "[png]") {
+    std::mt19937 random(5);
+    const Mask mask = random_mask(99, 70, 4, 256, random);
+    const std::vector<unsigned char> greys = expand(mask);
+    for (const PngColors colors : {PngColors::rgb, PngColors::packed}) {
+        std::vector<std::byte> png;
+        PngWriter writer({99, 70, 0.05, 0.05, colors}, png);
+        writer.add_rows(mask.runs, 70);
+        writer.finish();
+        OIIO::Filesystem::IOMemReader memory(png.data(), png.size());
+        const auto input = OIIO::ImageInput::open("memory.png", nullptr, &memory);
+        REQUIRE(input);
+        const bool packed = colors == PngColors::packed;
+        REQUIRE(input->spec().width == (packed ? 33 : 99));
+        REQUIRE(input->spec().nchannels == 3);
+        std::vector<unsigned char> samples(std::size_t{packed ? 33U : 99U} * 70 * 3);
+        REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, samples.data()));
+        if (packed) {
+            CHECK((samples == greys));
+        } else {
+            std::vector<unsigned char> tripled;
+            for (const unsigned char grey : greys) tripled.insert(tripled.end(), 3, grey);
+            CHECK((samples == tripled));
+        }
+    }
+}
+
 TEST_CASE("a flat image decodes at every awkward size", "[png]") {
     for (const int width : {1, 2, 3, 4, 5, 257, 258, 259, 260, 261, 262, 517, 519, 1000}) {
         for (const int height : {1, 2, 63, 64, 65, 128, 130}) {

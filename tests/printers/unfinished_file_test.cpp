@@ -98,6 +98,17 @@ TEST_CASE("an unfinished file is neither overwritten nor continued by another jo
     CHECK(!forced.resumed());
 }
 
+TEST_CASE("what every layer handed over is there again, however often the run stopped", "[unfinished_file]") {
+    const TemporaryFolder folder;
+    for (int layer = 0; layer < 3; ++layer) {
+        UnfinishedFile file(folder / "out", false);
+        CHECK(file.begin(stamp, layer > 0) == layer);
+        REQUIRE(file.history().size() == static_cast<std::size_t>(layer));
+        for (int k = 0; k < layer; ++k) CHECK(file.history()[static_cast<std::size_t>(k)] == 10 * k);
+        file.commit("layer\n", layer + 1, 10 * layer);
+    }
+}
+
 TEST_CASE("journals of hostile content do not mislead", "[unfinished_file]") {
     const TemporaryFolder folder;
     const std::string head = to_json(stamp).dump() + "\n";
