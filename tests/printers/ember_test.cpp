@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/machine_profiles.h"
 #include "engine/error.h"
 #include "tests/printers/resin_job.h"
 
@@ -30,7 +31,7 @@ std::map<std::string, std::string> unpacked(const std::string& path) {
 
 TEST_CASE("tar unpacks an archive for Ember into settings and slices", "[ember]") {
     const TemporaryFolder folder;
-    const PrinterProfile profile = find_profile("ember");
+    const PrinterProfile profile = MachineProfiles().find("ember")->printer;
     run_layers(two_cones(), *make_ember(profile, folder / "a.tar.gz", false), {0, 12});
     run_layers(two_cones(), *make_png_stack(profile, folder / "stack", false), {0, 12});
     const auto files = unpacked(folder / "a.tar.gz");
@@ -56,7 +57,7 @@ TEST_CASE("tar unpacks an archive for Ember into settings and slices", "[ember]"
 
 TEST_CASE("exposures that do not fade need no settings of layers", "[ember]") {
     const TemporaryFolder folder;
-    PrinterProfile profile = find_profile("ember");
+    PrinterProfile profile = MachineProfiles().find("ember")->printer;
     profile.resin.fade_layers = 0;
     run_layers(two_cones(2), *make_ember(profile, folder / "a.tar.gz", false), {0, 2});
     CHECK(unpacked(folder / "a.tar.gz").count("layersettings.csv") == 0);
@@ -64,7 +65,7 @@ TEST_CASE("exposures that do not fade need no settings of layers", "[ember]") {
 
 TEST_CASE("a stopped archive for Ember is continued to the same bytes", "[ember]") {
     const TemporaryFolder folder;
-    const PrinterProfile profile = find_profile("ember");
+    const PrinterProfile profile = MachineProfiles().find("ember")->printer;
     run_layers(two_cones(), *make_ember(profile, folder / "whole", false), {0, 12});
     for (const int stop : {0, 1, 7, 11}) {
         const std::string part = folder / ("part" + std::to_string(stop));
@@ -77,7 +78,7 @@ TEST_CASE("a stopped archive for Ember is continued to the same bytes", "[ember]
 
 TEST_CASE("what an Ember cannot print is refused", "[ember]") {
     const TemporaryFolder folder;
-    PrinterProfile profile = find_profile("ember");
+    PrinterProfile profile = MachineProfiles().find("ember")->printer;
     Job job = two_cones();
     job.layer_height = 0.0333;
     CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->begin(job, {0, 12}, false),

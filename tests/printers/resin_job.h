@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "app/machine_profiles.h"
 #include "printers/png_stack.h"
 #include "printers/registry.h"
 #include "tests/printers/decode_image.h"
@@ -26,7 +27,7 @@ inline Job two_cones(int layers = 12) {
 
 /// Settings of a back-end with a display that is small, but not an Ember's, which has one size.
 inline PrinterProfile small_machine(const std::string& backend) {
-    PrinterProfile profile = find_profile(backend == "ember" ? "ember" : "prusa-sl1s");
+    PrinterProfile profile = MachineProfiles().find(backend == "ember" ? "ember" : "prusa-sl1s")->printer;
     profile.backend = backend;
     if (backend == "ember") return profile;
     profile.image.width = 300;
