@@ -89,9 +89,15 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// What a run made and what is to be said of it.
+struct Written {
+    std::optional<BeamLatticeReport> beams;
+    std::vector<std::string> notes;
+};
+
 void summarise(const SliceOptions& options, const BuiltJob& built, const StreamReport& report,
-               const ProgressDisplay& display, const std::optional<BeamLatticeReport>& beams,
-               const Recipe& recipe) {
+               const ProgressDisplay& display, const Written& written, const Recipe& recipe) {
+    const std::optional<BeamLatticeReport>& beams = written.beams;
     const double seconds = display.seconds();
     if (options.json) {
         nlohmann::ordered_json summary{{"output", options.output},
@@ -104,6 +110,7 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                                        {"volume_mm3", report.volume}};
         if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
+        if (built.dowels) summary["dowels"] = dowels_json(*built.dowels);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
         if (beams) {
             summary["beams"] = {{"output", recipe.output.beams},
@@ -111,11 +118,13 @@ void summarise(const SliceOptions& options, const BuiltJob& built, const StreamR
                                 {"nodes", beams->vertices},
                                 {"too_short", beams->dropped}};
         }
+        if (!written.notes.empty()) summary["notes"] = written.notes;
         TextOutput out("");
         out.write(summary.dump(2) + "\n");
         out.close();
     }
     if (options.quiet) return;
+    for (const std::string& note : written.notes) std::fputs(("note: " + note + "\n").c_str(), stderr);
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
     const std::string supports =
         built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
@@ -161,6 +170,8 @@ void run(SliceOptions options) {
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    if (built.dowels && !options.quiet)
+        std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
@@ -178,9 +189,11 @@ void run(SliceOptions options) {
     stream.cancel = &cancel;
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
     StreamReport report;
+    std::vector<std::string> notes;
     try {
         const auto backend = make_backend(recipe.printer, options.output, options.force);
         report = stream_layers(built.job, *backend, stream);
+        notes = backend->notes();
     } catch (const Interrupted&) {
         display.finish();
         throw Interrupted("interrupted; what is finished is kept. To go on: " + options.repeat);
@@ -188,7 +201,7 @@ void run(SliceOptions options) {
     display.finish();
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
-    summarise(options, built, report, display, beams, recipe);
+    summarise(options, built, report, display, {beams, notes}, recipe);
 }
 
 }  // namespace

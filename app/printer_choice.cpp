@@ -44,7 +44,8 @@ PrinterProfile profile_named(const std::string& name) {
 std::string default_output(const PrinterProfile& printer, const std::string& part_name) {
     const OutputKind kind = find_backend(printer.backend).output;
     const bool folder =
-        kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
+        kind == OutputKind::folder ||
+        (kind == OutputKind::file_or_folder && !(printer.vector.one_file && printer.cutting.sheet.empty()));
     if (folder) return part_name + ".layers";
     return part_name + "." + printer.backend;
 }

@@ -167,6 +167,7 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_image(table);
     add_resin(table);
     add_vector(table);
+    add_cutting_settings(table);
     add_filament(table);
 }
 

@@ -19,6 +19,9 @@ const std::vector<std::string>& words(SupportKind);
 const std::vector<std::string>& words(RegionMake);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
+const std::vector<std::string>& words(Laser);
+const std::vector<std::string>& words(Ties);
+const std::vector<std::string>& words(SvgDialect);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -36,6 +39,8 @@ void add_skin_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
+/// Those of them that are about cutting layers out of sheets.
+void add_cutting_settings(std::vector<Setting>& table);
 
 /// What a row says about a key besides its name and flag.
 struct Facts {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "printers/dxf.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
 #include "printers/png_stack.h"
@@ -23,6 +24,8 @@ constexpr std::array backend_table = {
     BackendInfo{"goo", "file for resin printers with 8-bit displays", OutputKind::file, make_goo},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer",
                 OutputKind::file_or_folder, make_svg},
+    BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", OutputKind::folder,
+                make_dxf},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", OutputKind::file, make_gcode},
 };
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "printers/job_stamp.h"
 
@@ -23,6 +24,13 @@ class UnfinishedFolder {
     int begin(const JobStamp& stamp, bool resume);
     /// Writes the file of a layer.
     void write(int layer, std::span<const std::byte> bytes);
+
+    /// For folders whose files are not one a layer: makes the folder and returns what the last `commit` noted
+    /// down, null when there is none. Throws as begin does.
+    nlohmann::ordered_json open(const JobStamp& stamp, bool resume);
+    /// Writes a file, and then notes down what a run that continues here has to know.
+    void commit(const std::string& file, std::string_view text, const nlohmann::ordered_json& state);
+    bool has(const std::string& file) const;
     /// Writes job.json, which marks the folder complete, and gives the folder its name.
     void end(const nlohmann::ordered_json& job);
     /// Name of a layer's file, "00042.png".
@@ -31,12 +39,14 @@ class UnfinishedFolder {
   private:
     void check_replaceable() const;
     void remove_ours(const std::filesystem::path& folder) const;
+    void note(const nlohmann::ordered_json& state);
     bool is_ours(const std::filesystem::path& file) const;
 
     std::filesystem::path path_;
     std::filesystem::path partial_;
     std::string extension_;
     bool force_;
+    JobStamp stamp_;
 };
 
 /// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.
