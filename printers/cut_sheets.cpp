@@ -9,6 +9,7 @@
 #include "engine/number_format.h"
 #include "printers/cut_plan.h"
 #include "printers/sheet_nesting.h"
+#include "printers/svg_text.h"
 #include "printers/unfinished_file.h"
 #include "printers/unfinished_folder.h"
 
@@ -38,14 +39,12 @@ struct Tally {
 
 void check_length(const char* key, double length, double least, double most) {
     if (length >= least && length <= most) return;
-    throw InputError(
-        fmt::format("printer.{} = {} mm: must be {} to {}", key, format_number(length, 9), least, most));
+    throw InputError(fmt::format("printer.{} = {} mm: must be {} to {}", key, length, least, most));
 }
 
 void check_settings(const PrinterProfile& profile) {
     const CuttingProfile& cutting = profile.cutting;
-    check_length("margin", profile.vector.margin, 0, 1e4);
-    check_length("tolerance", profile.vector.tolerance, 1e-4, 10);
+    check_page(profile.vector);
     check_length("kerf", cutting.kerf, 0, 10);
     check_length("tie_width", cutting.tie_width, 0.01, 1000);
     check_length("number_height", cutting.number_height, 0.1, 1000);
@@ -332,6 +331,10 @@ bool asks_for_cutting(const PrinterProfile& profile) {
     const CuttingProfile& c = profile.cutting;
     return c.laser != Laser::none || c.kerf != 0 || c.ties != Ties::none || c.numbers || c.next_outline ||
            !c.sheet.empty();
+}
+
+bool cuts_sheets(const PrinterProfile& profile) {
+    return profile.backend == "dxf" || (profile.backend == "svg" && asks_for_cutting(profile));
 }
 
 std::unique_ptr<Backend> make_layer_sheets(const PrinterProfile& profile,

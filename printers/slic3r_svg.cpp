@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/error.h"
 #include "engine/number_format.h"
 #include "printers/polygons.h"
 #include "printers/svg_text.h"
@@ -23,6 +22,7 @@ class Slic3rSvg : public Backend {
 
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
+        check_page(vector_);
         z0_ = job.z0();
         page_ = grown(job.bounds.rect(), vector_.margin);
         const std::string settings =

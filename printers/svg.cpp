@@ -33,12 +33,7 @@ struct Page {
 };
 
 Page make_page(const VectorProfile& profile, const Box& bounds) {
-    if (!(profile.margin >= 0 && profile.margin <= 1e4)) {
-        throw InputError(fmt::format("margin = {} mm: must be 0 to 10000", profile.margin));
-    }
-    if (!(profile.tolerance >= 1e-4 && profile.tolerance <= 10)) {
-        throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", profile.tolerance));
-    }
+    check_page(profile);
     return {bounds.lo.x - profile.margin, bounds.hi.y + profile.margin, bounds.size().x + 2 * profile.margin,
             bounds.size().y + 2 * profile.margin};
 }

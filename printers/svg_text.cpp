@@ -3,9 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "engine/error.h"
 #include "engine/number_format.h"
 
 namespace lamella {
+
+void check_page(const VectorProfile& profile) {
+    if (!(profile.margin >= 0 && profile.margin <= 1e4)) {
+        throw InputError(fmt::format("margin = {} mm: must be 0 to 10000", profile.margin));
+    }
+    if (!(profile.tolerance >= 1e-4 && profile.tolerance <= 10)) {
+        throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", profile.tolerance));
+    }
+}
 
 std::string svg_start(dvec2 size) {
     const std::string width = format_number(size.x, svg_decimals);

@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "engine/geometry.h"
+#include "printers/profile.h"
 
 namespace lamella {
 
 inline constexpr int svg_decimals = 4;  ///< of a coordinate in mm: 0.1 um
+
+/// Throws InputError when margin or tolerance make no sense.
+void check_page(const VectorProfile& profile);
 
 /// Everything before the first group. Width and height carry the unit and the viewBox has the same numbers.
 std::string svg_start(dvec2 size);

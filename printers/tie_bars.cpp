@@ -1,8 +1,10 @@
 // Prim's algorithm with a queue of neighbours that may be out of date, and bars between them.
 #include "printers/tie_bars.h"
 
+#include <algorithm>
 #include <cmath>
 #include <queue>
+#include <span>
 
 #include "printers/nearest_points.h"
 
@@ -67,6 +69,23 @@ ClipperLib::Path bar(dvec2 a, dvec2 b, double width) {
     return to_polygon({a - side, b - side, b + side, a + side});
 }
 
+/// Where samples of one piece face another at about the least distance from `from` on, the one in the middle:
+/// a bar between straight borders should not hang over a corner.
+dvec2 middle_of_facing(std::span<const dvec2> samples, const Polygons& other, dvec2 from, double width) {
+    const auto distance = [](dvec2 a, dvec2 b) { return std::sqrt(dot(b - a, b - a)); };
+    const double longest = distance(from, nearest_on(other, from)) + width / 8;
+    std::vector<dvec2> facing;
+    dvec2 sum{0};
+    for (const dvec2& p : samples) {
+        if (distance(p, from) > 2 * width || distance(p, nearest_on(other, p)) > longest) continue;
+        facing.push_back(p);
+        sum += p;
+    }
+    if (facing.empty()) return from;
+    const dvec2 mean = sum / static_cast<double>(facing.size());
+    return *std::ranges::min_element(facing, {}, [&](dvec2 p) { return distance(p, mean); });
+}
+
 struct Neighbour {
     double distance;  ///< squared, mm^2
     std::size_t from, to;
@@ -105,9 +124,12 @@ Polygons tie_bars(const std::vector<Polygons>& pieces, double width) {
             look_from(next.from);
             continue;
         }
-        const dvec2 b = nearest_on(pieces[piece], samples.points[next.from]);
-        const dvec2 a = nearest_on(pieces[samples.owners[next.from]], b);
-        bars.push_back(bar(a, b, width));
+        const std::size_t owner = samples.owners[next.from];
+        const std::span<const dvec2> along(samples.points.data() + samples.begins[owner],
+                                           samples.points.data() + samples.begins[owner + 1]);
+        const dvec2 from = middle_of_facing(along, pieces[piece], samples.points[next.from], width);
+        const dvec2 b = nearest_on(pieces[piece], from);
+        bars.push_back(bar(nearest_on(pieces[owner], b), b, width));
         join(piece);
     }
     return bars;
