@@ -31,7 +31,7 @@ class ClearSurvey : public Backend {
         for (const Contour& contour : layer.contours(tolerance_))
             section.push_back(to_polygon(contour.points));
         product->empty = section.empty();
-        product->clear = offset_polygons(section, -radius_);
+        product->clear = erode_polygons(section, radius_);
         return product;
     }
     void write(const Layer& layer, LayerProduct& product) override {

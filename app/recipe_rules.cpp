@@ -173,10 +173,10 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     check_output(recipe.output);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {
-        refuse(0, fmt::format(
-                      "{}: supports are not cut out of sheets; accepted: none, or a [printer] without kerf, "
-                      "laser, ties, numbers, next_outline and sheet",
-                      where("support", "kind")));
+        refuse(0, fmt::format("{}: supports are not cut out of sheets; accepted: none, or another "
+                              "kind of printer, such as svg without kerf, "
+                              "laser, ties, numbers, next_outline and sheet",
+                              where("support", "kind")));
     }
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);

@@ -64,7 +64,7 @@ std::vector<ClipperLib::Path> next_outline(const Job& job, int index, const Poly
 /// The middle of the largest piece where a disc of this radius lies clear; nothing where there is none.
 std::optional<dvec2> clear_place(const Polygons& section, const std::vector<ClipperLib::Path>& scores,
                                  double radius) {
-    Polygons clear = offset_polygons(section, -radius);
+    Polygons clear = erode_polygons(section, radius);
     if (!clear.empty() && !scores.empty()) clear = subtract_polygons(clear, around_lines(scores, radius));
     const std::vector<Polygons> pieces = split_pieces(clear);
     if (pieces.empty()) return std::nullopt;

@@ -52,7 +52,15 @@ void check_settings(const PrinterProfile& profile) {
     if (cutting.sheet.empty()) return;
     if (cutting.sheet.size() != 1 || cutting.sheet.front().size() != 2)
         throw InputError("printer.sheet: must be a width and a height");
-    for (const double side : cutting.sheet.front()) check_length("sheet", side, 1, 1e5);
+    for (const double side : cutting.sheet.front()) {
+        check_length("sheet", side, 1, 1e5);
+        if (side <= 2 * cutting.sheet_margin) {
+            throw InputError(
+                fmt::format("printer.sheet_margin = {} mm leaves nothing of a sheet of {} x {} mm; accepted: "
+                            "less than {} mm",
+                            cutting.sheet_margin, cutting.sheet[0][0], cutting.sheet[0][1], side / 2));
+        }
+    }
 }
 
 std::string settings_of(const PrinterProfile& profile) {
@@ -108,8 +116,8 @@ class CutBackend : public Backend {
         check_range(job, range);
         if (job.supports) {
             throw InputError(
-                "supports are not cut out of sheets; accepted: support.kind = \"none\", or a printer without "
-                "kerf, laser, ties, numbers, next_outline and sheet");
+                "supports are not cut out of sheets; accepted: support.kind = \"none\", or another kind "
+                "of printer, such as svg without kerf, laser, ties, numbers, next_outline and sheet");
         }
         job_ = job;
         return {job.identity, settings_of(profile_), range};

@@ -131,6 +131,13 @@ Polygons combined(ClipperLib::ClipType how, const Polygons& a, const Polygons& b
     return result;
 }
 
+Rect box_of(const ClipperLib::Path& polygon) {
+    Rect box;
+    for (const ClipperLib::IntPoint& point : polygon)
+        box = unite(box, Rect{to_point(point), to_point(point)});
+    return box;
+}
+
 /// Makes one of the two lines that end at a point; a ring that was opened there goes on through it.
 void join_at(const ClipperLib::IntPoint& point, Polygons& lines) {
     std::vector<std::size_t> ending;
@@ -187,6 +194,22 @@ Polygons offset_polygons(const Polygons& polygons, double by) {
     return result;
 }
 
+Polygons erode_polygons(const Polygons& polygons, double radius) {
+    constexpr double least_step = 0.25;  // mm
+    Polygons result;
+    for (Polygons& piece : split_pieces(polygons)) {
+        const Interval x = extent(piece, {1, 0}), y = extent(piece, {0, 1});
+        if (std::min(x.width(), y.width()) < 2 * radius) continue;
+        double step = least_step;
+        for (double done = 0; done < radius && !piece.empty(); done += step) {
+            step = std::min(std::max(least_step, done), radius - done);
+            piece = offset_polygons(piece, -step);
+        }
+        result.insert(result.end(), piece.begin(), piece.end());
+    }
+    return result;
+}
+
 Polygons subtract_polygons(const Polygons& a, const Polygons& b) {
     return combined(ClipperLib::ctDifference, a, b);
 }
@@ -213,13 +236,19 @@ std::vector<NestedPolygon> nested_polygons(const Polygons& polygons) {
 }
 
 std::vector<ClipperLib::Path> rings_inside(const Polygons& rings, const Polygons& polygons) {
+    std::vector<Rect> boxes;
+    boxes.reserve(polygons.size());
+    for (const ClipperLib::Path& polygon : polygons) boxes.push_back(box_of(polygon));
     std::vector<ClipperLib::Path> lines;
     for (ClipperLib::Path ring : rings) {
         if (ring.empty()) continue;
+        const Rect box = box_of(ring);
         ring.push_back(ring.front());
         ClipperLib::Clipper clipper;
         clipper.AddPath(ring, ClipperLib::ptSubject, false);
-        clipper.AddPaths(polygons, ClipperLib::ptClip, true);
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            if (!intersect(box, boxes[i]).empty()) clipper.AddPath(polygons[i], ClipperLib::ptClip, true);
+        }
         ClipperLib::PolyTree tree;
         clipper.Execute(ClipperLib::ctIntersection, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
         Polygons stretches;

@@ -24,6 +24,9 @@ double perimeter_of(const Polygons& polygons);
 
 /// Grown (by > 0, round corners) or shrunk (by < 0, sharp corners), mm.
 Polygons offset_polygons(const Polygons& polygons, double by);
+/// Shrunk by `radius` mm, which may be far more than what is thin: in steps, of which the first take that
+/// away. (The offset of a foam's outlines by more than their distance has crossings without number.)
+Polygons erode_polygons(const Polygons& polygons, double radius);
 /// a less b.
 Polygons subtract_polygons(const Polygons& a, const Polygons& b);
 /// What lies in either.

@@ -26,12 +26,13 @@ Samples sample_outlines(const std::vector<Polygons>& pieces, double spacing) {
         samples.begins.push_back(samples.points.size());
         for (const ClipperLib::Path& outline : pieces[piece]) {
             const std::vector<dvec2> points = to_points(outline);
+            double next = 0;  // way to the next sample
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const dvec2 way = points[(i + 1) % points.size()] - points[i];
-                const int steps =
-                    std::max(1, static_cast<int>(std::ceil(std::sqrt(dot(way, way)) / spacing)));
-                for (int k = 0; k < steps; ++k)
-                    samples.points.push_back(points[i] + way * (double(k) / steps));
+                const double length = std::sqrt(dot(way, way));
+                for (; next < length; next += spacing)
+                    samples.points.push_back(points[i] + way * (next / length));
+                next -= length;
             }
         }
         samples.owners.resize(samples.points.size(), piece);

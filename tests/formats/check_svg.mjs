@@ -75,8 +75,8 @@ async function lint(text, name) {
         linting.on("done", resolve);
         linting.lint();
     });
-    require(linting.state === "success",
-            `${name}: svglint says ${JSON.stringify(linting.results)}`);
+    const complaints = Object.values(linting.results).flat().flatMap(rule => rule.messages.map(m => m.reason));
+    require(linting.state === "success", `${name}: svglint says ${complaints.join("; ")}`);
 }
 
 for (const [name, part] of models) {

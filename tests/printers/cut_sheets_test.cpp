@@ -299,6 +299,10 @@ TEST_CASE("senseless cutting settings and supports are refused", "[sheets]") {
     refused([](PrinterProfile& p) { p.cutting.kerf = std::nan(""); });
     refused([](PrinterProfile& p) { p.cutting.tie_width = 0; });
     refused([](PrinterProfile& p) { p.cutting.sheet = {{100}}; });
+    refused([](PrinterProfile& p) {
+        p.cutting.sheet = {{100, 200}};
+        p.cutting.sheet_margin = 50;
+    });
     refused([](PrinterProfile& p) { p.cutting.sheet = {{100, infinity}}; });
     refused([](PrinterProfile& p) { p.vector.tolerance = 0; });
     refused([](PrinterProfile& p) { p.cutting.dialect = SvgDialect::slic3r; });
