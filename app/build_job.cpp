@@ -140,6 +140,10 @@ BuiltJob build_job(const Recipe& recipe) {
         job.bounds = built.outside->bounds();
         set_layers(recipe, job);
     }
+    if (asks_for_dowels(recipe)) {
+        built.dowels = place_dowels(recipe, job);
+        job.part = without_dowels(job.part, *built.dowels);
+    }
     job.name = recipe.part.name;
     job.identity = job_identity(recipe);
     built.job = make_processed(recipe, job);

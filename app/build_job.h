@@ -7,6 +7,7 @@
 #include "app/build_foam.h"
 #include "app/build_regions.h"
 #include "app/build_skin.h"
+#include "app/place_dowels.h"
 #include "app/place_drains.h"
 #include "app/recipe.h"
 #include "engine/island_survey.h"
@@ -25,11 +26,13 @@ struct BuiltJob {
     std::optional<PatternReport> pattern;  ///< empty where the skin is closed
     std::vector<DrilledHole> holes;        ///< that the recipe asks for
     std::optional<DrainReport> drains;     ///< empty where none are asked for
+    std::optional<DowelHoles> dowels;      ///< empty where none are asked for
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
 };
 
-/// Where drains are asked for, the layers are surveyed for cavities. Throws InputError when a file is
+/// Where drains are asked for, the layers are surveyed for cavities; where dowels are, for places inside all
+/// of them. Throws InputError when a file is
 /// unreadable or the part is empty.
 BuiltJob build_job(const Recipe& recipe);
 

@@ -15,8 +15,8 @@
 #include "app/interrupt.h"
 #include "app/island_report.h"
 #include "app/job_picture.h"
-#include "app/outputs.h"
 #include "app/layer_range.h"
+#include "app/outputs.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
@@ -67,9 +67,16 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// What a run made and what is to be said of it.
+struct Written {
+    std::optional<BeamLatticeReport> beams;
+    std::vector<std::string> notes;
+};
+
 void summarise(const SliceOptions& options, const std::vector<Output>& outputs, const BuiltJob& built,
-               const StreamReport& report, const ProgressDisplay& display,
-               const std::optional<BeamLatticeReport>& beams, const Recipe& recipe) {
+               const StreamReport& report, const ProgressDisplay& display, const Written& written,
+               const Recipe& recipe) {
+    const std::optional<BeamLatticeReport>& beams = written.beams;
     const double seconds = display.seconds();
     if (options.json) {
         nlohmann::ordered_json summary{{"output", outputs.front().path},
@@ -83,6 +90,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
         if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
+        if (built.dowels) summary["dowels"] = dowels_json(*built.dowels);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
         if (beams) {
             summary["beams"] = {{"output", recipe.output.beams},
@@ -90,16 +98,19 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
                                 {"nodes", beams->vertices},
                                 {"too_short", beams->dropped}};
         }
+        if (!written.notes.empty()) summary["notes"] = written.notes;
         TextOutput out("");
         out.write(summary.dump(2) + "\n");
         out.close();
     }
     if (options.quiet) return;
+    for (const std::string& note : written.notes) std::fputs(("note: " + note + "\n").c_str(), stderr);
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
     const std::string supports =
         built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
     std::string paths;
-    for (const Output& output : outputs) paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
+    for (const Output& output : outputs)
+        paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
     std::fputs(
         fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", paths,
                     report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
@@ -186,6 +197,8 @@ void run(const SliceOptions& options) {
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    if (built.dowels && !options.quiet)
+        std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
@@ -206,9 +219,11 @@ void run(const SliceOptions& options) {
     stream.cancel = &cancel;
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
     StreamReport report;
+    std::vector<std::string> notes;
     try {
         const auto backend = make_outputs(outputs, options.force);
         report = stream_layers(built.job, *backend, stream);
+        notes = backend->notes();
     } catch (const Interrupted&) {
         display.finish();
         if (to_pipe) throw Interrupted("interrupted; standard output holds a part of the layers");
@@ -217,7 +232,7 @@ void run(const SliceOptions& options) {
     display.finish();
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
-    summarise(options, outputs, built, report, display, beams, recipe);
+    summarise(options, outputs, built, report, display, {beams, notes}, recipe);
 }
 
 }  // namespace
@@ -228,10 +243,10 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     CLI::App& command = *root.add_subcommand("slice", "Turn a recipe or a model into printable layers");
     options->recipe.add_to(command);
     command
-        .add_option(
-            "-o,--output", options->output,
-            "File or folder to make, \"-\" for standard output; default: the part's name. Several, each with -o, are made in one "
-            "run; the ending chooses the format, @PROFILE another machine")
+        .add_option("-o,--output", options->output,
+                    "File or folder to make, \"-\" for standard output; default: the part's name. Several, "
+                    "each with -o, are made in one "
+                    "run; the ending chooses the format, @PROFILE another machine")
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

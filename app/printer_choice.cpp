@@ -117,7 +117,8 @@ std::string backend_of_ending(const std::string& path) {
 std::string default_output(const PrinterProfile& printer, const std::string& part_name) {
     const OutputKind kind = find_backend(printer.backend).output;
     const bool folder =
-        kind == OutputKind::folder || (kind == OutputKind::file_or_folder && !printer.vector.one_file);
+        kind == OutputKind::folder ||
+        (kind == OutputKind::file_or_folder && !(printer.vector.one_file && printer.cutting.sheet.empty()));
     if (folder) return part_name + ".layers";
     const std::string_view endings = find_backend(printer.backend).endings;
     return part_name + std::string(endings.substr(0, endings.find(' ')));

@@ -6,6 +6,7 @@
 
 #include "app/recipe_draft.h"
 #include "app/settings_rows.h"
+#include "printers/cut_sheets.h"
 #include "procedural/nearest_foam.h"
 #include "procedural/tpms.h"
 
@@ -171,6 +172,12 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
+    if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {
+        refuse(0, fmt::format("{}: supports are not cut out of sheets; accepted: none, or another "
+                              "kind of printer, such as svg without kerf, "
+                              "laser, ties, numbers, next_outline and sheet",
+                              where("support", "kind")));
+    }
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
         check_drains(recipe);

@@ -105,10 +105,14 @@ bool flatten(const toml::node& node, std::vector<double>& out, int depth = 0) {
                        [&](const toml::node& part) { return flatten(part, out, depth + 1); });
 }
 
-std::optional<Value> rows(const toml::node& node) {
+std::optional<Value> rows(const toml::node& node, const RowShape& shape) {
     const auto* array = node.as_array();
     if (!array) return std::nullopt;
     NumberRows rows;
+    if (shape.rows == 1) {  // the only row needs no brackets of its own
+        if (!flatten(node, rows.emplace_back())) return std::nullopt;
+        return rows;
+    }
     for (const toml::node& part : *array) {
         if (!flatten(part, rows.emplace_back())) return std::nullopt;
     }
@@ -142,7 +146,7 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
             if (const auto* v = node.as_string()) return GradedNumber{v->get(), ""};
             break;
         case ValueType::rows:
-            return rows(node);
+            return rows(node, setting.shape);
     }
     return std::nullopt;
 }

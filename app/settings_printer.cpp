@@ -206,6 +206,7 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_resin(table);
     add_archive_settings(table);
     add_vector(table);
+    add_cutting_settings(table);
     add_filament(table);
     add_exchange_settings(table);
 }

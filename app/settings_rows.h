@@ -21,6 +21,9 @@ const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 const std::vector<std::string>& words(CliFormat);
 const std::vector<std::string>& words(PanelPixels);
+const std::vector<std::string>& words(Laser);
+const std::vector<std::string>& words(Ties);
+const std::vector<std::string>& words(SvgDialect);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -45,6 +48,8 @@ void add_archive_settings(std::vector<Setting>& table);
 void add_printer_settings(std::vector<Setting>& table);
 /// Those of them about files for other programs and powder-bed machines.
 void add_exchange_settings(std::vector<Setting>& table);
+/// Those of them that are about cutting layers out of sheets.
+void add_cutting_settings(std::vector<Setting>& table);
 
 /// What a row says about a key besides its name and flag.
 struct Facts {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/layer.h"
 
@@ -38,6 +40,8 @@ class Backend {
     virtual void write(const Layer& layer, LayerProduct& product) = 0;
     /// Completes the output and gives it its final name.
     virtual void end() = 0;
+    /// What a user should know about the layers written in this run; a sentence each.
+    virtual std::vector<std::string> notes() const { return {}; }
 };
 
 }  // namespace lamella

@@ -122,6 +122,37 @@ ClipperLib::Path simplified_ring(const ClipperLib::Path& ring, double tolerance)
     return simple;
 }
 
+Polygons combined(ClipperLib::ClipType how, const Polygons& a, const Polygons& b) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(a, ClipperLib::ptSubject, true);
+    clipper.AddPaths(b, ClipperLib::ptClip, true);
+    Polygons result;
+    clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    return result;
+}
+
+Rect box_of(const ClipperLib::Path& polygon) {
+    Rect box;
+    for (const ClipperLib::IntPoint& point : polygon)
+        box = unite(box, Rect{to_point(point), to_point(point)});
+    return box;
+}
+
+/// Makes one of the two lines that end at a point; a ring that was opened there goes on through it.
+void join_at(const ClipperLib::IntPoint& point, Polygons& lines) {
+    std::vector<std::size_t> ending;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i].front() == point || lines[i].back() == point) ending.push_back(i);
+    }
+    if (ending.size() != 2) return;
+    ClipperLib::Path& first = lines[ending[0]];
+    ClipperLib::Path& second = lines[ending[1]];
+    if (first.back() != point) std::ranges::reverse(first);
+    if (second.front() != point) std::ranges::reverse(second);
+    first.insert(first.end(), second.begin() + 1, second.end());
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(ending[1]));
+}
+
 }  // namespace
 
 double Segment::length() const { return std::sqrt(dot(b - a, b - a)); }
@@ -163,12 +194,76 @@ Polygons offset_polygons(const Polygons& polygons, double by) {
     return result;
 }
 
-Polygons subtract_polygons(const Polygons& a, const Polygons& b) {
-    ClipperLib::Clipper clipper;
-    clipper.AddPaths(a, ClipperLib::ptSubject, true);
-    clipper.AddPaths(b, ClipperLib::ptClip, true);
+Polygons erode_polygons(const Polygons& polygons, double radius) {
+    constexpr double least_step = 0.25;  // mm
     Polygons result;
-    clipper.Execute(ClipperLib::ctDifference, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    for (Polygons& piece : split_pieces(polygons)) {
+        const Interval x = extent(piece, {1, 0}), y = extent(piece, {0, 1});
+        if (std::min(x.width(), y.width()) < 2 * radius) continue;
+        double step = least_step;
+        for (double done = 0; done < radius && !piece.empty(); done += step) {
+            step = std::min(std::max(least_step, done), radius - done);
+            piece = offset_polygons(piece, -step);
+        }
+        result.insert(result.end(), piece.begin(), piece.end());
+    }
+    return result;
+}
+
+Polygons subtract_polygons(const Polygons& a, const Polygons& b) {
+    return combined(ClipperLib::ctDifference, a, b);
+}
+
+Polygons unite_polygons(const Polygons& a, const Polygons& b) { return combined(ClipperLib::ctUnion, a, b); }
+
+Polygons intersect_polygons(const Polygons& a, const Polygons& b) {
+    return combined(ClipperLib::ctIntersection, a, b);
+}
+
+std::vector<NestedPolygon> nested_polygons(const Polygons& polygons) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
+    ClipperLib::PolyTree tree;
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<NestedPolygon> nested;
+    std::vector<std::pair<const ClipperLib::PolyNode*, int>> open{{&tree, -1}};
+    for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: the depth never falls
+        const auto [node, depth] = open[i];
+        if (depth >= 0) nested.push_back({node->Contour, depth});
+        for (const ClipperLib::PolyNode* child : node->Childs) open.emplace_back(child, depth + 1);
+    }
+    return nested;
+}
+
+std::vector<ClipperLib::Path> rings_inside(const Polygons& rings, const Polygons& polygons) {
+    std::vector<Rect> boxes;
+    boxes.reserve(polygons.size());
+    for (const ClipperLib::Path& polygon : polygons) boxes.push_back(box_of(polygon));
+    std::vector<ClipperLib::Path> lines;
+    for (ClipperLib::Path ring : rings) {
+        if (ring.empty()) continue;
+        const Rect box = box_of(ring);
+        ring.push_back(ring.front());
+        ClipperLib::Clipper clipper;
+        clipper.AddPath(ring, ClipperLib::ptSubject, false);
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            if (!intersect(box, boxes[i]).empty()) clipper.AddPath(polygons[i], ClipperLib::ptClip, true);
+        }
+        ClipperLib::PolyTree tree;
+        clipper.Execute(ClipperLib::ctIntersection, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+        Polygons stretches;
+        ClipperLib::OpenPathsFromPolyTree(tree, stretches);
+        join_at(ring.front(), stretches);
+        lines.insert(lines.end(), stretches.begin(), stretches.end());
+    }
+    return lines;
+}
+
+Polygons around_lines(const std::vector<ClipperLib::Path>& lines, double reach) {
+    ClipperLib::ClipperOffset offset(2, 0.005 * polygon_scale);
+    offset.AddPaths(lines, ClipperLib::jtRound, ClipperLib::etOpenRound);
+    Polygons result;
+    offset.Execute(result, reach * polygon_scale);
     return result;
 }
 

@@ -24,8 +24,30 @@ double perimeter_of(const Polygons& polygons);
 
 /// Grown (by > 0, round corners) or shrunk (by < 0, sharp corners), mm.
 Polygons offset_polygons(const Polygons& polygons, double by);
+/// Shrunk by `radius` mm, which may be far more than what is thin: in steps, of which the first take that
+/// away. (The offset of a foam's outlines by more than their distance has crossings without number.)
+Polygons erode_polygons(const Polygons& polygons, double radius);
 /// a less b.
 Polygons subtract_polygons(const Polygons& a, const Polygons& b);
+/// What lies in either.
+Polygons unite_polygons(const Polygons& a, const Polygons& b);
+/// What lies in both.
+Polygons intersect_polygons(const Polygons& a, const Polygons& b);
+
+/// A closed polygon and how many others enclose it.
+struct NestedPolygon {
+    ClipperLib::Path polygon;
+    int depth = 0;
+};
+/// The borders of the polygons' union, each enclosed one behind what encloses it.
+std::vector<NestedPolygon> nested_polygons(const Polygons& polygons);
+
+/// Stretches of the rings that lie inside the polygons, as open lines; a ring that lies inside entirely ends
+/// where it begins.
+std::vector<ClipperLib::Path> rings_inside(const Polygons& rings, const Polygons& polygons);
+/// All that lies within `reach` mm of the lines.
+Polygons around_lines(const std::vector<ClipperLib::Path>& lines, double reach);
+
 /// One entry for each connected piece, with its holes.
 std::vector<Polygons> split_pieces(const Polygons& polygons);
 /// With fewer points: none that is left out lies farther than `tolerance` mm from the new border. Rings that

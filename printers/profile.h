@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lamella {
 
@@ -78,6 +79,35 @@ struct ExchangeProfile {
     int package_layers = 50;      ///< slices in each file inside a 3MF package
 };
 
+/// Whose software reads the strokes of a cutting sheet.
+enum class Laser : unsigned char { none, generic, lightburn, trotec, epilog, glowforge, xtool };
+
+/// What becomes of a layer that would fall into loose pieces.
+enum class Ties : unsigned char { none, join, refuse };
+
+/// Which reader an SVG file is for.
+enum class SvgDialect : unsigned char { plain, slic3r };
+
+/// How layers are cut out of sheets, as thick as a layer is high. Lengths in mm.
+struct CuttingProfile {
+    Laser laser = Laser::none;
+    SvgDialect dialect = SvgDialect::plain;
+    double kerf = 0;  ///< width of what the cutter takes away
+    Ties ties = Ties::none;
+    double tie_width = 2;
+    bool numbers = false;       ///< engrave each layer's number
+    double number_height = 5;   ///< at most
+    bool next_outline = false;  ///< score where the layer above comes to lie
+    std::vector<std::vector<double>>
+        sheet;                ///< a row, width and height of a sheet that layers share; empty: one layer each
+    double sheet_margin = 5;  ///< free at a sheet's edges and between layers
+    int dowels = 0;           ///< holes through all layers
+    double dowel_diameter = 3;  ///< of such a hole
+    double dowel_margin = 2;    ///< of material about it
+    double dowel_height = 0;    ///< how far up the holes reach from the bed; 0: through the part
+    std::vector<std::vector<double>> dowel_at;  ///< x and y of each; empty: where there is room
+};
+
 struct FilamentProfile {
     double bed_x = 220, bed_y = 220, bed_z = 250;  ///< mm
     double nozzle = 0.4;                           ///< mm
@@ -131,6 +161,7 @@ struct PrinterProfile {
     ResinProfile resin;
     VectorProfile vector;
     ExchangeProfile exchange;
+    CuttingProfile cutting;
     FilamentProfile filament;
     SupportProfile support;
 };

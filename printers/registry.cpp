@@ -8,6 +8,7 @@
 
 #include "engine/error.h"
 #include "printers/cli.h"
+#include "printers/dxf.h"
 #include "printers/ember.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
@@ -28,10 +29,12 @@ constexpr std::array backend_table = {
     BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo},
     BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
                 OutputKind::file, make_nanodlp, Medium::pixels, true},
-    BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file, make_ember,
-                Medium::pixels, true},
+    BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file,
+                make_ember, Medium::pixels, true},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
                 OutputKind::file_or_folder, make_svg, Medium::contours, true},
+    BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
+                make_dxf, Medium::contours},
     BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", ".gcode", OutputKind::file,
                 make_gcode, Medium::beads, true},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
@@ -109,10 +112,9 @@ std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::
         for (const BackendInfo& other : backends()) {
             if (other.streams) able += (able.empty() ? "" : ", ") + std::string(other.name);
         }
-        throw InputError(std::string(info.name) +
-                         " files cannot go to standard output, for their beginning is completed at the end; "
-                         "name a file, or use a back-end that can: " +
-                         able);
+        throw InputError(
+            std::string(info.name) +
+            " files cannot go to standard output; name one with -o, or use a back-end that can: " + able);
     }
     return info.make(profile, output_path, force);
 }

@@ -45,6 +45,15 @@ class SeveralOutputs : public Backend {
         for (const auto& output : outputs_) output->end();
     }
 
+    std::vector<std::string> notes() const override {
+        std::vector<std::string> all;
+        for (const auto& output : outputs_) {
+            const std::vector<std::string> notes = output->notes();
+            all.insert(all.end(), notes.begin(), notes.end());
+        }
+        return all;
+    }
+
   private:
     std::vector<std::unique_ptr<Backend>> outputs_;
     std::vector<int> next_;  ///< layer that each lacks first

@@ -9,13 +9,15 @@
 
 #include "engine/error.h"
 #include "engine/number_format.h"
+#include "printers/cut_sheets.h"
+#include "printers/slic3r_svg.h"
+#include "printers/svg_sheet.h"
+#include "printers/svg_text.h"
 #include "printers/unfinished_file.h"
 #include "printers/unfinished_folder.h"
 
 namespace lamella {
 namespace {
-
-constexpr int decimals = 4;  // 0.1 um
 
 struct SvgProduct : LayerProduct {
     std::string path;      ///< path data; empty for an empty layer
@@ -31,12 +33,7 @@ struct Page {
 };
 
 Page make_page(const VectorProfile& profile, const Box& bounds) {
-    if (!(profile.margin >= 0 && profile.margin <= 1e4)) {
-        throw InputError(fmt::format("margin = {} mm: must be 0 to 10000", profile.margin));
-    }
-    if (!(profile.tolerance >= 1e-4 && profile.tolerance <= 10)) {
-        throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", profile.tolerance));
-    }
+    check_page(profile);
     return {bounds.lo.x - profile.margin, bounds.hi.y + profile.margin, bounds.size().x + 2 * profile.margin,
             bounds.size().y + 2 * profile.margin};
 }
@@ -59,31 +56,10 @@ std::string path_data(const std::vector<Contour>& contours, const Page& page) {
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return depths[a] > depths[b]; });
     std::string data;
     for (const std::size_t i : order) {
-        char command = 'M';
-        for (const dvec2& p : contours[i].points) {
-            data.push_back(command);
-            append_number(data, p.x - page.left, decimals);
-            data.push_back(' ');
-            append_number(data, page.top - p.y, decimals);
-            command = 'L';
-        }
-        data += "Z\n";
+        append_svg_line(data, contours[i].points, true, {page.left, page.top});
     }
     return data;
 }
-
-std::string svg_start(const Page& page) {
-    const std::string width = format_number(page.width, decimals);
-    const std::string height = format_number(page.height, decimals);
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n"
-        "<svg xmlns=\"http://www.w3.org/2000/svg\"\n"
-        "     xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
-        "     xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\"\n"
-        "     version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
-        width, height);
-}
-constexpr const char* svg_end = "</svg>\n";
 
 /// Attributes of the paths.
 struct Style {
@@ -154,7 +130,7 @@ class SvgFile : public Svg {
 
     int begin(const Job& job, LayerRange range, bool resume) override {
         const int next = output_.begin(open(job, range), resume);
-        if (!output_.resumed()) output_.commit(svg_start(page()), next);
+        if (!output_.resumed()) output_.commit(svg_start({page().width, page().height}), next);
         return next;
     }
     void write(const Layer& layer, LayerProduct& product) override {
@@ -182,8 +158,8 @@ class SvgFolder : public Svg {
         return output_.begin(stamp, resume);
     }
     void write(const Layer& layer, LayerProduct& product) override {
-        const std::string text =
-            svg_start(page()) + group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;
+        const std::string text = svg_start({page().width, page().height}) +
+                                 group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;
         output_.write(layer.index(), std::as_bytes(std::span(text)), product);
     }
     void end() override { output_.end(description_); }
@@ -196,6 +172,21 @@ class SvgFolder : public Svg {
 }  // namespace
 
 std::unique_ptr<Backend> make_svg(const PrinterProfile& profile, const std::string& path, bool force) {
+    const bool cutting = asks_for_cutting(profile);
+    if (profile.cutting.dialect == SvgDialect::slic3r) {
+        if (cutting || !profile.vector.one_file) {
+            throw InputError(
+                "printer.dialect = \"slic3r\" is one file of filled slices for projectors; accepted: "
+                "one_file = "
+                "true, and neither kerf, laser, ties, numbers, next_outline nor sheet");
+        }
+        return make_slic3r_svg(profile, path, force);
+    }
+    if (cutting) {
+        const auto format = std::make_shared<SvgSheetFormat>(profile.cutting.laser);
+        return profile.cutting.sheet.empty() ? make_layer_sheets(profile, format, path, force)
+                                             : make_nested_sheets(profile, format, path, force);
+    }
     if (profile.vector.one_file) return std::make_unique<SvgFile>(profile, path, force);
     return std::make_unique<SvgFolder>(profile, path, force);
 }

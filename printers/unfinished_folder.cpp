@@ -15,6 +15,7 @@ namespace {
 constexpr const char* job_file = "job.json";
 constexpr const char* stamp_file = "unfinished.json";
 constexpr const char* journal_file = "unfinished.layers";
+constexpr std::string_view sheet_prefix = "sheet_";
 
 nlohmann::ordered_json read_json(const fs::path& path) {
     std::ifstream in(path);
@@ -48,7 +49,10 @@ bool UnfinishedFolder::is_ours(const fs::path& file) const {
     if (stem == job_file || stem == stamp_file) return true;
     // Of whatever kind: a folder of one format may replace one of another.
     stem = stem.substr(0, stem.find('.'));
-    return stem.size() >= 5 && std::ranges::all_of(stem, [](char c) { return '0' <= c && c <= '9'; });
+    const bool sheet = stem.starts_with(sheet_prefix);
+    if (sheet) stem.remove_prefix(sheet_prefix.size());
+    return stem.size() >= (sheet ? 3 : 5) &&
+           std::ranges::all_of(stem, [](char c) { return '0' <= c && c <= '9'; });
 }
 
 void UnfinishedFolder::check_replaceable() const {
@@ -82,16 +86,18 @@ void UnfinishedFolder::remove_ours(const fs::path& folder) const {
     if (error) throw FaultError("cannot remove " + folder.string() + ": " + error.message());
 }
 
-int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
+nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume) {
     if (names_standard_output(path_)) {
-        if (resume) throw InputError("standard output cannot be continued; name a folder for --resume");
-        pipe_ = OutputFile::standard_output();
-        return stamp.range.first;
+        throw InputError(
+            "sheets that layers share are a folder of files; name one with -o instead of standard output");
     }
+    nlohmann::ordered_json state;
     if (is_present(path_)) check_replaceable();
     if (is_present(partial_)) {
         if (resume) {
-            check_same_job(read_json(partial_ / stamp_file), stamp, partial_);
+            const nlohmann::ordered_json found = read_json(partial_ / stamp_file);
+            check_same_job(found, stamp, partial_);
+            state = found.value("state", nlohmann::ordered_json());
         } else if (!force_) {
             throw InputError(partial_.string() +
                              " is left from a run that was stopped; continue it with --resume, or discard it "
@@ -103,7 +109,32 @@ int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
     std::error_code error;
     fs::create_directories(partial_, error);
     if (error) throw FaultError("cannot make the folder " + partial_.string() + ": " + error.message());
-    write_whole_file(partial_ / stamp_file, to_json(stamp).dump(2) + "\n");
+    stamp_ = stamp;
+    note(state);
+    return state;
+}
+
+void UnfinishedFolder::note(const nlohmann::ordered_json& state) {
+    nlohmann::ordered_json stamp = to_json(stamp_);
+    if (!state.is_null()) stamp["state"] = state;
+    write_whole_file(partial_ / stamp_file, stamp.dump(2) + "\n");
+}
+
+void UnfinishedFolder::commit(const std::string& file, std::string_view text,
+                              const nlohmann::ordered_json& state) {
+    write_whole_file(partial_ / file, text);
+    note(state);
+}
+
+bool UnfinishedFolder::has(const std::string& file) const { return is_present(partial_ / file); }
+
+int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
+    if (names_standard_output(path_)) {
+        if (resume) throw InputError("standard output cannot be continued; name a folder for --resume");
+        pipe_ = OutputFile::standard_output();
+        return stamp.range.first;
+    }
+    open(stamp, resume);
     read_journal(stamp);
     // Written anew, so that no half a line is left in it.
     journal_ = OutputFile::create(partial_ / journal_file);
@@ -143,7 +174,7 @@ void UnfinishedFolder::end(nlohmann::ordered_json job) {
         pipe_.close();
         return;
     }
-    job["areas"] = areas_;
+    if (!areas_.empty()) job["areas"] = areas_;
     const auto is_some = [](double area) { return area > 0; };
     if (std::any_of(support_areas_.begin(), support_areas_.end(), is_some))
         job["support_areas"] = support_areas_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "printers/job_stamp.h"
@@ -28,8 +29,15 @@ class UnfinishedFolder {
     int begin(const JobStamp& stamp, bool resume);
     /// Writes the file of a layer, the next one.
     void write(int layer, std::span<const std::byte> bytes, const LayerProduct& product);
-    /// Writes job.json, which marks the folder complete, with the areas of all layers, and gives the folder
-    /// its name.
+
+    /// For folders whose files are not one a layer: makes the folder and returns what the last `commit` noted
+    /// down, null when there is none. Throws as begin does.
+    nlohmann::ordered_json open(const JobStamp& stamp, bool resume);
+    /// Writes a file, and then notes down what a run that continues here has to know.
+    void commit(const std::string& file, std::string_view text, const nlohmann::ordered_json& state);
+    bool has(const std::string& file) const;
+    /// Writes job.json, which marks the folder complete, with the areas of layers that were written one by
+    /// one, and gives the folder its name.
     void end(nlohmann::ordered_json job);
     /// Name of a layer's file, "00042.png".
     std::string file_name(int layer) const;
@@ -37,6 +45,7 @@ class UnfinishedFolder {
   private:
     void check_replaceable() const;
     void remove_ours(const std::filesystem::path& folder) const;
+    void note(const nlohmann::ordered_json& state);
     bool is_ours(const std::filesystem::path& file) const;
     void read_journal(const JobStamp& stamp);
 
@@ -46,7 +55,8 @@ class UnfinishedFolder {
     bool force_;
     OutputFile journal_;
     std::vector<double> areas_, support_areas_;  ///< of the layers that are there, mm^2
-    OutputFile pipe_;  ///< standard output where that is asked for
+    OutputFile pipe_;                            ///< standard output where that is asked for
+    JobStamp stamp_;
 };
 
 /// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.
