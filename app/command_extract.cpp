@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/commands.h"
 #include "app/identity.h"
@@ -40,6 +41,12 @@ std::vector<std::byte> encode(const MaskImage& mask, const JobFacts& facts) {
         ++runs.back().length;
     }
     return encode_png({mask.width, mask.height, facts.pixel_x.value_or(0), facts.pixel_y.value_or(0)}, runs);
+}
+
+/// By the greys, mm^2; 0 where the size of a pixel is not known.
+double covered_area(const MaskImage& mask, const JobFacts& facts) {
+    const double pixels = std::accumulate(mask.pixels.begin(), mask.pixels.end(), 0.0) / 255;
+    return pixels * facts.pixel_x.value_or(0) * facts.pixel_y.value_or(0);
 }
 
 /// A job.json as that of a stack, with what the file told of itself.
@@ -89,7 +96,10 @@ void run(const ExtractOptions& options) {
             throw Interrupted(
                 "interrupted; the layers so far are kept. The same command with --resume goes on");
         }
-        output.write(next, encode(job->layer(next), job->facts()));
+        const MaskImage mask = job->layer(next);
+        LayerProduct areas;
+        areas.area = covered_area(mask, job->facts());
+        output.write(next, encode(mask, job->facts()), areas);
         display.show({next - first + 1, missing, next});
     }
     display.finish();

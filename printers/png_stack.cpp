@@ -25,10 +25,9 @@ class PngStack : public Backend {
         description_.update(describe_mask(profile_.image));
         description_["placement"] = placement();
         if (job.supports) description_["support_grey"] = profile_.support.grey;
-        description_["exposure"] = exposures();
-        const std::string settings =
-            extension(profile_.image.format) +
-            (" " + mask_settings(profile_, job) + " " + description_["exposure"].dump());
+        description_.update(exposures());
+        const std::string settings = extension(profile_.image.format) +
+                                     (" " + mask_settings(profile_, job) + " " + exposures().dump());
         return output_.begin({job.identity, settings, range}, resume);
     }
 

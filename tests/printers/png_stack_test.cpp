@@ -270,7 +270,7 @@ TEST_CASE("job.json has every layer's area, those of an earlier run included", "
         CHECK(json["areas"][static_cast<std::size_t>(layer - 2)].get<double>() ==
               Approx(std::numbers::pi * radius * radius).epsilon(2e-3));
     }
-    CHECK(json["exposure"]["exposure"] == small_display().resin.exposure);
+    CHECK(json["exposure"] == small_display().resin.exposure);
 }
 
 TEST_CASE("shards hold the files of the whole", "[png_stack]") {
