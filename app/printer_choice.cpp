@@ -70,11 +70,13 @@ bool is_written(const Setting& setting) {
 
 std::string setting_line(const Setting& setting, const Recipe& recipe) {
     const Value value = setting.load(recipe, 0);
-    const std::string text = format_value(value);
     const bool is_text = std::holds_alternative<std::string>(value);
-    // An empty text is no value: the key is there to be filled in.
-    const std::string assignment = fmt::format("{}{} = {}", is_text && text.empty() ? "# " : "", setting.key,
-                                               is_text ? quoted(text) : text);
+    const auto* table = std::get_if<NumberRows>(&value);
+    const std::string text = table != nullptr && table->empty() ? "[]" : format_value(value);
+    // An empty text or table is no value: the key is there to be filled in.
+    const bool is_empty = text.empty() || text == "[]";
+    const std::string assignment =
+        fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, is_text ? quoted(text) : text);
     return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
                        setting.help);
 }

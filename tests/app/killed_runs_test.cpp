@@ -127,5 +127,5 @@ TEST_CASE("several outputs of one run are those of several runs, continued too")
     CHECK(run_lamella(part + "--force -o " + folder / "a.sl1" + " -o " + folder / "./a.sl1").code == 2);
     const Outcome unknown = run_lamella(part + "-o " + folder / "b.sl1@prusa-sl2");
     CHECK(unknown.code == 2);
-    CHECK(mentions(unknown.err, "did you mean 'prusa-sl1'"));
+    CHECK(mentions(unknown.err, "did you mean `prusa-sl1`"));
 }

@@ -161,7 +161,8 @@ TEST_CASE("a profile written down as TOML is read back the same") {
     for (const Setting& setting : settings()) {
         if (setting.section != "printer" && setting.section != "support") continue;
         const bool other = setting.name() == "printer.profile" || setting.name() == "support.kind" ||
-                           setting.key == "pixel" || setting.key == "dpi";
+                           setting.key == "pixel" || setting.key == "dpi" ||
+                           setting.type == ValueType::rows;  // empty: only to be filled in
         INFO(setting.name());
         const std::string section = text.substr(text.find("\n[" + setting.section + "]"));
         CHECK((section.substr(0, section.find("\n\n")).find("\n" + setting.key + " = ") !=

@@ -25,6 +25,10 @@ TEST_CASE("every back-end can print", "[registry]") {
         CHECK(&find_backend(backend.name) == &backend);
         PrinterProfile profile;
         profile.name = profile.backend = backend.name;
+        if (profile.name == "ember") {
+            profile.image.width = 1280;
+            profile.image.height = 800;
+        }
         const std::string path = folder / backend.name;
         const double volume = run_layers(job, *make_backend(profile, path, false), {0, 2});
         CHECK(volume == Approx(3.14159265 * 4 * 0.2).epsilon(0.01));
