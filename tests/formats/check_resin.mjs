@@ -105,7 +105,7 @@ const volume = sl1Masks.reduce((sum, mask) => sum + area(mask) * height, 0);
 requireNear(volume, sl1Masks.reduce((sum, _, k) => sum + section(k) * height, 0), 1e-3, "volume of the ball in SL1");
 for (let k = 10; k < layers - 10; ++k) requireNear(area(sl1Masks[k]), section(k), 1e-3, `area of SL1 layer ${k}`);
 lamella("slice", ...box, ...plate, "--printer-kind", "sl1", "--printer-sub-rows", "64", "-o", "box.sl1");
-const boxMasks = [...(await unzip("box.sl1"))].filter(([name]) => name.endsWith(".png"));
+const boxMasks = [...(await unzip("box.sl1"))].filter(([name]) => /^[^/]*\.png$/.test(name));
 require(boxMasks.length === boxLayers, "layers of the box");
 for (const [name, bytes] of boxMasks) requireNear(area(greys(bytes)), boxArea, 1e-3, `area of the box in ${name}`);
 
