@@ -64,6 +64,7 @@ std::vector<Output> read_outputs(const std::vector<std::string>& named, const Re
 
 std::unique_ptr<Backend> make_outputs(const std::vector<Output>& outputs, bool force) {
     std::vector<std::unique_ptr<Backend>> backends;
+    backends.reserve(outputs.size());
     for (const Output& output : outputs) backends.push_back(make_backend(output.printer, output.path, force));
     return backends.size() == 1 ? std::move(backends.front()) : make_several_outputs(std::move(backends));
 }

@@ -346,14 +346,14 @@ bool cuts_sheets(const PrinterProfile& profile) {
 }
 
 std::unique_ptr<Backend> make_layer_sheets(const PrinterProfile& profile,
-                                           std::shared_ptr<const SheetFormat> format, const std::string& path,
-                                           bool force) {
+                                           const std::shared_ptr<const SheetFormat>& format,
+                                           const std::string& path, bool force) {
     if (profile.vector.one_file) return std::make_unique<LayerSheetFile>(profile, format, path, force);
     return std::make_unique<LayerSheetFolder>(profile, format, path, force);
 }
 
 std::unique_ptr<Backend> make_nested_sheets(const PrinterProfile& profile,
-                                            std::shared_ptr<const SheetFormat> format,
+                                            const std::shared_ptr<const SheetFormat>& format,
                                             const std::string& path, bool force) {
     return std::make_unique<NestedSheets>(profile, format, path, force);
 }

@@ -32,13 +32,13 @@ bool cuts_sheets(const PrinterProfile& profile);
 /// One sheet a layer: a folder with PATH/00000.svg and so on, all of the part's size and a margin, or one
 /// file with a group a layer.
 std::unique_ptr<Backend> make_layer_sheets(const PrinterProfile& profile,
-                                           std::shared_ptr<const SheetFormat> format, const std::string& path,
-                                           bool force);
+                                           const std::shared_ptr<const SheetFormat>& format,
+                                           const std::string& path, bool force);
 
 /// Several layers a sheet, in their order, on sheets of CuttingProfile::sheet: PATH/sheet_001.svg and so on,
 /// each written when it is full. Of a range of layers, sheets begin with its first one.
 std::unique_ptr<Backend> make_nested_sheets(const PrinterProfile& profile,
-                                            std::shared_ptr<const SheetFormat> format,
+                                            const std::shared_ptr<const SheetFormat>& format,
                                             const std::string& path, bool force);
 
 }  // namespace lamella

@@ -106,8 +106,8 @@ std::string png_file(const Picture& picture) {
 std::string rgb565(const Picture& picture) {
     std::string out;
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
-        const unsigned value =
-            (picture.rgb[i] >> 3U) << 11U | (picture.rgb[i + 1] >> 2U) << 5U | picture.rgb[i + 2] >> 3U;
+        const unsigned red = picture.rgb[i], green = picture.rgb[i + 1], blue = picture.rgb[i + 2];
+        const unsigned value = (red >> 3U) << 11U | (green >> 2U) << 5U | blue >> 3U;
         out.push_back(static_cast<char>(value >> 8U));
         out.push_back(static_cast<char>(value & 0xffU));
     }
