@@ -54,7 +54,8 @@ std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page
         runs.clear();
         slice.spans(band, scratch, rows);
         antialiased ? coverage(band, rows, runs) : threshold(band, rows, runs);
-        for (const GreyRun& run : runs) grey.insert(grey.end(), run.length, run.value);
+        for (const GreyRun& run : runs)
+            grey.insert(grey.end(), run.length, static_cast<std::uint8_t>(run.value));
     }
     return grey;
 }

@@ -80,6 +80,9 @@ void add_image(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_rows; }>(
         "printer", "sub_rows", "--printer-sub-rows",
         {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.bits; }>(
+        "printer", "bits", "--printer-bits",
+        {.limits = {1, 16}, .help = "Bits of a pixel in a stack of PNG files: 1, 8 or 16."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_layers; }>(
         "printer", "sub_layers", "--printer-sub-layers",
         {.limits = {1, 64},
@@ -101,7 +104,8 @@ void add_image(std::vector<Setting>& t) {
 void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.machine; }>(
         "printer", "machine", "--printer-machine",
-        {.help = "Model that an SL1 archive is for; the machine refuses those for another one."}));
+        {.help = "Model that an archive is for, else the profile's name; SL1 machines refuse those for "
+                 "another one."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.material; }>(
         "printer", "material", "--printer-material", {.help = "Name of the resin."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.exposure; }>(

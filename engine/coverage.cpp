@@ -14,7 +14,7 @@ class RowWriter {
   public:
     RowWriter(std::vector<GreyRun>& out, int width) : out_(out), first_(out.size()), left_(width) {}
 
-    void push(int length, std::uint8_t value) {
+    void push(int length, std::uint16_t value) {
         if (length <= 0) return;
         left_ -= length;
         if (out_.size() > first_ && out_.back().value == value) {
@@ -23,7 +23,7 @@ class RowWriter {
             out_.push_back({static_cast<std::uint32_t>(length), value});
         }
     }
-    void finish(std::uint8_t value) { push(left_, value); }
+    void finish(std::uint16_t value) { push(left_, value); }
 
   private:
     std::vector<GreyRun>& out_;
@@ -52,7 +52,7 @@ class CoverageRow {
 
     /// Writes the row as grey runs, `value_of` maps coverage (0 to 256 times the lines) to grey, and clears
     /// it.
-    void flush(const std::vector<std::uint8_t>& value_of, std::vector<GreyRun>& out) {
+    void flush(const std::vector<std::uint16_t>& value_of, std::vector<GreyRun>& out) {
         RowWriter row(out, width_);
         std::int32_t cover = 0;
         int from = 0;
@@ -77,11 +77,11 @@ class CoverageRow {
     std::vector<std::uint64_t> touched_;
 };
 
-std::vector<std::uint8_t> grey_table(int sub) {
-    const int full = run_unit * sub;
-    std::vector<std::uint8_t> table(static_cast<std::size_t>(full) + 1);
-    for (int c = 0; c <= full; ++c)
-        table[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>((c * 255 + full / 2) / full);
+std::vector<std::uint16_t> grey_table(int sub, int white) {
+    const std::int64_t full = std::int64_t{run_unit} * sub;
+    std::vector<std::uint16_t> table(static_cast<std::size_t>(full) + 1);
+    for (std::int64_t c = 0; c <= full; ++c)
+        table[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>((c * white + full / 2) / full);
     return table;
 }
 
@@ -125,8 +125,8 @@ std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> cro
 
 }  // namespace
 
-void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out) {
-    const std::vector<std::uint8_t> value_of = grey_table(band.sub);
+void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out, int white) {
+    const std::vector<std::uint16_t> value_of = grey_table(band.sub, white);
     CoverageRow row(band.hi - band.lo);
     const std::int32_t origin = band.lo * run_unit;
     std::size_t line = 0;
@@ -141,7 +141,7 @@ void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& 
     }
 }
 
-void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out) {
+void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out, int white) {
     // Pixel j has its centre at 256 j + 128.
     const auto first_at_or_after = [&](std::int32_t u) { return ((u + run_unit / 2 - 1) >> 8) - band.lo; };
     for (std::size_t l = 0; l < spans.lines(); ++l) {
@@ -150,15 +150,15 @@ void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>&
         for (const Run& run : spans.line(l)) {
             const int begin = first_at_or_after(run.begin), end = first_at_or_after(run.end);
             row.push(begin - from, 0);
-            row.push(end - begin, 255);
+            row.push(end - begin, static_cast<std::uint16_t>(white));
             from = end;
         }
         row.finish(0);
     }
 }
 
-void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch,
-                    std::vector<GreyRun>& out) {
+void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch, std::vector<GreyRun>& out,
+                    int white) {
     // A pixel is 2 x 2 lattice cells, so that a chord's deviation from a curve stays small against the pixel.
     // A ring of pixels round the band keeps the grid's void border away. A mirrored band is a lattice of
     // negative pitch.
@@ -192,7 +192,7 @@ void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scrat
         RowWriter row(out, band.hi - band.lo);
         for (int p = 1; p + 1 < width; ++p) {
             const auto i = static_cast<std::size_t>(rows ? p : r), j = static_cast<std::size_t>(rows ? r : p);
-            row.push(1, static_cast<std::uint8_t>((area[j * columns + i] * 255 + full / 2) / full));
+            row.push(1, static_cast<std::uint16_t>((area[j * columns + i] * white + full / 2) / full));
         }
     }
 }

@@ -99,7 +99,7 @@ class Tokenizer {
             copy(runs);
         } else {
             put(1, 0);  // the filter byte: none
-            for (const GreyRun& run : runs) put(run.length, run.value);
+            for (const GreyRun& run : runs) put(run.length, static_cast<std::uint8_t>(run.value));
         }
         previous_ = runs;
     }
@@ -124,7 +124,7 @@ class Tokenizer {
     void copy(std::span<const GreyRun> runs) {
         flush();
         adler_.append_run(1, 0);
-        for (const GreyRun& run : runs) adler_.append_run(run.length, run.value);
+        for (const GreyRun& run : runs) adler_.append_run(run.length, static_cast<std::uint8_t>(run.value));
         if (tokens_.back().copy) {
             tokens_.back().count += width_ + 1;
         } else {

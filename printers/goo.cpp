@@ -153,7 +153,7 @@ class Goo : public Backend {
         out.text("Lamella", 32);
         out.text(LAMELLA_VERSION, 24);
         out.text("1980-01-01 00:00:00", 24);
-        out.text(resin_.machine, 32);
+        out.text(machine_name(profile_), 32);
         out.text("DLP", 32);
         out.text(resin_.material, 32);
         out.u16(image.antialiasing == Antialiasing::rows ? static_cast<std::uint32_t>(image.sub_rows) : 1);

@@ -22,7 +22,7 @@ void GooEncoder::put(std::uint32_t byte) {
 void GooEncoder::add(std::span<const GreyRun> runs) {
     for (const GreyRun& run : runs) {
         if (run.value != value_) flush();
-        value_ = run.value;
+        value_ = static_cast<std::uint8_t>(run.value);
         length_ += run.length;
     }
 }

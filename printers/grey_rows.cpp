@@ -17,13 +17,16 @@ bool is_plain(const GreyTable& table) {
 
 }  // namespace
 
+int white_of(const ImageProfile& profile) { return profile.bits == 16 ? white_of_16_bits : white_of_8_bits; }
+
 GreyTable grey_table(const ImageProfile& profile, double share) {
-    GreyTable table{};
+    const int white = white_of(profile);
+    GreyTable table(static_cast<std::size_t>(white) + 1);
     for (std::size_t value = 1; value < table.size(); ++value) {
-        const double coverage = static_cast<double>(value) / 255;
+        const double coverage = static_cast<double>(value) / white;
         const double toned = profile.gamma == 1 ? coverage : power(coverage, profile.gamma);
         const double grey = profile.least_grey + (profile.full_grey - profile.least_grey) * toned;
-        table[value] = static_cast<std::uint8_t>(std::floor(255 * grey * share + 0.5));
+        table[value] = static_cast<std::uint16_t>(std::floor(white * grey * share + 0.5));
     }
     return table;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace lamella {
 class RowJoiner {
   public:
     RowJoiner(std::vector<GreyRun>& out, int width) : out_(out), width_(static_cast<std::uint32_t>(width)) {}
-    void push(std::uint32_t length, std::uint8_t value) {
+    void push(std::uint32_t length, std::uint16_t value) {
         if (column_ > 0 && out_.back().value == value) {
             out_.back().length += length;
         } else {
@@ -46,11 +45,15 @@ void combine_rows(const std::vector<Run>& a, const std::vector<GreyRun>& b, cons
     }
 }
 
-/// What becomes of each grey value.
-using GreyTable = std::array<std::uint8_t, 256>;
+/// What becomes of each grey value, from 0 to white.
+using GreyTable = std::vector<std::uint16_t>;
 
-/// Of coverage: the display's gamma and limits, then a share of 0 to 1. No coverage stays black.
+/// Of coverage: the display's gamma and limits, then a share of 0 to 1. No coverage stays black. As long as
+/// the profile's bits ask for.
 GreyTable grey_table(const ImageProfile& profile, double share);
+
+/// Grey of a pixel that is covered wholly.
+int white_of(const ImageProfile& profile);
 
 /// Changes the values of rows of `width` pixels; `spare` is room to work in.
 void apply(const GreyTable& table, int width, std::vector<GreyRun>& runs, std::vector<GreyRun>& spare);

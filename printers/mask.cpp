@@ -42,6 +42,12 @@ void check_profile(const ImageProfile& profile) {
                         "out; accepted: antialiasing = \"rows\" or \"exact\"",
                         profile.sub_layers));
     }
+    if (profile.bits != 1 && profile.bits != 8 && profile.bits != 16) {
+        throw InputError(fmt::format("bits = {}: must be 1, 8 or 16", profile.bits));
+    }
+    if (profile.bits == 1 && profile.antialiasing != Antialiasing::off) {
+        throw InputError("bits = 1 has no room for grey pixels; accepted: antialiasing = \"off\"");
+    }
     if (!(profile.gamma >= 0.1 && profile.gamma <= 10)) {
         throw InputError(fmt::format("gamma = {}: must be 0.1 to 10", profile.gamma));
     }
@@ -85,6 +91,7 @@ class SliceMask {
     SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile)
         : slice_(&slice), layout_(&layout), antialiasing_(profile.antialiasing) {
         if (antialiasing_ == Antialiasing::rows) sub_ = profile.sub_rows;
+        white_ = white_of(profile);
         const Rect solid = slice.bounds();
         if (solid.empty()) return;
         const RowBand grid = layout.rows(0, 0, 1);
@@ -101,17 +108,17 @@ class SliceMask {
                         {static_cast<std::uint32_t>(layout_->width()), 0});
         } else if (antialiasing_ == Antialiasing::exact) {
             const std::size_t first = runs.size();
-            coverage_exact(*slice_, layout_->rows(row, count, 1), scratch_, runs);
+            coverage_exact(*slice_, layout_->rows(row, count, 1), scratch_, runs, white_);
             for (std::size_t i = first; i < runs.size(); ++i)
-                pixels_ += runs[i].length * (runs[i].value / 255.0);
+                pixels_ += runs[i].length * (runs[i].value / static_cast<double>(white_));
         } else {
             const RowBand band = layout_->rows(row, count, sub_);
             spans_.clear();
             slice_->spans(band, scratch_, spans_);
             if (antialiasing_ == Antialiasing::off) {
-                threshold(band, spans_, runs);
+                threshold(band, spans_, runs, white_);
             } else {
-                coverage(band, spans_, runs);
+                coverage(band, spans_, runs, white_);
             }
             pixels_ += static_cast<double>(spans_.total_length()) / (run_unit * sub_);
         }
@@ -124,6 +131,7 @@ class SliceMask {
     const MaskLayout* layout_;
     Antialiasing antialiasing_;
     int sub_ = 1;
+    int white_ = white_of_8_bits;
     RowSpan rows_{0, 0};
     Scratch scratch_;
     SpanRows spans_;
@@ -166,7 +174,7 @@ class SolidMask {
             }
             next_sums_.clear();
             combine_rows(
-                sums_, image_, [](std::uint32_t sum, std::uint8_t grey) { return sum + grey; },
+                sums_, image_, [](std::uint32_t sum, std::uint16_t grey) { return sum + grey; },
                 [&](std::uint32_t length, std::uint32_t sum) {
                     next_sums_.push_back({length, sum});
                 });
@@ -175,7 +183,7 @@ class SolidMask {
         const auto n = static_cast<std::uint32_t>(planes_.size());
         RowJoiner out(runs, width_);
         for (const GreySum& run : sums_) {
-            out.push(run.length, static_cast<std::uint8_t>((run.value + n / 2) / n));
+            out.push(run.length, static_cast<std::uint16_t>((run.value + n / 2) / n));
         }
     }
 
@@ -280,8 +288,8 @@ MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImagePro
             spare.clear();
             RowJoiner out(spare, layout.width());
             combine_rows(
-                runs, below, [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); },
-                [&](std::uint32_t length, std::uint8_t value) { out.push(length, value); });
+                runs, below, [](std::uint16_t a, std::uint16_t b) { return std::max(a, b); },
+                [&](std::uint32_t length, std::uint16_t value) { out.push(length, value); });
             std::swap(runs, spare);
         }
         sink(runs, count);

@@ -26,7 +26,8 @@ const char* antialiasing_name(Antialiasing antialiasing) {
 std::unique_ptr<MaskFile> render_png_mask(const Layer& layer, const MaskLayout& layout,
                                           const PrinterProfile& profile) {
     auto mask = std::make_unique<MaskFile>();
-    PngWriter writer({layout.width(), layout.height(), layout.column_pitch(), layout.row_pitch()},
+    PngWriter writer({layout.width(), layout.height(), layout.column_pitch(), layout.row_pitch(),
+                      PngColors::grey, profile.image.bits},
                      mask->file);
     const MaskArea area =
         mask_layer(layer, layout, profile.image, profile.support.grey,
@@ -45,6 +46,7 @@ nlohmann::ordered_json describe_mask(const ImageProfile& image) {
         {"mirror_y", image.mirror_y},   {"antialiasing", antialiasing_name(image.antialiasing)}};
     if (image.antialiasing == Antialiasing::rows) json["sub_rows"] = image.sub_rows;
     const ImageProfile plain;
+    if (image.bits != plain.bits) json["bits"] = image.bits;
     if (image.sub_layers != plain.sub_layers) json["sub_layers"] = image.sub_layers;
     if (image.gamma != plain.gamma) json["gamma"] = image.gamma;
     if (image.least_grey != plain.least_grey) json["least_grey"] = image.least_grey;
@@ -53,6 +55,13 @@ nlohmann::ordered_json describe_mask(const ImageProfile& image) {
 }
 
 std::string mask_settings(const PrinterProfile& profile, const Job& job) {
+    const bool is_stack = profile.backend == "png" && profile.image.format == ImageFormat::png;
+    if (profile.image.bits != 8 && !is_stack) {
+        throw InputError(
+            fmt::format("bits = {}: what is written here has masks of 8 bits; accepted: bits = 8, or a "
+                        "stack of PNG files",
+                        profile.image.bits));
+    }
     std::string settings = describe_mask(profile.image).dump();
     if (!job.supports) return settings;
     const double grey = profile.support.grey;

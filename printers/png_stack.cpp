@@ -50,11 +50,12 @@ class PngStack : public Backend {
         std::vector<std::uint8_t> pixels;
         pixels.reserve(static_cast<std::size_t>(layout_->width()) *
                        static_cast<std::size_t>(layout_->height()));
-        const MaskArea area = mask_layer(layer, *layout_, profile_.image, profile_.support.grey,
-                                         [&](std::span<const GreyRun> runs, int /*rows*/) {
-                                             for (const GreyRun& run : runs)
-                                                 pixels.insert(pixels.end(), run.length, run.value);
-                                         });
+        const MaskArea area =
+            mask_layer(layer, *layout_, profile_.image, profile_.support.grey,
+                       [&](std::span<const GreyRun> runs, int /*rows*/) {
+                           for (const GreyRun& run : runs)
+                               pixels.insert(pixels.end(), run.length, static_cast<std::uint8_t>(run.value));
+                       });
         product.area = area.part;
         product.support_area = area.supports;
         product.file = encode_image(profile_.image.format, layout_->width(), layout_->height(), pixels);

@@ -3,6 +3,7 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -25,6 +26,52 @@ void put_bytes(std::vector<std::byte>& out, std::span<const std::byte> bytes) {
 }
 
 std::uint32_t pixels_per_metre(double pixel) { return static_cast<std::uint32_t>(std::lround(1000 / pixel)); }
+
+/// Two bytes a pixel, the higher first.
+void append_pairs(std::span<const GreyRun> runs, std::vector<GreyRun>& bytes) {
+    for (const GreyRun& run : runs) {
+        const auto high = static_cast<std::uint16_t>(run.value >> 8U),
+                   low = static_cast<std::uint16_t>(run.value & 0xffU);
+        if (high == low) {
+            bytes.push_back({2 * run.length, high});
+            continue;
+        }
+        for (std::uint32_t i = 0; i < run.length; ++i) {
+            bytes.push_back({1, high});
+            bytes.push_back({1, low});
+        }
+    }
+}
+
+/// Eight pixels a byte, the first in the highest bit; rows begin with a byte of their own.
+void append_bits(std::span<const GreyRun> runs, int width, std::vector<GreyRun>& bytes) {
+    int column = 0;
+    unsigned open = 0;  // pixels of the byte that is not full yet
+    for (const GreyRun& run : runs) {
+        const bool white = run.value > white_of_8_bits / 2;
+        auto left = static_cast<int>(run.length);
+        while (left > 0) {
+            const int within = column % 8;
+            if (within == 0 && left >= 8) {
+                const int whole = left / 8;
+                bytes.push_back(
+                    {static_cast<std::uint32_t>(whole), static_cast<std::uint16_t>(white ? 0xff : 0)});
+                column += 8 * whole;
+                left -= 8 * whole;
+            } else {
+                const int count = std::min(left, 8 - within);
+                if (white) open |= (0xffU >> within) & (0xffU << (8 - within - count));
+                column += count;
+                left -= count;
+                if (column % 8 == 0 || column == width) {
+                    bytes.push_back({1, static_cast<std::uint16_t>(open)});
+                    open = 0;
+                }
+            }
+            if (column == width) column = 0;
+        }
+    }
+}
 
 }  // namespace
 
@@ -55,11 +102,17 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
         throw InputError("an image of " + std::to_string(header.width) +
                          " px cannot be packed into colours: its width must be a multiple of 3");
     }
+    if (header.bits != 8 && (header.colors != PngColors::grey || (header.bits != 1 && header.bits != 16))) {
+        throw InputError(std::to_string(header.bits) + " bits a pixel: must be 8, of grey images 1, 8 or 16");
+    }
+    if (bytes_a_row() > 65535) {
+        throw InputError("an image of " + std::to_string(header.width) + " px of 16 bits: 32767 is the most");
+    }
     for (const unsigned byte : {0x89U, 0x50U, 0x4eU, 0x47U, 0x0dU, 0x0aU, 0x1aU, 0x0aU}) put_u8(out_, byte);
     const std::size_t size = begin_chunk("IHDR");
     put_u32(out_, static_cast<std::uint32_t>(packed ? header.width / 3 : header.width));
     put_u32(out_, static_cast<std::uint32_t>(header.height));
-    put_u8(out_, 8);  // bits a sample
+    put_u8(out_, static_cast<unsigned>(header.bits));
     put_u8(out_, rgb || packed ? 2 : 0);
     put_u8(out_, 0);  // deflate
     put_u8(out_, 0);  // the five standard filters
@@ -88,16 +141,24 @@ void PngWriter::add_band(std::span<const std::byte> deflated, const Adler& adler
     rows_ += rows;
 }
 
+int PngWriter::bytes_a_row() const {
+    if (header_.colors == PngColors::rgb) return 3 * header_.width;
+    return header_.bits == 1 ? (header_.width + 7) / 8 : header_.width * header_.bits / 8;
+}
+
 void PngWriter::add_rows(std::span<const GreyRun> runs, int rows) {
     std::vector<std::byte> deflated;
     Adler adler;
+    bytes_.clear();
     if (header_.colors == PngColors::rgb) {
-        tripled_.assign(runs.begin(), runs.end());
-        for (GreyRun& run : tripled_) run.length *= 3;
-        compress_band(tripled_, 3 * header_.width, rows, deflated, adler);
-    } else {
-        compress_band(runs, header_.width, rows, deflated, adler);
+        bytes_.assign(runs.begin(), runs.end());
+        for (GreyRun& run : bytes_) run.length *= 3;
+    } else if (header_.bits == 16) {
+        append_pairs(runs, bytes_);
+    } else if (header_.bits == 1) {
+        append_bits(runs, header_.width, bytes_);
     }
+    compress_band(bytes_.empty() ? runs : bytes_, bytes_a_row(), rows, deflated, adler);
     add_band(deflated, adler, rows);
 }
 

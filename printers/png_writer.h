@@ -1,4 +1,4 @@
-// PNG files of 8-bit masks, written from runs (ISO/IEC 15948).
+// PNG files of masks, written from runs (ISO/IEC 15948).
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@ struct PngHeader {
     double pixel_x = 0;  ///< mm, for the pHYs chunk; 0 when unknown
     double pixel_y = 0;  ///< mm
     PngColors colors = PngColors::grey;
+    int bits = 8;  ///< a sample: 8; of grey images also 1 (white from half of 255 on) and 16 (white is 65535)
 };
 
 /// Writes one image band by band, each band an IDAT chunk. Memory: the compressed bytes and one band.
@@ -42,11 +43,12 @@ class PngWriter {
   private:
     std::size_t begin_chunk(const char* type);
     void end_chunk(std::size_t start);
+    int bytes_a_row() const;
 
     PngHeader header_;
     std::vector<std::byte>& out_;
     Adler adler_;
-    std::vector<GreyRun> tripled_;
+    std::vector<GreyRun> bytes_;  ///< runs of a row's bytes, where those are not its pixels
     int rows_ = 0;
 };
 

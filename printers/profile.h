@@ -28,6 +28,7 @@ struct ImageProfile {
     bool portrait = false;  ///< image columns run along +y of the plate
     Antialiasing antialiasing = Antialiasing::rows;
     int sub_rows = 4;
+    int bits = 8;           ///< of a pixel in PNG stacks: 1, 8 or 16
     int sub_layers = 1;     ///< planes a layer whose images are averaged
     double gamma = 1;       ///< grey is coverage to this power
     double least_grey = 0;  ///< of a pixel that is touched at all, 0 to 1
@@ -48,7 +49,7 @@ struct NanoDlpProfile {
 
 /// How a resin is cured.
 struct ResinProfile {
-    std::string machine = "SL1S";  ///< printerModel: the machine refuses jobs for another one
+    std::string machine;  ///< model that a file is for; SL1 machines refuse those for another one
     std::string material = "resin";
     double exposure = 2.5;       ///< of a layer, s
     double first_exposure = 25;  ///< of the first layers, s

@@ -36,6 +36,10 @@ double resin_print_time(const ResinProfile& resin, int layers) {
     return seconds + layers * resin.moves;
 }
 
+std::string machine_name(const PrinterProfile& profile) {
+    return profile.resin.machine.empty() ? profile.name : profile.resin.machine;
+}
+
 std::string describe_resin(const ResinProfile& r) {
     return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", r.machine, r.material, r.exposure,
                        r.first_exposure, r.first_layers, r.fade_layers, r.moves, r.lift, r.lift_speed,

@@ -16,6 +16,9 @@ double resin_exposure(const ResinProfile& resin, int index);
 /// Exposures and moves of so many layers, s.
 double resin_print_time(const ResinProfile& resin, int layers);
 
+/// The model that a file is for: the profile's own name where it does not say.
+std::string machine_name(const PrinterProfile& profile);
+
 /// All of it in one line, for a job's stamp.
 std::string describe_resin(const ResinProfile& resin);
 

@@ -133,7 +133,7 @@ class Sl1 : public Backend {
                 {"numSlow", "0"},
                 {"printProfile", format_number(layer_height_, 6) + " Lamella"},
                 {"printTime", format_number(resin_print_time(r, range_.count()), 3)},
-                {"printerModel", one_line(r.machine)},
+                {"printerModel", one_line(machine_name(profile_))},
                 {"printerProfile", one_line(profile_.name)},
                 {"printerVariant", "default"},
                 {"prusaSlicerVersion", "Lamella " LAMELLA_VERSION},
@@ -164,7 +164,7 @@ class Sl1 : public Backend {
                 {"layer_height", layer},
                 {"material_notes", ""},
                 {"max_print_height", format_number(height_, 6)},
-                {"printer_model", one_line(r.machine)},
+                {"printer_model", one_line(machine_name(profile_))},
                 {"printer_notes", one_line(r.notes)},
                 {"printer_settings_id", one_line(profile_.name)},
                 {"printer_technology", "SLA"}};

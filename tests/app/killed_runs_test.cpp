@@ -24,7 +24,8 @@ struct Format {
 };
 
 const Format formats[] = {
-    {"/", ""}, {".sl1", ""}, {".goo", ""}, {".svg", ""}, {".gcode", "--printer marlin "}};
+    {"/", ""},        {".sl1", ""}, {".goo", ""}, {".svg", ""}, {".gcode", "--printer marlin "},
+    {".nanodlp", ""}, {".cli", ""}, {".3mf", ""}};
 
 /// All bytes of a file, or of a folder's files with their names.
 std::string everything(const std::string& path) {

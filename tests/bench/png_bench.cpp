@@ -38,7 +38,8 @@ BENCHMARK(png_spans_8k)->Unit(benchmark::kMillisecond);
 
 void png_oiio_8k(benchmark::State& state) {
     std::vector<std::uint8_t> pixels;
-    for (const GreyRun& run : plate_layer()) pixels.insert(pixels.end(), run.length, run.value);
+    for (const GreyRun& run : plate_layer())
+        pixels.insert(pixels.end(), run.length, static_cast<std::uint8_t>(run.value));
     std::size_t bytes = 0;
     for (auto _ : state) {
         std::vector<unsigned char> file;

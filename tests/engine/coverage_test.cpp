@@ -17,7 +17,7 @@ Pixels expand(const RowBand& band, const std::vector<GreyRun>& runs) {
     Pixels pixels;
     for (const GreyRun& run : runs) {
         REQUIRE(run.length > 0);
-        pixels.insert(pixels.end(), run.length, run.value);
+        pixels.insert(pixels.end(), run.length, static_cast<unsigned char>(run.value));
     }
     REQUIRE(pixels.size() ==
             static_cast<std::size_t>(band.count) * static_cast<std::size_t>(band.hi - band.lo));

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/error.h"
+#include "engine/image_file.h"
 #include "tests/printers/decode_image.h"
 #include "tests/printers/plane_solids.h"
 #include "tests/printers/supported_table.h"
@@ -199,6 +200,71 @@ TEST_CASE("job.json says what the images are", "[png_stack]") {
     const double row = (20 - placement["row_0_edge"].get<double>()) / placement["row_step"].get<double>();
     CHECK(column == Approx(60));
     CHECK(row == Approx(100));
+}
+
+TEST_CASE("masks of one bit are those in black and white", "[png_stack]") {
+    const TemporaryFolder folder;
+    PrinterProfile profile = small_display();
+    profile.image.antialiasing = Antialiasing::off;
+    for (const int width : {200, 203, 121}) {
+        CAPTURE(width);
+        profile.image.width = width;
+        const std::string name = std::to_string(width);
+        profile.image.bits = 8;
+        run_layers(cone(), *make_png_stack(profile, folder / (name + "-8"), false), {0, 12});
+        profile.image.bits = 1;
+        run_layers(cone(), *make_png_stack(profile, folder / (name + "-1"), false), {0, 12});
+        for (int layer = 0; layer < 12; ++layer) {
+            const std::string file = "/" + std::to_string(100000 + layer).substr(1) + ".png";
+            // Bits a sample stand behind signature, length, "IHDR", width and height.
+            CHECK(read_text(folder / (name + "-1" + file))[24] == 1);
+            const DecodedImage bits = decode_image(folder / (name + "-1" + file));
+            CHECK(bits.width == width);
+            CHECK(bits.pixels == decode_image(folder / (name + "-8" + file)).pixels);
+        }
+    }
+    profile.image.antialiasing = Antialiasing::rows;
+    CHECK_THROWS_WITH(make_png_stack(profile, folder / "grey", false)->begin(cone(), {0, 12}, false),
+                      Catch::Contains("antialiasing = \"off\""));
+    profile.image.bits = 4;
+    CHECK_THROWS_AS(make_png_stack(profile, folder / "four", false)->begin(cone(), {0, 12}, false),
+                    InputError);
+    profile.image.bits = 16;
+    profile.image.format = ImageFormat::bmp;
+    CHECK_THROWS_WITH(make_png_stack(profile, folder / "bmp", false)->begin(cone(), {0, 12}, false),
+                      Catch::Contains("bits = 8"));
+}
+
+TEST_CASE("masks of sixteen bits tell coverage more finely", "[png_stack]") {
+    const TemporaryFolder folder;
+    const Antialiasing antialiasing = GENERATE(Antialiasing::rows, Antialiasing::exact);
+    PrinterProfile profile = small_display();
+    profile.image.antialiasing = antialiasing;
+    profile.image.sub_rows = 32;
+    // Edges through pixels at shares that 8 bits cannot tell: 0.3010 and 0.7003 of a pixel.
+    const Job box = make_job(
+        {{0, 0, 0}, {8, 4, 1}},
+        [](double) {
+            return std::vector<Figure>{rectangle({0.03010, 0}, {7.97003, 4})};
+        },
+        0.5);
+    run_layers(box, *make_png_stack(profile, folder / "eight", false), {0, 2});
+    profile.image.bits = 16;
+    run_layers(box, *make_png_stack(profile, folder / "sixteen", false), {0, 2});
+    const DecodedImage eight = decode_image(folder / "eight/00001.png");
+    const auto image = open_images(folder / "sixteen/00001.png");
+    REQUIRE(image);
+    const auto page = image->next_page();
+    REQUIRE((page && page->samples == SampleType::u16 && page->width == 200 && page->height == 160));
+    std::vector<std::uint16_t> sixteen(eight.pixels.size());
+    REQUIRE(image->read_channel(0, sixteen.data()).empty());
+    for (std::size_t i = 0; i < sixteen.size(); ++i)
+        REQUIRE(std::abs(sixteen[i] / 65535.0 - eight.pixels[i] / 255.0) <= 0.5 / 255 + 1.0 / 65535);
+    // Runs are exact to 1/256 of a pixel.
+    const std::size_t row = 200 * 80;
+    CHECK(sixteen[row + 60] / 65535.0 == Approx(1 - 0.3010).margin(0.5 / 256 + 1e-5));
+    CHECK(sixteen[row + 139] / 65535.0 == Approx(0.7003).margin(0.5 / 256 + 1e-5));
+    CHECK(sixteen[row + 100] == 65535);
 }
 
 TEST_CASE("a part larger than the display is refused with both sizes", "[png_stack]") {

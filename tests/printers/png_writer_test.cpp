@@ -27,7 +27,8 @@ struct Mask {
 
 std::vector<unsigned char> expand(const Mask& mask) {
     std::vector<unsigned char> pixels;
-    for (const GreyRun& run : mask.runs) pixels.insert(pixels.end(), run.length, run.value);
+    for (const GreyRun& run : mask.runs)
+        pixels.insert(pixels.end(), run.length, static_cast<unsigned char>(run.value));
     return pixels;
 }
 
