@@ -74,10 +74,11 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
             fs::remove(journal_path_, ignored);
         }
     }
-    file_ = OutputFile::continue_at(partial_, size);
-    // The journal is written anew, so that a broken line in its middle cannot hide the lines to come.
+    // The journal is written anew, so that a broken line in its middle cannot hide the lines to come; and
+    // first, so that no file is ever without one.
     const std::string journal = to_json(stamp).dump() + "\n" + std::exchange(records_, {});
     write_whole_file(journal_path_, journal);
+    file_ = OutputFile::continue_at(partial_, size);
     journal_ = OutputFile::continue_at(journal_path_, journal.size());
     return next;
 }

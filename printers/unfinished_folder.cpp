@@ -23,6 +23,13 @@ nlohmann::ordered_json read_json(const fs::path& path) {
     return nlohmann::ordered_json::parse(in, nullptr, false);
 }
 
+/// Whether a run died before it could even say which job the folder is for.
+bool holds_nothing(const fs::path& folder) {
+    return fs::is_directory(folder) &&
+           std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                       [](const auto& entry) { return entry.path().extension() == ".tmp"; });
+}
+
 std::string journal_line(double area, double support_area) {
     return nlohmann::json{area, support_area}.dump() + "\n";
 }
@@ -93,7 +100,7 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     }
     nlohmann::ordered_json state;
     if (is_present(path_)) check_replaceable();
-    if (is_present(partial_)) {
+    if (is_present(partial_) && !holds_nothing(partial_)) {
         if (resume) {
             const nlohmann::ordered_json found = read_json(partial_ / stamp_file);
             check_same_job(found, stamp, partial_);

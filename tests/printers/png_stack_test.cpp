@@ -339,6 +339,13 @@ TEST_CASE("job.json has every layer's area, those of an earlier run included", "
     CHECK(json["exposure"] == small_display().resin.exposure);
 }
 
+TEST_CASE("a folder without a stamp or a layer is begun anew", "[png_stack]") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "out.partial");
+    write_text(folder / "out.partial/unfinished.json.tmp", "{");
+    CHECK(make_png_stack(small_display(), folder / "out", false)->begin(cone(), {0, 12}, true) == 0);
+}
+
 TEST_CASE("shards hold the files of the whole", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = cone();
