@@ -30,6 +30,12 @@ bool holds_nothing(const fs::path& folder) {
                        [](const auto& entry) { return entry.path().extension() == ".tmp"; });
 }
 
+/// Whether a folder has the description that marks it as complete.
+bool is_ours_whole(const fs::path& folder) {
+    const nlohmann::ordered_json job = read_json(folder / job_file);
+    return job.is_object() && job.value("format", "") == "lamella-layers";
+}
+
 std::string journal_line(double area, double support_area) {
     return nlohmann::json{area, support_area}.dump() + "\n";
 }
@@ -66,8 +72,7 @@ void UnfinishedFolder::check_replaceable() const {
     if (!force_) {
         throw InputError(path_.string() + " exists already; choose another name or pass --force");
     }
-    const nlohmann::ordered_json job = read_json(path_ / job_file);
-    if (!fs::is_directory(path_) || !job.is_object() || job.value("format", "") != "lamella-layers") {
+    if (!fs::is_directory(path_) || !is_ours_whole(path_)) {
         throw InputError(path_.string() +
                          " is no folder of layers that lamella made, so --force does not replace it; choose "
                          "another name");
@@ -100,6 +105,9 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     }
     nlohmann::ordered_json state;
     if (is_present(path_)) check_replaceable();
+    // A run that died between taking its stamp away and giving the folder its name leaves a job.json: made
+    // anew.
+    if (resume && !is_present(partial_ / stamp_file) && is_ours_whole(partial_)) remove_ours(partial_);
     if (is_present(partial_) && !holds_nothing(partial_)) {
         if (resume) {
             const nlohmann::ordered_json found = read_json(partial_ / stamp_file);

@@ -346,6 +346,17 @@ TEST_CASE("a folder without a stamp or a layer is begun anew", "[png_stack]") {
     CHECK(make_png_stack(small_display(), folder / "out", false)->begin(cone(), {0, 12}, true) == 0);
 }
 
+TEST_CASE("a run that died just before its folder got its name is made anew", "[png_stack]") {
+    const TemporaryFolder folder;
+    run_layers(cone(), *make_png_stack(small_display(), folder / "whole", false), {0, 12});
+    fs::copy(folder / "whole", folder / "out.partial");
+    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "out", false)->begin(cone(), {0, 12}, false),
+                    InputError);
+    run_layers(cone(), *make_png_stack(small_display(), folder / "out", false), {0, 12}, true);
+    CHECK(read_text(folder / "out/job.json") == read_text(folder / "whole/job.json"));
+    CHECK(!fs::exists(folder / "out.partial"));
+}
+
 TEST_CASE("shards hold the files of the whole", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = cone();
