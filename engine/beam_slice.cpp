@@ -20,11 +20,19 @@ Interval axis_near_plane(const Beam& beam, double z) {
     return {std::max(0.0, std::min(s0, s1)), std::min(1.0, std::max(s0, s1))};
 }
 
-/// Encloses the beam's section along one axis of the plane.
-Interval extent(const Beam& beam, const Interval& part, int axis) {
-    const double d = beam.b[axis] - beam.a[axis], reach = std::max(beam.ra, beam.rb);
-    const double p = beam.a[axis] + d * part.lo, q = beam.a[axis] + d * part.hi;
-    return {std::min(p, q) - reach, std::max(p, q) + reach};
+/// Encloses the beam's section along one axis of the plane: the balls that meet the plane, and the ellipse in
+/// which the plane cuts the endless cylinder round all balls.
+Interval extent(const Beam& beam, const Interval& part, double z, int axis) {
+    const dvec3 d = beam.b - beam.a;
+    const double reach = std::max(beam.ra, beam.rb);
+    const double p = beam.a[axis] + d[axis] * part.lo, q = beam.a[axis] + d[axis] * part.hi;
+    const Interval balls{std::min(p, q) - reach, std::max(p, q) + reach};
+    if (d.z == 0) return balls;
+    const double slope = d[axis] / d.z;  // of the axis, over the height
+    const double center = beam.a[axis] + (z - beam.a.z) * slope;
+    // With room for rounding: the ellipse of a beam that hardly climbs is wide, and of no use.
+    const double half = reach * std::sqrt(1 + slope * slope) * (1 + 1e-6);
+    return {std::max(balls.lo, center - half), std::min(balls.hi, center + half)};
 }
 
 void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lines, double z,
@@ -53,7 +61,7 @@ BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
         const Interval part = axis_near_plane(beam, z);
         if (part.empty()) continue;
         beams_.push_back(beam);
-        const Interval x = extent(beam, part, 0), y = extent(beam, part, 1);
+        const Interval x = extent(beam, part, z, 0), y = extent(beam, part, z, 1);
         sections.push_back({{x.lo, y.lo}, {x.hi, y.hi}});
     }
     sections_ = PlaneIndex(std::move(sections));

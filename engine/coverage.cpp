@@ -31,57 +31,127 @@ class RowWriter {
     int left_;
 };
 
-/// Sparse changes of coverage along a pixel row: a dense array of sums with a bit for each pixel touched.
+/// Sparse changes of coverage along a pixel row. A run that begins at part m / 256 of pixel p adds 256 - m
+/// there and m to the next pixel; so each pixel keeps, in one word, how many more runs begin than end in it
+/// (upper half) and the sum of their m (lower half, signed). A bit for each pixel tells which words are set.
 class CoverageRow {
   public:
     explicit CoverageRow(int width)
-        : width_(width),
-          change_(static_cast<std::size_t>(width) + 2),
-          touched_((static_cast<std::size_t>(width) + 1) / 64 + 1) {}
+        : width_(static_cast<std::uint32_t>(width)),
+          turns_(width_ + 1),
+          touched_(width_ / 64 + 2),
+          changes_(width_ + slack),
+          runs_(width_ + 2) {}
 
-    /// From coordinate u (run units from the row's left end) on, the line's coverage changes by `sign` whole
-    /// lines.
-    void turn(std::int32_t u, std::int32_t sign) {
-        const auto pixel = static_cast<std::size_t>(u >> 8);
-        const std::int32_t part = u & (run_unit - 1);
-        change_[pixel] += sign * (run_unit - part);
-        change_[pixel + 1] += sign * part;
-        touched_[pixel >> 6] |= std::uint64_t{1} << (pixel & 63);
-        touched_[(pixel + 1) >> 6] |= std::uint64_t{1} << ((pixel + 1) & 63);
+    void add(const Run& run, std::int32_t origin) {
+        turn<1>(static_cast<std::uint32_t>(run.begin - origin));
+        turn<-1>(static_cast<std::uint32_t>(run.end - origin));
     }
 
     /// Writes the row as grey runs, `value_of` maps coverage (0 to 256 times the lines) to grey, and clears
     /// it.
     void flush(const std::vector<std::uint16_t>& value_of, std::vector<GreyRun>& out) {
-        RowWriter row(out, width_);
-        std::int32_t cover = 0;
-        int from = 0;
-        for (std::size_t w = 0; w < touched_.size(); ++w) {
-            for (std::uint64_t bits = touched_[w]; bits != 0; bits &= bits - 1) {
-                const std::size_t pixel = w * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-                if (pixel >= static_cast<std::size_t>(width_)) break;
-                row.push(static_cast<int>(pixel) - from, value_of[static_cast<std::size_t>(cover)]);
-                cover += change_[pixel];
-                change_[pixel] = 0;
-                from = static_cast<int>(pixel);
-            }
-            touched_[w] = 0;
-        }
-        row.finish(value_of[static_cast<std::size_t>(cover)]);
-        change_[static_cast<std::size_t>(width_)] = change_[static_cast<std::size_t>(width_) + 1] = 0;
+        const std::uint32_t* const end = list_changes();
+        const GreyRun* const last = write_runs(end, value_of.data());
+        turns_[width_] = 0;
+        // A row that is not black from its first pixel on begins with a run of no pixels.
+        const GreyRun* const first = runs_.data() + (runs_.front().length == 0 ? 1 : 0);
+        out.insert(out.end(), first, last);
     }
 
   private:
-    int width_;
-    std::vector<std::int32_t> change_;
+    static constexpr std::int64_t one_turn = std::int64_t{1} << 32;
+    static constexpr std::uint32_t at_once = 4, slack = 2 * at_once;
+
+    template <int sign>
+    void turn(std::uint32_t u) {
+        const std::uint32_t pixel = u / run_unit, part = u % run_unit;
+        turns_[pixel] += sign * (one_turn + part);
+        touched_[pixel / 64] |= std::uint64_t{1} << pixel % 64;
+    }
+
+    // Where a row changes is hard to foretell. Both passes over a row therefore avoid branches that depend on
+    // it: they write more than is wanted, and move on by as much as was.
+
+    /// Lists the pixels whose coverage may differ from their left neighbour's, and clears their bits.
+    [[gnu::noinline]] const std::uint32_t* list_changes() {
+        std::uint32_t* next = changes_.data();
+        for (std::size_t block = 0; block < touched_.size(); block += 64) {
+            const std::size_t size = std::min<std::size_t>(64, touched_.size() - block);
+            std::uint64_t words = 0;
+            for (std::size_t w = 0; w < size; ++w)
+                words |= static_cast<std::uint64_t>(touched_[block + w] != 0) << w;
+            for (; words != 0; words &= words - 1) {
+                const std::size_t w = block + static_cast<std::size_t>(std::countr_zero(words));
+                const std::uint64_t touched = touched_[w];
+                touched_[w] = 0;
+                const auto first = static_cast<std::uint32_t>(w * 64);
+                std::uint64_t bits = touched | touched << 1;  // a pixel's turns reach into the next one
+                do {
+                    std::uint32_t count = 0;
+                    for (std::uint32_t i = 0; i < at_once; ++i) {
+                        constexpr std::uint64_t any = std::uint64_t{1} << 63;  // what is written for no bit
+                        next[i] = first + static_cast<std::uint32_t>(std::countr_zero(bits | any));
+                        count += bits != 0;
+                        bits &= bits - 1;
+                    }
+                    next += count;
+                } while (bits != 0);
+                *next = first + 64;
+                next += touched >> 63 & ~touched_[w + 1] & 1;
+            }
+        }
+        while (next != changes_.data() && next[-1] >= width_) --next;
+        return next;
+    }
+
+    /// The runs between the changes up to `end`.
+    [[gnu::noinline]] const GreyRun* write_runs(const std::uint32_t* end, const std::uint16_t* value_of) {
+        GreyRun* next = runs_.data();
+        std::int64_t* const turns = turns_.data();
+        std::int64_t cover = 0, spill = 0;  // spill: what the last pixel passes on to the next one
+        std::uint32_t from = 0;
+        std::uint16_t value = 0;
+        for (const std::uint32_t* change = changes_.data(); change != end; ++change) {
+            const std::uint32_t pixel = *change;
+            const std::int64_t turned = turns[pixel];
+            turns[pixel] = 0;
+            const std::int64_t moment = static_cast<std::int32_t>(turned);
+            cover += ((turned - moment) >> 24) - moment + spill;  // 256 for each turn
+            spill = moment;
+            *next = {pixel - from, value};
+            const std::uint16_t here = value_of[cover];
+            const bool changes = here != value;
+            next += changes;
+            from = changes ? pixel : from;
+            value = here;
+        }
+        *next++ = {width_ - from, value};
+        return next;
+    }
+
+    std::uint32_t width_;
+    std::vector<std::int64_t> turns_;
     std::vector<std::uint64_t> touched_;
+    std::vector<std::uint32_t> changes_;
+    std::vector<GreyRun> runs_;
 };
 
+/// Grey of each coverage, 0 to 256 times the lines: rounded to the nearest, halves upward.
 std::vector<std::uint16_t> grey_table(int sub, int white) {
-    const std::int64_t full = std::int64_t{run_unit} * sub;
+    const int full = run_unit * sub, whole = white / full, part = white % full;
     std::vector<std::uint16_t> table(static_cast<std::size_t>(full) + 1);
-    for (std::int64_t c = 0; c <= full; ++c)
-        table[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>((c * white + full / 2) / full);
+    // c * white + full / 2 divided by full, from one c to the next.
+    int value = 0, rest = full / 2;
+    for (std::uint16_t& grey : table) {
+        grey = static_cast<std::uint16_t>(value);
+        value += whole;
+        rest += part;
+        if (rest >= full) {
+            rest -= full;
+            ++value;
+        }
+    }
     return table;
 }
 
@@ -132,10 +202,7 @@ void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& 
     std::size_t line = 0;
     for (int r = 0; r < band.count; ++r) {
         for (int k = 0; k < band.sub; ++k, ++line) {
-            for (const Run& run : spans.line(line)) {
-                row.turn(run.begin - origin, 1);
-                row.turn(run.end - origin, -1);
-            }
+            for (const Run& run : spans.line(line)) row.add(run, origin);
         }
         row.flush(value_of, out);
     }

@@ -2,21 +2,24 @@
 #include "engine/interval_index.h"
 
 #include <numeric>
+#include <utility>
 
 namespace lamella {
 
 IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::vector<double>& keys) {
     double total = 0;
+    std::vector<std::pair<double, std::uint32_t>> order;  // keys and items
+    order.reserve(intervals.size());
     for (std::uint32_t i = 0; i < intervals.size(); ++i) {
         if (intervals[i].empty()) continue;
-        item_.push_back(i);
+        order.emplace_back(keys[i], i);
         total += intervals[i].width();
         extent_ = {std::min(extent_.lo, intervals[i].lo), std::max(extent_.hi, intervals[i].hi)};
     }
-    if (item_.empty()) return;
-    std::sort(item_.begin(), item_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-    });
+    if (order.empty()) return;
+    std::sort(order.begin(), order.end());
+    item_.reserve(order.size());
+    for (const auto& [key, item] : order) item_.push_back(item);
     // Bins about as wide as the items: each item then stands in two of them or so.
     constexpr double most_bins = 4096;
     const double mean = total / static_cast<double>(item_.size());

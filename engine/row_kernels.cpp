@@ -17,16 +17,17 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatLanes = hn::Vec<Floats>;
 
-/// Positions across of the lines from `i` on.
-FloatLanes positions(const LineFrame& frame, int i) {
+/// Positions across of the lines from `i` on; `lane` counts the lanes from 0 (made once, for it goes
+/// through memory).
+HWY_INLINE FloatLanes positions(const LineFrame& frame, hn::Vec<Ints> lane, int i) {
     const Floats d;
-    const auto line = hn::ConvertTo(d, hn::Iota(Ints(), frame.first + i));
+    const auto line = hn::ConvertTo(d, hn::Add(lane, hn::Set(Ints(), frame.first + i)));
     return hn::Add(hn::Set(d, frame.line0), hn::Mul(line, hn::Set(d, frame.line_pitch)));
 }
 
 /// Rounds the interval from .. to (mm along) to run units, halves upward; lanes that miss get an empty run.
-void store(const LineFrame& frame, FloatLanes from, FloatLanes to, hn::Mask<Floats> miss, std::int32_t* begin,
-           std::int32_t* end) {
+HWY_INLINE void store(const LineFrame& frame, FloatLanes from, FloatLanes to, hn::Mask<Floats> miss,
+                      std::int32_t* begin, std::int32_t* end) {
     const Floats d;
     const Ints di;
     // Far outside any band, yet small enough for an integer.
@@ -58,9 +59,10 @@ void cut_beam(const LineFrame& frame, const BeamInPlane& beam, int count, std::i
     const auto ax = set(beam.ax), ay = set(beam.ay), ah = set(beam.ah);
     const auto bx = set(beam.bx), by = set(beam.by), bh = set(beam.bh);
 
+    const auto lane = hn::Iota(Ints(), 0);
     const int lanes = static_cast<int>(hn::Lanes(d));
     for (int i = 0; i < count; i += lanes) {
-        const auto y = positions(frame, i);
+        const auto y = positions(frame, lane, i);
         const auto q = hn::Add(hn::Mul(y, uy), qz);
         const auto b = hn::Mul(ux, hn::Sub(sine_radius, q));
         const auto off = hn::Sub(hn::Mul(hn::Add(hn::Mul(y, y), z2), cos2), hn::Mul(q, q));
@@ -71,18 +73,25 @@ void cut_beam(const LineFrame& frame, const BeamInPlane& beam, int count, std::i
         const auto t1 = hn::Mul(hn::Sub(root, b), inverse_a);
         const auto axial0 = hn::Add(q, hn::Mul(t0, ux)), axial1 = hn::Add(q, hn::Mul(t1, ux));
 
-        const auto ya = hn::Sub(y, ay), yb = hn::Sub(y, by);
-        const auto ha = hn::Sub(ah, hn::Mul(ya, ya)), hb = hn::Sub(bh, hn::Mul(yb, yb));
-        const auto root_a = hn::Sqrt(hn::Max(ha, zero)), root_b = hn::Sqrt(hn::Max(hb, zero));
-        const auto at_a0 = hn::Lt(axial0, low), at_b0 = hn::Gt(axial0, high);
-        const auto at_a1 = hn::Lt(axial1, low), at_b1 = hn::Gt(axial1, high);
-        const auto from =
-            hn::IfThenElse(at_a0, hn::Sub(ax, root_a), hn::IfThenElse(at_b0, hn::Sub(bx, root_b), t0));
-        const auto to =
-            hn::IfThenElse(at_a1, hn::Add(ax, root_a), hn::IfThenElse(at_b1, hn::Add(bx, root_b), t1));
-        const auto miss_a = hn::And(hn::Or(at_a0, at_a1), hn::Lt(ha, zero));
-        const auto miss_b = hn::And(hn::Or(at_b0, at_b1), hn::Lt(hb, zero));
-        const auto miss = hn::Or(hn::Lt(disc, zero), hn::Or(miss_a, miss_b));
+        auto from = t0, to = t1;
+        auto miss = hn::Lt(disc, zero);
+        // Most lines leave most beams through their sides alone, and need no ball's root.
+        const auto at_b0 = hn::Gt(axial0, high), at_b1 = hn::Gt(axial1, high), at_b = hn::Or(at_b0, at_b1);
+        if (!hn::AllFalse(d, at_b)) {
+            const auto yb = hn::Sub(y, by), hb = hn::Sub(bh, hn::Mul(yb, yb));
+            const auto root_b = hn::Sqrt(hn::Max(hb, zero));
+            from = hn::IfThenElse(at_b0, hn::Sub(bx, root_b), from);
+            to = hn::IfThenElse(at_b1, hn::Add(bx, root_b), to);
+            miss = hn::Or(miss, hn::And(at_b, hn::Lt(hb, zero)));
+        }
+        const auto at_a0 = hn::Lt(axial0, low), at_a1 = hn::Lt(axial1, low), at_a = hn::Or(at_a0, at_a1);
+        if (!hn::AllFalse(d, at_a)) {
+            const auto ya = hn::Sub(y, ay), ha = hn::Sub(ah, hn::Mul(ya, ya));
+            const auto root_a = hn::Sqrt(hn::Max(ha, zero));
+            from = hn::IfThenElse(at_a0, hn::Sub(ax, root_a), from);
+            to = hn::IfThenElse(at_a1, hn::Add(ax, root_a), to);
+            miss = hn::Or(miss, hn::And(at_a, hn::Lt(ha, zero)));
+        }
         store(frame, from, to, miss, begin + i, end + i);
     }
 }
@@ -91,9 +100,10 @@ void clip_prism(const LineFrame& frame, const PrismInPlane& prism, int count, st
                 std::int32_t* end) {
     const Floats d;
     const auto far = hn::Set(d, 1e6F);
+    const auto lane = hn::Iota(Ints(), 0);
     const int lanes = static_cast<int>(hn::Lanes(d));
     for (int i = 0; i < count; i += lanes) {
-        const auto y = positions(frame, i);
+        const auto y = positions(frame, lane, i);
         auto from = hn::Neg(far), to = far;
         for (std::size_t k = 0; k < prism.nx.size(); ++k) {
             const float nx = prism.nx[k];

@@ -1,4 +1,4 @@
-// Counting sort by line, a sort within each line, then one merging pass.
+// A scatter to lines, a sort within each line, then one joining pass.
 #include "engine/run_collector.h"
 
 #include <algorithm>
@@ -23,6 +23,31 @@ void sort_by_begin(Run* first, Run* last) {
     }
 }
 
+/// Joins sorted runs that overlap or touch, in place, and clips them to [lo, hi). Where they overlap is hard
+/// to foretell, so no branch depends on it: a run grows while they do, and is written each time, though that
+/// counts only when the next one begins behind it.
+std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::int32_t hi) {
+    if (runs.empty()) return {};
+    const auto clipped = [&](const Run& run) {
+        return Run{std::clamp(run.begin, lo, hi), std::clamp(run.end, lo, hi)};
+    };
+    Run* next = runs.data();
+    Run joined = clipped(runs.front());
+    for (const Run& run : runs.subspan(1)) {
+        const auto [begin, end] = clipped(run);
+        const bool apart = begin > joined.end;
+        *next = joined;
+        next += apart;
+        joined = {apart ? begin : joined.begin, std::max(joined.end, end)};
+    }
+    *next++ = joined;
+    // What lies outside has become empty, at one end or the other.
+    const Run *first = runs.data(), *last = next;
+    if (first->begin == first->end) ++first;
+    if (first < last && last[-1].begin == last[-1].end) --last;
+    return {first, last};
+}
+
 }  // namespace
 
 void RunCollector::clear() {
@@ -43,41 +68,42 @@ RunCollector::Segment RunCollector::add(int first, int count) {
 
 void RunCollector::merge(const RowBand& band, SpanRows& out) {
     const auto lines = static_cast<std::size_t>(band.lines());
-    const std::int32_t lo = band.lo * run_unit, hi = band.hi * run_unit;
-    starts_.assign(lines + 2, 0);
+    make_room(lines);
+    // Scatter the runs to their lines. Misses are written too, and overwritten by the next run.
     std::size_t k = 0;
     for (const Piece& piece : pieces_) {
-        std::uint32_t* count = starts_.data() + piece.first + 2;
-        for (int i = 0; i < piece.count; ++i, ++k) count[i] += begins_[k] < ends_[k] ? 1 : 0;
-    }
-    for (std::size_t l = 1; l < lines + 2; ++l) starts_[l] += starts_[l - 1];
-    runs_.resize(starts_.back());
-    // Line l has room from starts_[l + 1] on. Neighbours in a line mostly overlap, and join right here.
-    ends_of_lines_.assign(starts_.begin() + 1, starts_.end());
-    k = 0;
-    for (const Piece& piece : pieces_) {
-        const std::uint32_t* const start = starts_.data() + piece.first + 1;
-        std::uint32_t* const next = ends_of_lines_.data() + piece.first;
+        std::uint32_t* const next = next_.data() + piece.first;
         for (int i = 0; i < piece.count; ++i, ++k) {
-            const Run run{begins_[k], ends_[k]};
-            if (run.begin >= run.end) continue;
-            Run* const place = runs_.data() + next[i];
-            if (next[i] > start[i] && run.begin <= place[-1].end && place[-1].begin <= run.end) {
-                place[-1] = {std::min(place[-1].begin, run.begin), std::max(place[-1].end, run.end)};
-            } else {
-                *place = run;
-                ++next[i];
-            }
+            runs_[next[i]] = {begins_[k], ends_[k]};
+            next[i] += begins_[k] < ends_[k] ? 1 : 0;
         }
     }
+    const std::int32_t lo = band.lo * run_unit, hi = band.hi * run_unit;
     out.clear();
     for (std::size_t l = 0; l < lines; ++l) {
-        Run* const first = runs_.data() + starts_[l + 1];
-        Run* const last = runs_.data() + ends_of_lines_[l];
+        Run* const first = runs_.data() + starts_[l];
+        Run* const last = runs_.data() + next_[l];
         sort_by_begin(first, last);
-        for (const Run* r = first; r != last; ++r) out.push(std::max(r->begin, lo), std::min(r->end, hi));
-        out.end_line();
+        out.append_line(join_and_clip({first, last}, lo, hi));
     }
+}
+
+/// Gives each line as much room in runs_ as pieces touch it, and one run of slack at the end of all.
+void RunCollector::make_room(std::size_t lines) {
+    // The pieces that open minus those that close at each line, then their sum, then the sum of the sums.
+    starts_.assign(lines + 1, 0);
+    for (const Piece& piece : pieces_) {
+        ++starts_[static_cast<std::size_t>(piece.first)];
+        --starts_[static_cast<std::size_t>(piece.first + piece.count)];
+    }
+    std::uint32_t open = 0, start = 0;
+    for (std::uint32_t& line : starts_) {
+        open += line;
+        line = start;
+        start += open;
+    }
+    runs_.resize(start + 1);
+    next_.assign(starts_.begin(), starts_.end());
 }
 
 }  // namespace lamella

@@ -32,10 +32,12 @@ class RunCollector {
         int first;
         int count;
     };
+    void make_room(std::size_t lines);
+
     std::vector<Piece> pieces_;
     std::vector<std::int32_t> begins_, ends_;
     std::size_t used_ = 0;
-    std::vector<std::uint32_t> starts_, ends_of_lines_;
+    std::vector<std::uint32_t> starts_, next_;  // of each line in runs_: its first run, and its next one
     std::vector<Run> runs_;
 };
 

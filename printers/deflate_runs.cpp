@@ -1,13 +1,13 @@
-// Runs to tokens, tokens to one dynamic Huffman block.
+// Runs to steps, steps to one dynamic Huffman block.
 #include "printers/deflate_runs.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 #include <string>
 
 #include "engine/error.h"
+#include "printers/bit_writer.h"
+#include "printers/deflate_steps.h"
 #include "printers/huffman.h"
 
 namespace lamella {
@@ -16,16 +16,6 @@ namespace {
 constexpr std::size_t end_of_block = 256;
 constexpr std::size_t literal_symbols = 286;
 constexpr std::size_t distance_symbols = 30;
-constexpr std::uint32_t min_match = 3;
-constexpr std::uint32_t max_match = 258;
-constexpr std::uint32_t max_distance = 32768;
-
-/// `count` bytes: all equal to `value`, or a copy of what stands one row back.
-struct Token {
-    std::uint32_t count;
-    std::uint8_t value;
-    bool copy;
-};
 
 /// A deflate symbol with the extra bits that follow it.
 struct Symbol {
@@ -59,144 +49,40 @@ Symbol distance_symbol(std::uint32_t distance) {
             static_cast<std::uint16_t>(d & ((1U << bits) - 1))};
 }
 
-/// Calls match(length) for pieces of 3 to 258 bytes that sum to `count`, which is at least 3.
-template <typename Match>
-void split_match(std::uint32_t count, Match match) {
-    for (; count >= max_match + min_match; count -= max_match) match(max_match);
-    if (count > max_match) {
-        match(max_match - min_match);
-        count -= max_match - min_match;
+/// The checksum of a row of `row_bytes` bytes: 0, then the runs.
+Adler sum_row(std::span<const GreyRun> runs, std::uint32_t row_bytes) {
+    // A byte counts as often in the second sum as there are bytes from it on: n bytes that begin where k are
+    // left count (2 k - n + 1) / 2 times on average.
+    std::uint64_t first = 0, twice_second = 0;
+    std::uint64_t left = row_bytes - 1;
+    for (const GreyRun& run : runs) {
+        const std::uint64_t sum = std::uint64_t{run.length} * static_cast<std::uint8_t>(run.value);
+        first += sum;
+        twice_second += sum * (2 * left - run.length + 1);
+        left -= run.length;
     }
-    match(count);
+    return {first, twice_second / 2, row_bytes};
 }
 
-/// Calls literal(value) and match(length, copy) for the symbols of a token.
-template <typename Literal, typename Match>
-void expand(const Token& token, Literal literal, Match match) {
-    if (token.copy) {
-        split_match(token.count, [&](std::uint32_t length) { match(length, true); });
-        return;
-    }
-    literal(token.value);
-    const std::uint32_t rest = token.count - 1;
-    if (rest >= min_match) {
-        split_match(rest, [&](std::uint32_t length) { match(length, false); });
-    } else {
-        for (std::uint32_t i = 0; i < rest; ++i) literal(token.value);
-    }
-}
-
-/// Turns the rows of a band into tokens and sums their bytes.
-class Tokenizer {
-  public:
-    Tokenizer(std::uint32_t width, std::vector<Token>& tokens, Adler& adler)
-        : width_(width), tokens_(tokens), adler_(adler) {}
-
-    void row(std::span<const GreyRun> runs) {
-        // A copied row costs its matches of 258 bytes; a row of few runs is no dearer written out.
-        const bool worth_copying = runs.size() > 4 + (width_ + 1) / max_match;
-        if (worth_copying && width_ + 1 <= max_distance && std::ranges::equal(runs, previous_)) {
-            copy(runs);
-        } else {
-            put(1, 0);  // the filter byte: none
-            for (const GreyRun& run : runs) put(run.length, static_cast<std::uint8_t>(run.value));
-        }
-        previous_ = runs;
-    }
-
-    void finish() { flush(); }
-
-  private:
-    void put(std::uint32_t count, std::uint8_t value) {
-        if (value == open_.value) {
-            open_.count += count;
-        } else if (count > 0) {
-            flush();
-            open_ = {count, value, false};
-        }
-    }
-    void flush() {
-        if (open_.count == 0) return;
-        adler_.append_run(open_.count, open_.value);
-        tokens_.push_back(open_);
-        open_.count = 0;
-    }
-    void copy(std::span<const GreyRun> runs) {
-        flush();
-        adler_.append_run(1, 0);
-        for (const GreyRun& run : runs) adler_.append_run(run.length, static_cast<std::uint8_t>(run.value));
-        if (tokens_.back().copy) {
-            tokens_.back().count += width_ + 1;
-        } else {
-            tokens_.push_back({width_ + 1, 0, true});
-        }
-    }
-
-    std::uint32_t width_;
-    std::vector<Token>& tokens_;
-    Adler& adler_;
-    Token open_{0, 0, false};
-    std::span<const GreyRun> previous_;
-};
-
-/// Cuts the runs into rows, checking that each has `width` pixels.
-void tokenize(std::span<const GreyRun> runs, std::uint32_t width, int rows, std::vector<Token>& tokens,
-              Adler& adler) {
-    Tokenizer tokenizer(width, tokens, adler);
+/// Calls row(runs) for each row, checking that each has `width` pixels.
+template <typename Row>
+void visit_rows(std::span<const GreyRun> runs, std::uint32_t width, int rows, Row row) {
     std::size_t next = 0;
-    for (int row = 0; row < rows; ++row) {
+    for (int r = 0; r < rows; ++r) {
         const std::size_t first = next;
         std::uint64_t pixels = 0;
         while (next < runs.size() && pixels < width) pixels += runs[next++].length;
         if (pixels != width) {
-            throw FaultError("row " + std::to_string(row) + " of a band of pixels has " +
+            throw FaultError("row " + std::to_string(r) + " of a band of pixels has " +
                              std::to_string(pixels) + " pixels instead of " + std::to_string(width));
         }
-        tokenizer.row(runs.subspan(first, next - first));
+        row(runs.subspan(first, next - first));
     }
     while (next < runs.size() && runs[next].length == 0) ++next;
     if (next != runs.size()) {
         throw FaultError("a band of pixels has more than its " + std::to_string(rows) + " rows");
     }
-    tokenizer.finish();
 }
-
-/// Appends bits, the lowest first, to bytes.
-class BitWriter {
-  public:
-    /// `most` bounds the bytes that will be written.
-    BitWriter(std::vector<std::byte>& out, std::size_t most) : out_(out), start_(out.size()) {
-        out_.resize(start_ + most + sizeof buffer_);
-        next_ = out_.data() + start_;
-    }
-    /// Appends the low `count` bits of `bits`, whose other bits are 0; count <= 48.
-    void put(std::uint64_t bits, unsigned count) {
-        buffer_ |= bits << filled_;
-        filled_ += count;
-        // All eight bytes go out each time, though only the full ones count: one store and no branch.
-        if constexpr (std::endian::native == std::endian::little) {
-            std::memcpy(next_, &buffer_, sizeof buffer_);
-        } else {
-            for (std::size_t i = 0; i < sizeof buffer_; ++i)
-                next_[i] = static_cast<std::byte>(buffer_ >> 8 * i);
-        }
-        const unsigned whole = filled_ / 8;
-        next_ += whole;
-        buffer_ >>= 8 * whole;
-        filled_ %= 8;
-    }
-    void align() {
-        if (filled_ > 0) put(0, 8 - filled_);
-    }
-    void finish() { out_.resize(static_cast<std::size_t>(next_ - out_.data())); }
-
-  private:
-    std::vector<std::byte>& out_;
-    std::size_t start_;
-    std::byte* next_;
-    std::uint64_t buffer_ = 0;
-    unsigned filled_ = 0;
-};
 
 /// One step of the code that sends the code lengths (RFC 1951, section 3.2.7).
 struct LengthStep {
@@ -278,8 +164,57 @@ void write_header(const BlockCodes& codes, BitWriter& bits) {
     }
 }
 
-/// A match as the bits that send it: code and extra bits of its length, then of its distance.
-struct MatchBits {
+/// How often each step comes.
+using StepCounts = std::array<std::uint32_t, step_kinds>;
+
+StepCounts count_steps(std::span<const Step> steps) {
+    StepCounts counts{};
+    for (const Step step : steps) ++counts[step];
+    return counts;
+}
+
+/// The deflate symbols of a match.
+struct Match {
+    Symbol length;
+    Symbol distance;
+};
+
+/// Calls literal(step) and match(step, symbols) for the steps that come at all.
+template <typename Literal, typename OnMatch>
+void visit_steps(const StepCounts& counts, std::uint32_t row_bytes, Literal literal, OnMatch match) {
+    for (Step value = 0; value < 256; ++value) {
+        if (counts[value] > 0) literal(value);
+    }
+    // A row too long to be copied leaves the second distance unused.
+    const Symbol byte_back = distance_symbol(1),
+                 row_back = distance_symbol(std::min(row_bytes, max_distance));
+    for (std::uint32_t length = min_match; length <= max_match; ++length) {
+        const Step repeat = repeat_step(length), copy = copy_step(length);
+        if (counts[repeat] > 0) match(repeat, Match{length_symbols[length], byte_back});
+        if (counts[copy] > 0) match(copy, Match{length_symbols[length], row_back});
+    }
+}
+
+BlockCodes make_codes(const StepCounts& counts, std::uint32_t row_bytes) {
+    std::array<std::uint32_t, literal_symbols> literal_count{};
+    std::array<std::uint32_t, distance_symbols> distance_count{};
+    literal_count[end_of_block] = 1;
+    visit_steps(
+        counts, row_bytes, [&](Step value) { literal_count[value] = counts[value]; },
+        [&](Step step, const Match& match) {
+            literal_count[match.length.symbol] += counts[step];
+            distance_count[match.distance.symbol] += counts[step];
+        });
+    BlockCodes codes;
+    huffman_lengths(literal_count, 15, codes.literal_lengths);
+    huffman_codes(codes.literal_lengths, codes.literal_codes);
+    huffman_lengths(distance_count, 15, codes.distance_lengths);
+    huffman_codes(codes.distance_lengths, codes.distance_codes);
+    return codes;
+}
+
+/// The bits that send a step.
+struct StepBits {
     std::uint64_t bits = 0;
     unsigned count = 0;
 
@@ -289,14 +224,22 @@ struct MatchBits {
     }
 };
 
-MatchBits match_bits(const BlockCodes& codes, std::uint32_t length, const Symbol& distance) {
-    const Symbol& symbol = length_symbols[length];
-    MatchBits match;
-    match.add(codes.literal_codes[symbol.symbol], codes.literal_lengths[symbol.symbol]);
-    match.add(symbol.extra, symbol.extra_bits);
-    match.add(codes.distance_codes[distance.symbol], codes.distance_lengths[distance.symbol]);
-    match.add(distance.extra, distance.extra_bits);
-    return match;
+/// Of all steps that come; the others have none.
+std::array<StepBits, step_kinds> step_bits(const StepCounts& counts, std::uint32_t row_bytes,
+                                           const BlockCodes& codes) {
+    std::array<StepBits, step_kinds> table{};
+    visit_steps(
+        counts, row_bytes,
+        [&](Step value) { table[value].add(codes.literal_codes[value], codes.literal_lengths[value]); },
+        [&](Step step, const Match& match) {
+            StepBits& bits = table[step];
+            bits.add(codes.literal_codes[match.length.symbol], codes.literal_lengths[match.length.symbol]);
+            bits.add(match.length.extra, match.length.extra_bits);
+            bits.add(codes.distance_codes[match.distance.symbol],
+                     codes.distance_lengths[match.distance.symbol]);
+            bits.add(match.distance.extra, match.distance.extra_bits);
+        });
+    return table;
 }
 
 }  // namespace
@@ -306,58 +249,26 @@ void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vect
     if (width < 1 || width > 65535 || rows < 1 || rows > 4096) {
         throw FaultError("a band of pixels is 1 to 65535 wide and 1 to 4096 high");
     }
-    std::vector<Token> tokens;
-    tokens.reserve(runs.size() + 1);
+    const auto row_bytes = static_cast<std::uint32_t>(width) + 1;
+    StepWriter writer(row_bytes);
     Adler sum;
-    tokenize(runs, static_cast<std::uint32_t>(width), rows, tokens, sum);
+    visit_rows(runs, row_bytes - 1, rows, [&](std::span<const GreyRun> row) {
+        writer.row(row);
+        sum.append(sum_row(row, row_bytes));
+    });
     adler.append(sum);
 
-    // A row too long to be copied leaves the second distance unused.
-    const std::uint32_t stride = std::min(static_cast<std::uint32_t>(width) + 1, max_distance);
-    const std::array<Symbol, 2> distances = {distance_symbol(1), distance_symbol(stride)};
-    std::array<std::uint32_t, literal_symbols> literal_count{};
-    std::array<std::uint32_t, distance_symbols> distance_count{};
-    literal_count[end_of_block] = 1;
-    for (const Token& token : tokens) {
-        expand(
-            token, [&](std::uint8_t value) { ++literal_count[value]; },
-            [&](std::uint32_t length, bool copy) {
-                ++literal_count[length_symbols[length].symbol];
-                ++distance_count[distances[copy].symbol];
-            });
-    }
-    BlockCodes codes;
-    huffman_lengths(literal_count, 15, codes.literal_lengths);
-    huffman_codes(codes.literal_lengths, codes.literal_codes);
-    huffman_lengths(distance_count, 15, codes.distance_lengths);
-    huffman_codes(codes.distance_lengths, codes.distance_codes);
-
+    const std::span<const Step> steps = writer.finish();
+    const StepCounts counts = count_steps(steps);
+    const BlockCodes codes = make_codes(counts, row_bytes);
+    const std::array<StepBits, step_kinds> table = step_bits(counts, row_bytes, codes);
     std::uint64_t size = 0;  // in bits
-    for (std::size_t s = 0; s < literal_symbols; ++s) {
-        size += std::uint64_t{literal_count[s]} * (codes.literal_lengths[s] + 5U);
-    }
-    for (std::size_t s = 0; s < distance_symbols; ++s) {
-        size += std::uint64_t{distance_count[s]} * (codes.distance_lengths[s] + 13U);
-    }
+    for (std::size_t step = 0; step < step_kinds; ++step)
+        size += std::uint64_t{counts[step]} * table[step].count;
     constexpr std::size_t header_bytes = 1024;
     BitWriter bits(out, static_cast<std::size_t>(size / 8) + header_bytes);
     write_header(codes, bits);
-
-    std::array<std::array<MatchBits, max_match + 1>, 2> matches;
-    for (std::uint32_t length = min_match; length <= max_match; ++length) {
-        for (const std::size_t copy : {0U, 1U}) {
-            matches[copy][length] = match_bits(codes, length, distances[copy]);
-        }
-    }
-    for (const Token& token : tokens) {
-        expand(
-            token,
-            [&](std::uint8_t value) { bits.put(codes.literal_codes[value], codes.literal_lengths[value]); },
-            [&](std::uint32_t length, bool copy) {
-                const MatchBits& match = matches[copy][length];
-                bits.put(match.bits, match.count);
-            });
-    }
+    for (const Step step : steps) bits.put(table[step].bits, table[step].count);
     bits.put(codes.literal_codes[end_of_block], codes.literal_lengths[end_of_block]);
     bits.put(0, 3);  // an empty stored block, which ends on a byte border
     bits.align();

@@ -53,7 +53,7 @@ class PngWriter {
 };
 
 /// Rows that are compressed together.
-inline constexpr int png_band_rows = 64;
+inline constexpr int png_band_rows = 128;
 
 /// A whole image from the runs of its rows.
 std::vector<std::byte> encode_png(const PngHeader& header, std::span<const GreyRun> runs);

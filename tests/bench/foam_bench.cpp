@@ -4,6 +4,7 @@
 #include "engine/contours.h"
 #include "engine/coverage.h"
 #include "engine/slice_context.h"
+#include "printers/png_writer.h"
 #include "tests/bench/plate.h"
 
 namespace {
@@ -31,21 +32,48 @@ void foam_coverage_8k(benchmark::State& state) {
     Scratch scratch;
     std::vector<SpanRows> bands;
     const int sub = static_cast<int>(state.range(0));
-    for (int first = 0; first < bench::plate_height; first += 64) {
+    for (int first = 0; first < bench::plate_height; first += 128) {
         slice.spans(bench::plate_band(first, sub), scratch, bands.emplace_back());
     }
     std::vector<GreyRun> grey;
+    std::size_t grey_runs = 0;
     for (auto _ : state) {
+        grey_runs = 0;
         int first = 0;
         for (const SpanRows& rows : bands) {
             grey.clear();
             coverage(bench::plate_band(first, sub), rows, grey);
             benchmark::DoNotOptimize(grey.data());
-            first += 64;
+            grey_runs += grey.size();
+            first += 128;
         }
     }
+    state.counters["grey_runs"] = static_cast<double>(grey_runs);
 }
 BENCHMARK(foam_coverage_8k)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+/// A mask's file from its grey runs.
+void foam_png_8k(benchmark::State& state) {
+    const auto foam = make_voronoi_foam(bench::plate_foam());
+    SliceContext context;
+    const SliceField& slice = context.slice(*foam, bench::plate_z);
+    Scratch scratch;
+    SpanRows rows;
+    std::vector<GreyRun> grey;
+    const int sub = static_cast<int>(state.range(0));
+    for (int first = 0; first < bench::plate_height; first += 128) {
+        const RowBand band = bench::plate_band(first, sub);
+        slice.spans(band, scratch, rows);
+        coverage(band, rows, grey);
+    }
+    PngHeader header;
+    header.width = bench::plate_width;
+    header.height = bench::plate_height;
+    std::size_t bytes = 0;
+    for (auto _ : state) bytes = encode_png(header, grey).size();
+    state.counters["bytes"] = static_cast<double>(bytes);
+}
+BENCHMARK(foam_png_8k)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 
 /// Contours of the plate; the argument is the tolerance in micrometres.
 void contours_foam_8k(benchmark::State& state) {

@@ -21,13 +21,13 @@ inline FoamSettings plate_foam() {
     return settings;
 }
 
-/// The band of 64 pixel rows that begins at row `first`.
+/// The band of 128 pixel rows that begins at row `first`.
 inline RowBand plate_band(int first, int sub) {
     RowBand band;
     band.along_pitch = plate_pixel;
     band.across_pitch = plate_pixel;
     band.first = first;
-    band.count = std::min(64, plate_height - first);
+    band.count = std::min(128, plate_height - first);
     band.sub = sub;
     band.hi = plate_width;
     return band;
@@ -37,7 +37,7 @@ inline RowBand plate_band(int first, int sub) {
 inline std::size_t plate_runs(const SliceField& slice, Scratch& scratch, int sub, int width = plate_width) {
     SpanRows rows;
     std::size_t runs = 0;
-    for (int first = 0; first < plate_height; first += 64) {
+    for (int first = 0; first < plate_height; first += 128) {
         RowBand band = plate_band(first, sub);
         band.hi = width;
         slice.spans(band, scratch, rows);

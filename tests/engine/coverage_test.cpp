@@ -2,6 +2,7 @@
 #include "engine/coverage.h"
 
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "engine/csg.h"
 #include "engine/primitives.h"
@@ -215,4 +216,56 @@ TEST_CASE("coverage rows sum to the width for runs at both ends") {
     const RowBand band{Axis::x, 0, 1, 0, 1, 0, 2, 1, 0, 6};
     coverage(band, rows, runs);
     REQUIRE(expand(band, runs) == Pixels{255, 255, 255, 255, 255, 255, 1, 0, 0, 0, 0, 1});
+}
+
+TEST_CASE("random runs are covered as pixel by pixel, in runs as long as they can be") {
+    std::mt19937 random(5);
+    for (int trial = 0; trial < 200; ++trial) {
+        RowBand band;
+        band.lo = static_cast<int>(random() % 5) - 2;
+        band.hi = band.lo + 1 + static_cast<int>(random() % 300);
+        band.count = 3;
+        band.sub = 1 + static_cast<int>(random() % 6);
+        const int white = random() % 2 == 0 ? white_of_8_bits : white_of_16_bits;
+        const int width = band.hi - band.lo;
+        const auto shortest = 1 + static_cast<std::int32_t>(random() % 500);
+        SpanRows rows;
+        for (int line = 0; line < band.lines(); ++line) {
+            auto u = band.lo * run_unit + static_cast<std::int32_t>(random() % 3) * shortest;
+            while (u < band.hi * run_unit) {
+                const auto end = u + 1 + static_cast<std::int32_t>(random() % 1000);
+                rows.push(u, std::min(end, band.hi * run_unit));
+                u = end + shortest;
+            }
+            rows.end_line();
+        }
+        std::vector<GreyRun> runs;
+        coverage(band, rows, runs, white);
+
+        std::size_t next = 0;
+        for (int row = 0; row < band.count; ++row) {
+            std::vector<std::int64_t> covered(static_cast<std::size_t>(width));
+            for (int k = 0; k < band.sub; ++k) {
+                for (const Run& run : rows.line(static_cast<std::size_t>(row * band.sub + k))) {
+                    for (std::int32_t u = run.begin; u < run.end; ++u)
+                        ++covered[static_cast<std::size_t>(u - band.lo * run_unit) / run_unit];
+                }
+            }
+            const int full = run_unit * band.sub;
+            std::uint32_t at = 0;
+            int last = -1;
+            while (at < covered.size()) {
+                REQUIRE(next < runs.size());
+                const GreyRun run = runs[next++];
+                REQUIRE(run.length > 0);
+                REQUIRE(run.value != last);
+                last = run.value;
+                for (std::uint32_t i = 0; i < run.length; ++i, ++at) {
+                    REQUIRE(at < covered.size());
+                    REQUIRE(run.value == (covered[at] * white + full / 2) / full);
+                }
+            }
+        }
+        REQUIRE(next == runs.size());
+    }
 }

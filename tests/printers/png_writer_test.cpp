@@ -186,6 +186,19 @@ TEST_CASE("random runs decode", "[png]") {
     check(random_mask(width, side(random) / 3 + 1, mean(random), greys, random));
 }
 
+TEST_CASE("runs of every length decode, also those that go on over many rows", "[png]") {
+    constexpr std::uint32_t longest = 2000, black_rows = 200;
+    Mask mask{longest, longest / 2 + black_rows, {}};
+    for (std::uint32_t length = 1; length <= longest / 2; ++length) {
+        mask.runs.push_back({length, 255});
+        mask.runs.push_back({longest - length, static_cast<std::uint16_t>(length % 2)});
+    }
+    for (std::uint32_t row = 1; row < black_rows; ++row) mask.runs.push_back({longest, 0});
+    mask.runs.push_back({longest - 1, 0});
+    mask.runs.push_back({1, 255});
+    check(mask);
+}
+
 TEST_CASE("rows that repeat are stored as copies", "[png]") {
     std::mt19937 random(9);
     for (const int width : {40, 258, 517, 3000, 32767, 32768, 40000}) {
