@@ -4,21 +4,21 @@
 #include <zlib.h>
 
 #include <limits>
+#include <utility>
 
 #include "engine/error.h"
-#include "printers/zip_readback.h"
 
 namespace lamella {
 namespace {
 
-constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
 /// A last block without anything in it: three bits of kind, seven of the end's code.
 constexpr std::string_view last_block("\x03\x00", 2);
 
 }  // namespace
 
 DeflatedPiece deflate_piece(std::string_view text) {
-    if (text.size() > most_bytes) throw FaultError("a piece of an archive reaches 4 GiB");
+    if (text.size() >= std::numeric_limits<std::uint32_t>::max())
+        throw FaultError("a piece of an archive reaches 4 GiB");
     constexpr int raw_window = -15, memory = 8;
     z_stream stream{};
     if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, raw_window, memory, Z_DEFAULT_STRATEGY) !=
@@ -47,41 +47,22 @@ DeflatedPiece deflate_piece(std::string_view text) {
 }
 
 std::string DeflatedZip::entry(const std::string& name, std::span<const DeflatedPiece> pieces) {
-    if (name.empty() || name.size() > longest_zip_name)
-        throw FaultError("an archive holds names of 1 to 1024 bytes");
-    ZipEntry made{name, size_, last_block.size(), 0, 0};
+    ZipEntry made{name, 0, last_block.size(), 0, 0};
     for (const DeflatedPiece& piece : pieces) {
         made.crc =
             static_cast<std::uint32_t>(crc32_combine(made.crc, piece.crc, static_cast<z_off_t>(piece.size)));
         made.size += piece.size;
         made.packed += piece.bytes.size();
-        if (made.size > most_bytes || made.packed > most_bytes)
-            throw FaultError(name + " is 4 GiB or more, too much for an archive");
     }
-    std::string bytes;
-    bytes.reserve(zip_local_header_size + name.size() + made.packed);
-    put_local_header(bytes, made, ZipMethod::deflated_ahead);
+    std::string bytes = begin_entry(std::move(made));
     for (const DeflatedPiece& piece : pieces) bytes += piece.bytes;
     bytes += last_block;
-    size_ += bytes.size();
-    entries_.push_back(made);
     return bytes;
 }
 
 std::string DeflatedZip::entry(const std::string& name, std::string_view file) {
     const DeflatedPiece piece = deflate_piece(file);
     return entry(name, {&piece, 1});
-}
-
-std::string DeflatedZip::directory() const {
-    std::string bytes;
-    put_directory(bytes, entries_, size_, ZipMethod::deflated_ahead);
-    return bytes;
-}
-
-void DeflatedZip::take_up(const std::filesystem::path& path, std::uint64_t size) {
-    entries_ = read_back_entries(path, size);
-    size_ = size;
 }
 
 }  // namespace lamella

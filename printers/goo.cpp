@@ -64,7 +64,7 @@ class Goo : public Backend {
             "goo " + mask_settings(profile_, job) + " " + profile_.name + " " + describe_resin(resin_);
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) {
-            restore();
+            output_.restore([&](const auto& state) { volume_ = state.at(0).template get<double>(); });
         } else {
             output_.commit(header({}), next, {volume_});
         }
@@ -113,14 +113,6 @@ class Goo : public Backend {
     }
 
   private:
-    void restore() {
-        try {
-            volume_ = output_.state().at(0).get<double>();
-        } catch (const nlohmann::json::exception&) {
-            throw InputError("the journal of the unfinished file is damaged; discard it with --force");
-        }
-    }
-
     /// Waits before and after lifting, and after coming down.
     static void put_waits(BigEndian& out) {
         for (int k = 0; k < 3; ++k) out.f32(0);

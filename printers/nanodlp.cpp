@@ -145,17 +145,12 @@ class NanoDlp : public Backend {
     }
 
     void restore(int next) {
-        const auto damaged = [] {
-            throw InputError("the journal of the unfinished archive is damaged; discard it with --force");
-        };
-        try {
-            for (const Json& state : output_.history()) figures_.push_back(from_state(state.at(2)));
-            volume_ = output_.state().at(0).get<double>();
-            zip_.take_up(path_ + ".partial", output_.state().at(1).get<std::uint64_t>());
-        } catch (const nlohmann::json::exception&) {
-            damaged();
-        }
-        if (figures_.size() != static_cast<std::size_t>(next - range_.first)) damaged();
+        output_.restore([&](const Json& state) {
+            for (const Json& layer : output_.history()) figures_.push_back(from_state(layer.at(2)));
+            volume_ = state.at(0).get<double>();
+            zip_.take_up(path_ + ".partial", state.at(1).get<std::uint64_t>());
+        });
+        if (figures_.size() != static_cast<std::size_t>(next - range_.first)) throw output_.damaged_journal();
     }
 
     static Json meta() {

@@ -75,7 +75,12 @@ class Sl1 : public Backend {
         const std::string settings = "sl1 " + mask_settings(profile_, job) + " " + profile_.name + " " +
                                      describe_resin(profile_.resin);
         const int next = output_.begin({job.identity, settings, range}, resume);
-        if (output_.resumed()) restore();
+        if (output_.resumed()) {
+            output_.restore([&](const auto& state) {
+                volume_ = state.at(0).template get<double>();
+                zip_.take_up(path_ + ".partial", state.at(1).template get<std::uint64_t>());
+            });
+        }
         return next;
     }
 
@@ -105,16 +110,6 @@ class Sl1 : public Backend {
     }
 
   private:
-    void restore() {
-        try {
-            const nlohmann::ordered_json& state = output_.state();
-            volume_ = state.at(0).get<double>();
-            zip_.take_up(path_ + ".partial", state.at(1).get<std::uint64_t>());
-        } catch (const nlohmann::json::exception&) {
-            throw InputError("the journal of the unfinished archive is damaged; discard it with --force");
-        }
-    }
-
     Description for_machine() const {
         const ResinProfile& r = profile_.resin;
         constexpr double ml = 1000;  // mm^3

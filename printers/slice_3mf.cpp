@@ -86,7 +86,9 @@ class Slice3mf : public Backend {
             fmt::format("3mf tolerance={} package_layers={}", tolerance_, package_layers_);
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) {
-            restore();
+            output_.restore([&](const auto& state) {
+                zip_.take_up(path_ + ".partial", state.template get<std::uint64_t>());
+            });
         } else {
             std::string text = zip_.entry("[Content_Types].xml", package_content_types);
             text += zip_.entry("_rels/.rels", package_relationships);
@@ -125,12 +127,6 @@ class Slice3mf : public Backend {
     }
 
   private:
-    void restore() {
-        if (!output_.state().is_number_unsigned())
-            throw InputError("the journal of the unfinished package is damaged; discard it with --force");
-        zip_.take_up(path_ + ".partial", output_.state().get<std::uint64_t>());
-    }
-
     int part_number(int layer) const { return (layer - range_.first) / package_layers_; }
     int parts() const { return part_number(range_.last - 1) + 1; }
     static std::string part_path(int number) { return fmt::format("2D/slices{:05}.model", number); }

@@ -83,6 +83,10 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
     return next;
 }
 
+InputError UnfinishedFile::damaged_journal() const {
+    return InputError(journal_path_.string() + " is damaged; discard the unfinished output with --force");
+}
+
 void UnfinishedFile::commit(std::string_view text, int next, const nlohmann::ordered_json& state) {
     file_.write(text);
     if (names_standard_output(path_)) return;

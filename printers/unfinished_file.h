@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/error.h"
 #include "printers/job_stamp.h"
 #include "printers/output_file.h"
 
@@ -28,8 +29,18 @@ class UnfinishedFile {
     int begin(const JobStamp& stamp, bool resume);
     /// True when begin found an unfinished file whose prologue is complete.
     bool resumed() const { return resumed_; }
-    /// What the last complete layer (or the prologue) handed to `commit`; null when there is none.
-    const nlohmann::ordered_json& state() const { return history_.empty() ? no_state_ : history_.back(); }
+    /// Calls read(state) with what the last complete layer (or the prologue) handed to `commit`, null when
+    /// there is none. Throws InputError where `read` does not find what it wants there.
+    template <typename Read>
+    void restore(const Read& read) const {
+        try {
+            read(history_.empty() ? nlohmann::ordered_json() : history_.back());
+        } catch (const nlohmann::json::exception&) {
+            throw damaged_journal();
+        }
+    }
+    /// What to say of a journal that does not hold what it should.
+    InputError damaged_journal() const;
     /// What was handed to every `commit` before the place where begin continues, in order.
     const std::vector<nlohmann::ordered_json>& history() const { return history_; }
     /// Appends the text of what lies before layer `next`, which is complete with it. `state` is what a run
@@ -49,7 +60,6 @@ class UnfinishedFile {
     bool force_;
     bool resumed_ = false;
     std::vector<nlohmann::ordered_json> history_;
-    nlohmann::ordered_json no_state_;
     std::string records_;  // of the journal that is continued
     OutputFile file_;
     OutputFile journal_;

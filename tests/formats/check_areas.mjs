@@ -2,20 +2,11 @@
 // contours, powder-bed files, and the plastic that G-code extrudes.
 import fs from "node:fs";
 import path from "node:path";
-import {lamella, require, requireNear, sources} from "./common.mjs";
+import {lamella, require, requireNear, shoelace, sources} from "./common.mjs";
 import {covered, greys, readSl1} from "./masks.mjs";
 
 const height = 0.2, pixel = 0.05, share = 0.005;
 const display = ["--printer-width", "1600", "--printer-height", "1600", "--printer-pixel", String(pixel)];
-
-function shoelace(points) {
-    let twice = 0;
-    points.forEach(([x, y], i) => {
-        const [u, v] = points[(i + 1) % points.length];
-        twice += x * v - u * y;
-    });
-    return twice / 2;
-}
 
 /** Contours of the SVG's layers, each a list of points. */
 function svgContours(text) {

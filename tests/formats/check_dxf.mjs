@@ -1,20 +1,11 @@
 // DXF as a parser of its own reads it: the same closed lines as the SVG of the same sheets.
 import {readFileSync, readdirSync} from "node:fs";
 import DxfParser from "dxf-parser";
-import {lamella, require, requireNear, sources} from "./common.mjs";
+import {lamella, require, requireNear, shoelace, sources} from "./common.mjs";
 
 const recipe = `${sources}/examples/plywood_koala.toml`;
 lamella("slice", recipe, "-q", "-o", "svg");
 lamella("slice", recipe, "--printer-kind", "dxf", "-q", "-o", "dxf");
-
-function shoelace(points) {
-    let twice = 0;
-    points.forEach(([x, y], i) => {
-        const [u, v] = points[(i + 1) % points.length];
-        twice += x * v - u * y;
-    });
-    return twice / 2;
-}
 
 const files = readdirSync("dxf").filter(f => f.endsWith(".dxf"));
 require(files.length === readdirSync("svg").filter(f => f.endsWith(".svg")).length, "one DXF for each SVG");

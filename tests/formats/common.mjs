@@ -23,3 +23,13 @@ export function requireNear(found, expected, share, what) {
     require(Math.abs(found - expected) <= share * Math.abs(expected),
             `${what}: ${found} where ${expected} is expected, to ${100 * share} %`);
 }
+
+/** Area of a polygon of [x, y] points, positive when it turns counter-clockwise. */
+export function shoelace(points) {
+    let twice = 0;
+    points.forEach(([x, y], i) => {
+        const [u, v] = points[(i + 1) % points.length];
+        twice += x * v - u * y;
+    });
+    return twice / 2;
+}

@@ -45,7 +45,10 @@ TEST_CASE("a file that outgrows the disk keeps its complete layers", "[unfinishe
     CHECK(fs::file_size(folder / "out.partial") == 600);
     UnfinishedFile file(folder / "out", false);
     CHECK(file.begin(stamp, true) == 1);
-    CHECK(file.state()["x"] == 1);
+    file.restore([](const auto& state) { CHECK(state.at("x") == 1); });
+    CHECK_THROWS_WITH(
+        file.restore([](const auto& state) { return state.at("x").template get<std::string>(); }),
+        Catch::Contains("out.partial.journal is damaged") && Catch::Contains("--force"));
     file.commit(std::string(500, 'b'), 2);
     file.end("end\n");
     CHECK(read_text(folder / "out") == "header\n" + std::string(500, 'a') + std::string(500, 'b') + "end\n");
