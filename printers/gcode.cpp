@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/number_format.h"
 #include "printers/gcode_text.h"
 #include "printers/toolpath.h"
-#include "printers/unfinished_file.h"
 
 namespace lamella {
 namespace {
@@ -117,8 +117,8 @@ class BeadWriter {
 
 class Gcode : public Backend {
   public:
-    Gcode(const PrinterProfile& profile, const std::string& path, bool force)
-        : profile_(profile), filament_(profile_.filament), output_(path, force) {}
+    Gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output)
+        : profile_(profile), filament_(profile_.filament), output_(std::move(output)) {}
     Gcode(const Gcode&) = delete;
     Gcode& operator=(const Gcode&) = delete;
 
@@ -133,12 +133,12 @@ class Gcode : public Backend {
         range_ = range;
         const dvec3 center = job.bounds.center();
         shift_ = dvec2(filament_.bed_x, filament_.bed_y) * 0.5 - dvec2(center.x, center.y);
-        const int next = output_.begin({job.identity, settings(), range}, resume);
-        if (output_.resumed()) {
-            restore();
+        const int next = output_->begin({job.identity, settings(), range}, resume);
+        if (const nlohmann::ordered_json state = output_->state(); !state.is_null()) {
+            restore(state);
         } else {
             const std::string text = start(job);
-            output_.commit(text, next, state());
+            output_->commit(text, next, this->state());
         }
         return next;
     }
@@ -189,7 +189,7 @@ class Gcode : public Backend {
         if (moves) position_ = product.last;
         support_filament_ += product.support_filament;
         islands_left_out_ += product.islands_left_out;
-        output_.commit(text.text() + product.text, layer.index() + 1, state());
+        output_->commit(text.text() + product.text, layer.index() + 1, state());
     }
 
     void end() override {
@@ -214,7 +214,7 @@ class Gcode : public Backend {
         text.line(fmt::format("; total layers count = {}", range_.count()));
         text.line("; layer_height = " + format_number(height_, 4));
         text.line(fmt::format("; islands too small for a bead = {}", islands_left_out_));
-        output_.end(text.text());
+        output_->end(text.text());
     }
 
   private:
@@ -287,21 +287,20 @@ class Gcode : public Backend {
     nlohmann::ordered_json state() const {
         return {position_.x, position_.y, use_.filament, use_.seconds, islands_left_out_, support_filament_};
     }
-    void restore() {
+    void restore(const nlohmann::ordered_json& state) {
         try {
-            const nlohmann::ordered_json& state = output_.state();
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
             use_ = {state.at(2).get<double>(), state.at(3).get<double>()};
             islands_left_out_ = state.at(4).get<std::int64_t>();
             support_filament_ = state.at(5).get<double>();
         } catch (const nlohmann::json::exception&) {
-            throw InputError("the journal of the unfinished G-code is damaged; discard it with --force");
+            throw output_->damaged_state();
         }
     }
 
     PrinterProfile profile_;
     const FilamentProfile& filament_;
-    UnfinishedFile output_;
+    std::unique_ptr<GcodeOutput> output_;
     double height_ = 0;
     int layer_count_ = 0;
     LayerRange range_;
@@ -316,7 +315,11 @@ class Gcode : public Backend {
 }  // namespace
 
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::string& path, bool force) {
-    return std::make_unique<Gcode>(profile, path, force);
+    return make_gcode(profile, make_gcode_file(path, force));
+}
+
+std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output) {
+    return std::make_unique<Gcode>(profile, std::move(output));
 }
 
 }  // namespace lamella

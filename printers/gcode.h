@@ -5,11 +5,12 @@
 #include <string>
 
 #include "engine/backend.h"
+#include "printers/gcode_output.h"
 #include "printers/profile.h"
 
 namespace lamella {
 
-/// Writes one G-code file: absolute millimetres, relative extrusion, the part's bounds centred on the bed,
+/// Writes a G-code file: absolute millimetres, relative extrusion, the part's bounds centred on the bed,
 /// comments that previewers of the Slic3r family read. What a layer's lines are depends on the layer alone,
 /// but for the travel to its first bead. Toolpaths: see plan_toolpaths. Islands too small for any bead are
 /// counted in the file's last lines. No line is longer than 95 characters.
@@ -17,5 +18,7 @@ namespace lamella {
 /// begin throws InputError for a profile that makes no sense and for a part that does not fit the bed less a
 /// strip round it for the priming line.
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::string& path, bool force);
+/// The same to any other place.
+std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);
 
 }  // namespace lamella
