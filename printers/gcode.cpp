@@ -81,10 +81,13 @@ class BeadWriter {
         }
         island_ = bead.island;
         announce(bead);
-        const double area = bead_area(bead.width, height_);
         const double speed = bead.role == Role::support ? support_speed_ : speed_;
-        for (std::size_t i = 1; i < bead.points.size(); ++i) to(bead.points[i], area, speed);
-        if (bead.closed) to(bead.points.front(), area, speed);
+        const std::size_t n = bead.points.size();
+        for (std::size_t i = 1; i < n + (bead.closed ? 1 : 0); ++i) {
+            const double area =
+                (bead_area(bead.width_at(i - 1), height_) + bead_area(bead.width_at(i % n), height_)) / 2;
+            to(bead.points[i % n], area * bead.flow, speed);
+        }
     }
     const GcodeText& text() const { return text_; }
 

@@ -7,6 +7,7 @@
 #include "printers/center_lines.h"
 #include "printers/nearest_points.h"
 #include "printers/polygons.h"
+#include "printers/thin_parts.h"
 
 namespace lamella {
 namespace {
@@ -45,12 +46,71 @@ class IslandPlanner {
         beads_.clear();
         Polygons island = simplified(exact, settings_.tolerance / 2);
         if (island.empty()) island = exact;
-        if (fill_wall(island, area_of(exact))) return std::move(beads_);
+        // The flow makes up for what a coarse outline loses; its axis is found much faster.
+        const Polygons outline = simplified(island, 1.5 * settings_.tolerance);
+        const ThinParts thin = find_thin_parts(medial_axis(outline, settings_.tolerance / 2),
+                                               narrowest * width_, thickest_line(), settings_.tolerance);
+        if (thin.lines.empty()) {
+            plan_piece(exact, island);
+            return std::move(beads_);
+        }
+        // What is left in pieces too small for beads of their own comes with the lines, too.
+        double area = area_of(exact);
+        if (!thin.whole && area - thin.area >= least_area()) {
+            for (const Polygons& rest : split_pieces(subtract_polygons(island, thin.covered))) {
+                if (area_of(rest) < least_area()) continue;
+                area -= area_of(rest);
+                plan_piece(rest, rest);
+            }
+        }
+        lay_thin_parts(thin, area);
+        if (thin.whole && bead_volume(beads_.back(), settings_.height) < 0.9 * area * settings_.height &&
+            beads_.size() == 1) {
+            beads_.clear();  // a stub, whose line is too short
+            plan_piece(exact, island);
+        }
+        return std::move(beads_);
+    }
+
+  private:
+    /// Walls and infill of a piece with its volume, as far as beads neither starve nor bulge.
+    void plan_piece(const Polygons& exact, const Polygons& piece) {
+        const std::size_t first = beads_.size();
+        const double wanted = area_of(exact) * settings_.height;
+        const auto volume = [&] {
+            double sum = 0;
+            for (std::size_t i = first; i < beads_.size(); ++i)
+                sum += bead_volume(beads_[i], settings_.height);
+            return sum;
+        };
+        if (!plan_thick(exact, piece)) return;
+        if (volume() * most_extra_flow < wanted) {
+            // Its wall is a speck: loops nearer to the border are longer, and a chord spans it.
+            beads_.resize(first);
+            lay_loops(exact, width_ / 4, area_of(exact), Role::external_perimeter);
+            if (volume() * most_extra_flow < wanted) {
+                beads_.resize(first);
+                lay_chord(exact, area_of(exact));
+            }
+        }
+        const double laid = volume();
+        if (!(laid > 0)) return;
+        const double flow = std::clamp(wanted / laid, least_flow, most_extra_flow);
+        for (Bead& bead : std::span(beads_).subspan(first)) {
+            const double area = bead_area(bead.width, settings_.height) * flow;
+            bead.width = std::min(bead_width(area, settings_.height), widest_line * width_);
+        }
+    }
+
+    /// The same before the volume is looked at; `exact` is the piece before it was simplified. False where
+    /// the beads do not fill it, because its inside is to be sparse.
+    bool plan_thick(const Polygons& exact, const Polygons& island) {
+        if (fill_wall(island, area_of(exact))) return true;
         const Polygons wall = offset_polygons(island, -width_ / 2);
         const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing_ / 2);
         if (inside.empty()) {
             fill_thin(exact, !wall.empty());  // simplified, a sliver could leave its own outline
-            return std::move(beads_);
+            return true;
         }
         std::vector<Polygons> regions = split_pieces(inside);
         // What is too narrow for a bead of its own comes with the wall.
@@ -65,10 +125,41 @@ class IslandPlanner {
         add_loops(wall, width_for(length * spacing_ + narrow, length), Role::external_perimeter);
         fill_arms(island, wall);
         for (const Polygons& region : regions) fill_region(region);
-        return std::move(beads_);
+        return settings_.density > densest_lattice;
     }
 
-  private:
+    /// Smaller pieces get no bead, mm^2.
+    double least_area() const { return width_ * width_ / 4; }
+
+    /// Thickness of what one bead of changing width fills at most, mm.
+    double thickest_line() const { return widest_line * width_ - side_loss(settings_.height); }
+
+    /// A bead along each line, with the volume of `area` mm^2. Beads become wider or narrower for that, and
+    /// take more plastic than their length asks for where their round ends have room for it.
+    void lay_thin_parts(const ThinParts& parts, double area) {
+        double laid = 0, ends = 0;
+        for (const TaperedLine& line : parts.lines) {
+            laid += area_of(line);
+            const double a = line.thickness.front(), b = line.thickness.back();
+            if (!line.closed) ends += pi / 8 * (a * a + b * b);
+        }
+        const double wanted = area / laid;
+        const double flow = std::clamp(wanted, 1.0, 1 + ends / laid);
+        const double wider = std::clamp(wanted / flow, least_flow, most_extra_flow);
+        for (const TaperedLine& line : parts.lines) {
+            Bead bead;
+            bead.points = line.points;
+            bead.closed = line.closed;
+            bead.flow = flow;
+            for (const double thickness : line.thickness) {
+                const double width = bead_width(wider * thickness * settings_.height, settings_.height);
+                bead.widths.push_back(std::clamp(width, narrowest * width_, widest_line * width_));
+            }
+            bead.width = std::ranges::max(bead.widths);
+            beads_.push_back(std::move(bead));
+        }
+    }
+
     void add_loops(const Polygons& loops, double width, Role role) {
         for (const ClipperLib::Path& loop : loops) beads_.push_back({to_points(loop), width, role, true, 0});
     }
@@ -210,7 +301,9 @@ class IslandPlanner {
 
     static constexpr double densest_lattice = 0.999;  // from here on regions are filled solid
     static constexpr double most_extra_flow = 1.3;    // more would bulge over the layer
+    static constexpr double least_flow = 0.7;         // less would leave gaps
     static constexpr double narrowest = 0.3;          // thinner threads, in widths, tear
+    static constexpr double widest_line = 1.5;        // in widths; thicker parts take two
     static constexpr double shortest_loop = 1;        // shorter islands, in thicknesses, get a chord
 
     ToolpathSettings settings_;
@@ -229,7 +322,10 @@ double squared_distance(dvec2 a, dvec2 b) {
 void begin_near(Bead& loop, dvec2 from) {
     const auto nearest =
         std::ranges::min_element(loop.points, {}, [&](dvec2 p) { return squared_distance(p, from); });
+    const auto first = nearest - loop.points.begin();
     std::rotate(loop.points.begin(), nearest, loop.points.end());
+    if (!loop.widths.empty())
+        std::rotate(loop.widths.begin(), loop.widths.begin() + first, loop.widths.end());
 }
 
 dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
@@ -251,6 +347,7 @@ void append_nearest(std::span<Bead> beads, dvec2& at, std::vector<Bead>& out) {
             begin_near(bead, at);
         } else if (end % 2 == 1) {
             std::ranges::reverse(bead.points);
+            std::ranges::reverse(bead.widths);
         }
         at = end_of(bead);
         out.push_back(std::move(bead));
@@ -265,6 +362,17 @@ double bead_area(double width, double height) {
 
 double bead_width(double area, double height) {
     return area > pi / 4 * height * height ? area / height + side_loss(height) : area / (pi / 4 * height);
+}
+
+double bead_volume(const Bead& bead, double height) {
+    double volume = 0;
+    const std::size_t n = bead.points.size();
+    for (std::size_t i = 0; i + (bead.closed ? 0 : 1) < n; ++i) {
+        const std::size_t j = (i + 1) % n;
+        volume += std::sqrt(squared_distance(bead.points[i], bead.points[j])) *
+                  (bead_area(bead.width_at(i), height) + bead_area(bead.width_at(j), height)) / 2;
+    }
+    return volume * bead.flow;
 }
 
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,

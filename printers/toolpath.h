@@ -14,11 +14,18 @@ enum class Role : std::uint8_t { external_perimeter, internal_infill, solid_infi
 /// A path along which filament is laid, mm.
 struct Bead {
     std::vector<dvec2> points;
-    double width = 0;  ///< mm; the cross-section is bead_area(width, height)
+    double width = 0;  ///< mm, the widest; the cross-section is bead_area(width, height)
     Role role = Role::external_perimeter;
-    bool closed = false;  ///< the last point is joined with the first
-    int island = 0;       ///< beads of one island follow each other
+    bool closed = false;           ///< the last point is joined with the first
+    int island = 0;                ///< beads of one island follow each other
+    std::vector<double> widths{};  ///< at each point, mm, where the width changes; else empty
+    double flow = 1;  ///< plastic over what the cross-section takes, for round ends of short beads
+
+    double width_at(std::size_t point) const { return widths.empty() ? width : widths[point]; }
 };
+
+/// Plastic that a bead takes in a layer of this height, mm^3.
+double bead_volume(const Bead& bead, double height);
 
 struct ToolpathSettings {
     double line_width = 0.45;  ///< mm

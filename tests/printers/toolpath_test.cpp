@@ -26,7 +26,7 @@ double length_of(const Bead& bead) {
 
 double volume_of(const Toolpaths& paths) {
     double sum = 0;
-    for (const Bead& bead : paths.beads) sum += length_of(bead) * bead_area(bead.width, height);
+    for (const Bead& bead : paths.beads) sum += bead_volume(bead, height);
     return sum;
 }
 
@@ -35,7 +35,7 @@ void check_inside(const std::vector<Contour>& contours, const Toolpaths& paths) 
     for (const Bead& bead : paths.beads) {
         REQUIRE(bead.points.size() >= 2);
         REQUIRE(bead.width > 0);
-        REQUIRE(bead.width <= 0.45 * 1.3 + 1e-9);
+        REQUIRE(bead.width <= 0.45 * 1.5 + 1e-9);
         bool in = true;
         const std::size_t edges = bead.points.size() - (bead.closed ? 0 : 1);
         for (std::size_t i = 0; i < edges; ++i) {
