@@ -33,12 +33,16 @@ const char* role_name(Role role) {
     switch (role) {
         case Role::external_perimeter:
             return "External perimeter";
+        case Role::perimeter:
+            return "Perimeter";
         case Role::internal_infill:
             return "Internal infill";
         case Role::solid_infill:
             return "Solid infill";
         case Role::gap_fill:
             return "Gap fill";
+        case Role::skirt:
+            return "Skirt/Brim";
         case Role::support:
             return "Support material";
     }
@@ -222,7 +226,7 @@ class Gcode : public Backend {
 
   private:
     Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density) const {
-        return plan_toolpaths(contours, {filament_.line_width, height_, density, filament_.tolerance},
+        return plan_toolpaths(contours, {{filament_.line_width, height_, filament_.tolerance}, 1, density},
                               layer.index());
     }
 

@@ -61,7 +61,7 @@ TEST_CASE("no strut of a foam is left out, nor any part of one", "[toolpath]") {
         Scratch scratch;
         const SliceField& slice = context.slice(*foam, (layer + 0.5) * height);
         const std::vector<Contour> contours = trace_contours(slice, 0.025, scratch);
-        const Toolpaths paths = plan_toolpaths(contours, {0.45, height, 1, 0.025}, layer);
+        const Toolpaths paths = plan_toolpaths(contours, {{0.45, height, 0.025}}, layer);
         std::vector<Rect> boxes;
         for (const Bead& bead : paths.beads) {
             laid += bead_volume(bead, height);

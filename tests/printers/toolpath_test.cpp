@@ -69,7 +69,7 @@ TEST_CASE("at full density the plastic has the volume of the region", "[toolpath
     for (const auto& contours : shapes) {
         double area = 0;
         for (const Contour& contour : contours) area += area_of(contour);
-        const Toolpaths paths = plan_toolpaths(contours, {0.45, height, 1, 0.02}, layer);
+        const Toolpaths paths = plan_toolpaths(contours, {{0.45, height, 0.02}}, layer);
         CAPTURE(area);
         check_inside(contours, paths);
         CHECK(volume_of(paths) == Approx(area * height).epsilon(0.03));
@@ -82,7 +82,7 @@ TEST_CASE("infill has its density and turns from layer to layer", "[toolpath]") 
     for (const double density : {0.1, 0.3, 0.6}) {
         CAPTURE(density);
         for (const int layer : {0, 1}) {
-            const Toolpaths paths = plan_toolpaths(contours, {0.45, height, density, 0.02}, layer);
+            const Toolpaths paths = plan_toolpaths(contours, {{0.45, height, 0.02}, 1, density}, layer);
             check_inside(contours, paths);
             double infill = 0;
             for (const Bead& bead : paths.beads) {
@@ -96,7 +96,7 @@ TEST_CASE("infill has its density and turns from layer to layer", "[toolpath]") 
             CHECK(infill / (40 * 40 * height) == Approx(density).epsilon(0.06));
         }
     }
-    CHECK(plan_toolpaths(contours, {0.45, height, 0, 0.02}, 0).beads.size() == 1);
+    CHECK(plan_toolpaths(contours, {{0.45, height, 0.02}, 1, 0}, 0).beads.size() == 1);
 }
 
 TEST_CASE("no printable island goes without a bead, however thin or small", "[toolpath]") {
@@ -113,7 +113,7 @@ TEST_CASE("no printable island goes without a bead, however thin or small", "[to
         const std::vector<Contour> alone = {island};
         const double area = area_of(island);
         CAPTURE(area, island.points[0].x, island.points[0].y);
-        const Toolpaths paths = plan_toolpaths(alone, {0.45, height, 1, 0.02}, 0);
+        const Toolpaths paths = plan_toolpaths(alone, {{0.45, height, 0.02}}, 0);
         CHECK(paths.islands == 1);
         CHECK(paths.islands_left_out == (area < 0.45 * 0.45 / 4 ? 1 : 0));
         CHECK(paths.beads.empty() == (paths.islands_left_out == 1));
@@ -121,7 +121,7 @@ TEST_CASE("no printable island goes without a bead, however thin or small", "[to
         // Too little plastic is possible where an island is thinner than any bead, too much never is.
         CHECK(volume_of(paths) < area * height * 1.06);
     }
-    const Toolpaths all = plan_toolpaths(contours, {0.45, height, 1, 0.02}, 0);
+    const Toolpaths all = plan_toolpaths(contours, {{0.45, height, 0.02}}, 0);
     std::map<int, int> beads_of;
     for (const Bead& bead : all.beads) ++beads_of[bead.island];
     CHECK(beads_of.size() == contours.size() - static_cast<std::size_t>(all.islands_left_out));
@@ -131,7 +131,7 @@ TEST_CASE("strips from half a line width on get their volume", "[toolpath]") {
     for (double thickness = 0.23; thickness < 2; thickness += 0.05) {
         CAPTURE(thickness);
         const std::vector<Contour> strip = {arc_contour({0, 0}, 6, thickness, 0, 3)};
-        const Toolpaths paths = plan_toolpaths(strip, {0.45, height, 1, 0.02}, 0);
+        const Toolpaths paths = plan_toolpaths(strip, {{0.45, height, 0.02}}, 0);
         check_inside(strip, paths);
         CHECK(volume_of(paths) == Approx(area_of(strip[0]) * height).epsilon(0.12));
     }
@@ -148,7 +148,7 @@ TEST_CASE("a thin arm of a thick island gets a bead of its own", "[toolpath]") {
     const auto right = std::find_if(points.begin(), points.end(), [](dvec2 p) { return p.y > 0; });
     points.insert(right, {{2.99, -y}, {9, -y}, {9, y}, {2.99, y}});
     const std::vector<Contour> contours = {{points, -1, false}};
-    const Toolpaths paths = plan_toolpaths(contours, {0.45, height, 1, 0.02}, 0);
+    const Toolpaths paths = plan_toolpaths(contours, {{0.45, height, 0.02}}, 0);
     check_inside(contours, paths);
     double reach = 0;
     for (const Bead& bead : paths.beads) {
@@ -184,7 +184,7 @@ TEST_CASE("the pieces of a scaffold get their volume, thin walls in single lines
             p = {p.x * std::cos(angle) - p.y * std::sin(angle),
                  p.x * std::sin(angle) + p.y * std::cos(angle)};
         const std::vector<Contour> contours = {contour};
-        const Toolpaths paths = plan_toolpaths(contours, {0.45, height, 1, 0.025}, 0);
+        const Toolpaths paths = plan_toolpaths(contours, {{0.45, height, 0.025}}, 0);
         check_inside(contours, paths);
         CHECK(volume_of(paths) == Approx(area_of(contour) * height).epsilon(0.02));
         return paths;

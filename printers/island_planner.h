@@ -1,0 +1,33 @@
+// The beads of one island of a layer.
+#pragma once
+
+#include "printers/polygons.h"
+#include "printers/toolpath.h"
+
+namespace lamella {
+
+/// Plans island after island of one layer; see plan_toolpaths.
+class IslandPlanner {
+  public:
+    IslandPlanner(const ToolpathSettings& settings, int layer_index);
+
+    /// Beads of a connected piece with its holes, of at least LineSettings::least_area().
+    std::vector<Bead> plan(const Polygons& island);
+
+  private:
+    void fill(const Polygons& exact, const Polygons& piece, int walls_laid);
+    void fill_thick(const Polygons& exact, const Polygons& piece, int walls_laid);
+    bool lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid);
+    bool fill_even_wall(const Polygons& piece, double area, Role role);
+    void fill_narrow(const Polygons& piece, bool full_width_fits, Role role);
+    void fill_region(const Polygons& region);
+    void add(std::vector<Bead> beads);
+    double volume_from(std::size_t first) const;
+
+    ToolpathSettings settings_;
+    LineSettings line_;
+    dvec2 direction_;
+    std::vector<Bead> beads_;
+};
+
+}  // namespace lamella
