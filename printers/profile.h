@@ -122,6 +122,29 @@ struct FilamentProfile {
     double tolerance = 0.025;                                             ///< mm between contour and surface
 };
 
+/// How the inside of an island is filled.
+enum class InfillPattern : unsigned char {
+    lines,      ///< straight, at +45 degrees on even layers and -45 on odd ones
+    concentric  ///< loops within one another
+};
+
+/// Where loops begin and end.
+enum class Seam : unsigned char {
+    nearest,  ///< where the way to them is short
+    rear,     ///< at their largest y
+    corner    ///< at their sharpest corner
+};
+
+/// How an extruder's paths are planned. Lengths in mm.
+struct ToolpathProfile {
+    int walls = 2;  ///< beads round each island, the outermost included
+    InfillPattern infill = InfillPattern::lines;
+    Seam seam = Seam::nearest;
+    double brim = 0;  ///< width of what is laid round the first layer, touching it
+    int skirt = 0;    ///< loops round the first layer, to fill the nozzle
+    double skirt_distance = 3;
+};
+
 /// What a machine can print over the void, and how its supports are shaped. Lengths in mm.
 struct SupportProfile {
     double overhang = 0;      ///< by which a layer may stand out over the one below; 0: half a line's width,
@@ -164,6 +187,7 @@ struct PrinterProfile {
     ExchangeProfile exchange;
     CuttingProfile cutting;
     FilamentProfile filament;
+    ToolpathProfile toolpath;
     SupportProfile support;
 };
 

@@ -5,21 +5,9 @@
 
 #include "engine/contours.h"
 #include "printers/bead.h"
+#include "printers/profile.h"
 
 namespace lamella {
-
-/// How the inside of an island is filled.
-enum class InfillPattern : unsigned char {
-    lines,      ///< straight, at +45 degrees on even layers and -45 on odd ones
-    concentric  ///< loops within one another
-};
-
-/// Where loops begin and end.
-enum class Seam : unsigned char {
-    nearest,  ///< where the way to them is short
-    rear,     ///< at their largest y
-    corner    ///< at their sharpest corner
-};
 
 struct ToolpathSettings {
     LineSettings line;
