@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "printers/gcode_profile.h"
+
 namespace lamella {
 
 /// How grey values of an image stack are made.
@@ -164,6 +166,8 @@ struct PrinterProfile {
     ExchangeProfile exchange;
     CuttingProfile cutting;
     FilamentProfile filament;
+    GcodeProfile gcode;
+    LaserProfile laser;
     SupportProfile support;
 };
 
