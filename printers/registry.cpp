@@ -35,7 +35,7 @@ constexpr std::array backend_table = {
                 OutputKind::file_or_folder, make_svg, Medium::contours, true},
     BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
                 make_dxf, Medium::contours},
-    BackendInfo{"gcode", "G-code for filament printers with Marlin firmware", ".gcode", OutputKind::file,
+    BackendInfo{"gcode", "G-code for filament printers, and for lasers under GRBL", ".gcode", OutputKind::file,
                 make_gcode, Medium::beads, true},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
                 OutputKind::file, make_cli, Medium::contours, true},
