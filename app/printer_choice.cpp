@@ -23,6 +23,8 @@ std::string size_of(const PrinterProfile& p) {
                                p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
                                p.image.portrait ? ", portrait" : "");
         case Medium::beads:
+            if (p.gcode.flavour == Flavour::grbl)
+                return fmt::format("{:.6g} x {:.6g} mm", p.filament.bed_x, p.filament.bed_y);
             return fmt::format("{:.6g} x {:.6g} x {:.6g} mm, nozzle {:.6g} mm", p.filament.bed_x,
                                p.filament.bed_y, p.filament.bed_z, p.filament.nozzle);
         case Medium::contours:
