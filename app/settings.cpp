@@ -46,7 +46,7 @@ std::optional<std::string> text_objection(const std::string& text, std::size_t l
 
 /// Lines are printable ASCII: machines take no other bytes.
 std::optional<std::string> lines_objection(const std::string& text) {
-    if (text.find_first_not_of("\n") == std::string::npos) return "there is no line";
+    if (text.find_first_not_of('\n') == std::string::npos) return "there is no line";
     if (text.size() > longest_script) return fmt::format("it has more than {} bytes", longest_script);
     int line = 1;
     for (const char c : text) {
