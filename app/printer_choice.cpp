@@ -23,6 +23,8 @@ std::string size_of(const PrinterProfile& p) {
                                p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
                                p.image.portrait ? ", portrait" : "");
         case Medium::beads:
+            if (p.gcode.flavour == Flavour::grbl)
+                return fmt::format("{:.6g} x {:.6g} mm", p.filament.bed_x, p.filament.bed_y);
             return fmt::format("{:.6g} x {:.6g} x {:.6g} mm, nozzle {:.6g} mm", p.filament.bed_x,
                                p.filament.bed_y, p.filament.bed_z, p.filament.nozzle);
         case Medium::contours:
@@ -61,6 +63,17 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
+/// A list of texts, one a line.
+std::string quoted_lines(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        out += (at > 0 ? ", " : "") + quoted(std::string(text.substr(at, end - at)));
+        at = end + 1;
+    }
+    return "[" + out + "]";
+}
+
 /// Keys that say again what others say, or that belong to recipes alone.
 bool is_written(const Setting& setting) {
     static const std::set<std::string> left_out{"printer.profile", "printer.pixel", "printer.dpi",
@@ -75,8 +88,10 @@ std::string setting_line(const Setting& setting, const Recipe& recipe) {
     const std::string text = table != nullptr && table->empty() ? "[]" : format_value(value);
     // An empty text or table is no value: the key is there to be filled in.
     const bool is_empty = text.empty() || text == "[]";
-    const std::string assignment =
-        fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, is_text ? quoted(text) : text);
+    const std::string literal = setting.type == ValueType::lines && !is_empty ? quoted_lines(text)
+                                : is_text                                     ? quoted(text)
+                                                                              : text;
+    const std::string assignment = fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, literal);
     return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
                        setting.help);
 }

@@ -40,6 +40,8 @@ std::string value_hint(const Setting& setting) {
             return "FILE";
         case ValueType::rows:
             return "X,...;X,...";
+        case ValueType::lines:
+            return "LINES";
         case ValueType::text:
             return "TEXT";
         case ValueType::choice:

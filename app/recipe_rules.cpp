@@ -7,6 +7,7 @@
 #include "app/recipe_draft.h"
 #include "app/settings_rows.h"
 #include "printers/cut_sheets.h"
+#include "printers/gcode_script.h"
 #include "procedural/nearest_foam.h"
 #include "procedural/tpms.h"
 
@@ -125,6 +126,16 @@ void RecipeDraft::check_support(const PrinterProfile& printer) {
     }
 }
 
+/// The scripts of a G-code file, whether a recipe has them or the printer's profile.
+void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
+    for (const auto& [key, script] :
+         {std::pair("start_script", &gcode.start_script), std::pair("layer_script", &gcode.layer_script),
+          std::pair("end_script", &gcode.end_script)}) {
+        if (const auto mistake = script_mistake(*script, gcode.flavour))
+            refuse(0, fmt::format("{}: {}", where("printer", key), *mistake));
+    }
+}
+
 /// A skin with windows or holes lies inside.
 void RecipeDraft::check_cut_skin(const Recipe& recipe) {
     const SkinRecipe& skin = *recipe.skin;
@@ -171,6 +182,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (recipe.foam) check_foam(*recipe.foam);
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
+    check_scripts(recipe.printer.gcode);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {
         refuse(0, fmt::format("{}: supports are not cut out of sheets; accepted: none, or another "

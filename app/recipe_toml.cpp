@@ -119,6 +119,26 @@ std::optional<Value> rows(const toml::node& node, const RowShape& shape) {
     return rows;
 }
 
+/// Lines with line feeds between them, whatever ends them in the recipe.
+std::optional<Value> lines(const toml::node& node) {
+    std::string text;
+    if (const auto* whole = node.as_string()) {
+        text = whole->get();
+        std::erase(text, '\r');
+        while (text.ends_with('\n')) text.pop_back();
+        return text;
+    }
+    const auto* array = node.as_array();
+    if (!array) return std::nullopt;
+    for (const toml::node& part : *array) {
+        const auto* line = part.as_string();
+        if (!line) return std::nullopt;
+        if (&part != &array->front()) text += '\n';
+        text += line->get();
+    }
+    return text;
+}
+
 /// The node as a value of the setting's type; nothing when it has another type.
 std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
     switch (setting.type) {
@@ -136,6 +156,8 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
         case ValueType::choice:
             if (const auto* v = node.as_string()) return v->get();
             break;
+        case ValueType::lines:
+            return lines(node);
         case ValueType::triple:
             return triple(node);
         case ValueType::graded:

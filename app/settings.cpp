@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t longest_text = 4096;
 constexpr std::size_t longest_formula = 1 << 16;
+constexpr std::size_t longest_script = 1 << 16;
 constexpr std::size_t most_rows = 1 << 16;
 
 std::string with_unit(const Setting& setting) { return setting.unit.empty() ? "" : " " + setting.unit; }
@@ -40,6 +41,21 @@ std::optional<std::string> text_objection(const std::string& text, std::size_t l
     if (text.size() > longest) return fmt::format("the text has more than {} bytes", longest);
     const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), control)) return "the text holds control characters";
+    return std::nullopt;
+}
+
+/// Lines are printable ASCII: machines take no other bytes.
+std::optional<std::string> lines_objection(const std::string& text) {
+    if (text.find_first_not_of('\n') == std::string::npos) return "there is no line";
+    if (text.size() > longest_script) return fmt::format("it has more than {} bytes", longest_script);
+    int line = 1;
+    for (const char c : text) {
+        if (c == '\n') {
+            ++line;
+        } else if (c < ' ' || c > '~') {
+            return fmt::format("line {} holds a character that is not printable ASCII", line);
+        }
+    }
     return std::nullopt;
 }
 
@@ -178,6 +194,8 @@ std::string accepted(const Setting& setting) {
             return "a number" + range_text(setting) + with_unit(setting);
         case ValueType::text:
             return "a text";
+        case ValueType::lines:
+            return "a list of lines, or a text of several lines";
         case ValueType::path:
             return "a path";
         case ValueType::choice:
@@ -211,6 +229,8 @@ std::optional<std::string> objection(const Setting& setting, const Value& value)
         case ValueType::text:
         case ValueType::path:
             return text_objection(std::get<std::string>(value));
+        case ValueType::lines:
+            return lines_objection(std::get<std::string>(value));
         case ValueType::choice: {
             const auto& word = std::get<std::string>(value);
             const auto& list = setting.choices;
@@ -254,6 +274,7 @@ std::optional<Value> parse_value(const Setting& setting, const std::string& text
             if (const auto number = entire<double>(text)) value = *number;
             break;
         case ValueType::text:
+        case ValueType::lines:
         case ValueType::path:
         case ValueType::choice:
             value = text;

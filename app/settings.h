@@ -23,7 +23,8 @@ enum class ValueType : unsigned char {
     integer,
     number,
     text,
-    path,  ///< of a file: in a recipe it starts at the recipe's folder; an input's bytes count
+    lines,  ///< one or more lines of text: in a recipe a text of several lines or a list of texts
+    path,   ///< of a file: in a recipe it starts at the recipe's folder; an input's bytes count
     choice,
     triple,
     graded,         ///< a number, or a formula over place, depth and gradings

@@ -138,7 +138,7 @@ void add_resin(std::vector<Setting>& t) {
         {.unit = "s", .limits = {0, 1000}, .help = "Time that a layer takes besides its exposure."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.preview; }>(
         "printer", "preview", "--printer-preview",
-        {.help = "Put pictures of the part into resin printers' files."}));
+        {.help = "Put pictures of the part into resin printers' files and G-code."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.notes; }>(
         "printer", "notes", "--printer-notes",
         {.help = "Keywords for programs that convert SL1 archives, such as FILEFORMAT_goo."}));
@@ -212,6 +212,8 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_vector(table);
     add_cutting_settings(table);
     add_filament(table);
+    add_toolpath_settings(table);
+    add_gcode_settings(table);
     add_exchange_settings(table);
 }
 

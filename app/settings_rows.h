@@ -20,10 +20,13 @@ const std::vector<std::string>& words(RegionMake);
 const std::vector<std::string>& words(ImageFormat);
 const std::vector<std::string>& words(Antialiasing);
 const std::vector<std::string>& words(CliFormat);
+const std::vector<std::string>& words(InfillPattern);
+const std::vector<std::string>& words(Seam);
 const std::vector<std::string>& words(PanelPixels);
 const std::vector<std::string>& words(Laser);
 const std::vector<std::string>& words(Ties);
 const std::vector<std::string>& words(SvgDialect);
+const std::vector<std::string>& words(Flavour);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -46,6 +49,10 @@ void add_archive_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
+/// Those of them about G-code's dialect, scripts, speeds and motion, and about lasers.
+void add_gcode_settings(std::vector<Setting>& table);
+/// Those of them about where an extruder's beads go.
+void add_toolpath_settings(std::vector<Setting>& table);
 /// Those of them about files for other programs and powder-bed machines.
 void add_exchange_settings(std::vector<Setting>& table);
 /// Those of them that are about cutting layers out of sheets.
@@ -61,6 +68,7 @@ struct Facts {
     std::string help{};
     bool is_path = false;
     bool is_formula = false;  ///< a graded number that must be a formula
+    bool is_lines = false;    ///< a text of several lines
 };
 
 template <typename T>
@@ -74,6 +82,7 @@ ValueType type_of(const Facts& facts) {
     if constexpr (std::is_same_v<T, GradedNumber>)
         return facts.is_formula ? ValueType::formula : ValueType::graded;
     if constexpr (std::is_same_v<T, std::string>) {
+        if (facts.is_lines) return ValueType::lines;
         if (facts.choices.empty()) return facts.is_path ? ValueType::path : ValueType::text;
     }
     return ValueType::choice;

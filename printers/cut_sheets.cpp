@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "engine/number_format.h"
+#include "printers/cut_notes.h"
 #include "printers/cut_plan.h"
 #include "printers/sheet_nesting.h"
 #include "printers/svg_text.h"
@@ -18,23 +19,6 @@ namespace {
 
 struct CutProduct : LayerProduct {
     CutPlan plan;
-};
-
-/// How many layers something befell, and the first of them.
-struct Tally {
-    int layers = 0;
-    int first = 0;
-    int sum = 0;
-
-    void count(int layer, int times) {
-        if (times <= 0) return;
-        if (layers++ == 0) first = layer;
-        sum += times;
-    }
-    std::string where() const {
-        return layers == 1 ? fmt::format("in layer {}", first)
-                           : fmt::format("in {} layers, first in layer {}", layers, first);
-    }
 };
 
 void check_length(const char* key, double length, double least, double most) {
@@ -90,26 +74,7 @@ class CutBackend : public Backend {
         return product;
     }
 
-    std::vector<std::string> notes() const override {
-        std::vector<std::string> notes;
-        const auto kerf = format_number(profile_.cutting.kerf, 4);
-        if (loose_.layers > 0 && profile_.cutting.ties == Ties::none) {
-            notes.push_back(fmt::format(
-                "loose pieces {}, which falls into {}; printer.ties = \"join\" holds them together",
-                loose_.where(), first_loose_));
-        }
-        if (holes_.layers > 0) {
-            notes.push_back(fmt::format("{} {} closed by the kerf of {} mm and not cut, {}", holes_.sum,
-                                        holes_.sum == 1 ? "hole is" : "holes are", kerf, holes_.where()));
-        }
-        if (merged_.layers > 0) {
-            notes.push_back(
-                fmt::format("pieces nearer to each other than the kerf of {} mm are not cut apart {}", kerf,
-                            merged_.where()));
-        }
-        if (unnumbered_.layers > 0) notes.push_back("no room for the layer's number " + unnumbered_.where());
-        return notes;
-    }
+    std::vector<std::string> notes() const override { return notes_.texts(profile_.cutting); }
 
   protected:
     JobStamp open(const Job& job, LayerRange range) {
@@ -125,17 +90,7 @@ class CutBackend : public Backend {
     /// The layer's plan, once what it says is counted. Throws ConstraintError when it may not be cut.
     CutPlan take(const Layer& layer, LayerProduct& product) {
         CutPlan plan = std::move(dynamic_cast<CutProduct&>(product).plan);
-        if (plan.pieces > 1 && profile_.cutting.ties == Ties::refuse) {
-            throw ConstraintError(fmt::format(
-                "layer {} falls into {} loose pieces, and printer.ties = \"refuse\"; accepted: \"join\", "
-                "\"none\", or a part whose layers hold together",
-                layer.index(), plan.pieces));
-        }
-        if (loose_.layers == 0) first_loose_ = plan.pieces;
-        loose_.count(layer.index(), plan.pieces - 1);
-        holes_.count(layer.index(), plan.closed_holes);
-        merged_.count(layer.index(), plan.merged_pieces);
-        unnumbered_.count(layer.index(), plan.unnumbered ? 1 : 0);
+        notes_.count(layer.index(), plan, profile_.cutting);
         return plan;
     }
     nlohmann::ordered_json describe(LayerRange range) const {
@@ -153,8 +108,7 @@ class CutBackend : public Backend {
     PrinterProfile profile_;
     std::shared_ptr<const SheetFormat> format_;
     Job job_;
-    Tally loose_, holes_, merged_, unnumbered_;
-    int first_loose_ = 0;
+    CutNotes notes_;
 };
 
 void shift(CutPlan& plan, dvec2 by) {

@@ -3,135 +3,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "engine/error.h"
 #include "engine/number_format.h"
+#include "printers/gcode_flavour.h"
+#include "printers/gcode_roles.h"
+#include "printers/gcode_script.h"
+#include "printers/gcode_settings.h"
 #include "printers/gcode_text.h"
-#include "printers/toolpath.h"
+#include "printers/gcode_thumbnail.h"
+#include "printers/laser_gcode.h"
+#include "printers/skirt.h"
 
 namespace lamella {
 namespace {
 
-constexpr double prime_strip = 6;      // mm along the bed's edges that stay free of the part
-constexpr double prime_height = 0.3;   // mm
-constexpr double prime_length = 60;    // mm
-constexpr double retract_between = 2;  // mm of travel between islands that oozing may not spoil
-constexpr double retract_within = 10;  // mm of travel over the island itself
+constexpr double prime_strip = 6;     // mm along the bed's edges that stay free of the part
+constexpr double prime_height = 0.3;  // mm
+constexpr double prime_length = 60;   // mm
 
 struct GcodeProduct : LayerProduct {
     std::string text;  ///< from the first bead on; empty for an empty layer
     dvec2 first{0};    ///< on the bed, mm
     dvec2 last{0};
-    GcodeUse use;
-    double support_filament = 0;  ///< of `use`, mm
+    double filament = 0;          ///< mm
+    double support_filament = 0;  ///< of it, mm
+    double slowed = 0;            ///< mm of extrusion below the speed asked for, for the rate of lines
+    std::vector<double> seconds;  ///< of each move
     int islands_left_out = 0;
-};
-
-const char* role_name(Role role) {
-    switch (role) {
-        case Role::external_perimeter:
-            return "External perimeter";
-        case Role::perimeter:
-            return "Perimeter";
-        case Role::internal_infill:
-            return "Internal infill";
-        case Role::solid_infill:
-            return "Solid infill";
-        case Role::gap_fill:
-            return "Gap fill";
-        case Role::skirt:
-            return "Skirt/Brim";
-        case Role::support:
-            return "Support material";
-    }
-    return "Custom";
-}
-
-/// What goes into a comment: printable ASCII, and not too much of it.
-std::string comment_text(const std::string& text) {
-    constexpr std::size_t most = 64;
-    std::string clean;
-    for (const char c : text.substr(0, most)) clean += ' ' <= c && c <= '~' ? c : '?';
-    return clean;
-}
-
-std::string duration(double seconds) {
-    const auto s = static_cast<std::int64_t>(std::min(seconds, 1e12));
-    if (s >= 86400) return fmt::format("{}d {}h {}m {}s", s / 86400, s / 3600 % 24, s / 60 % 60, s % 60);
-    if (s >= 3600) return fmt::format("{}h {}m {}s", s / 3600, s / 60 % 60, s % 60);
-    return fmt::format("{}m {}s", s / 60, s % 60);
-}
-
-/// Writes the beads of a layer, each change of role or width announced.
-class BeadWriter {
-  public:
-    BeadWriter(const PrinterProfile& profile, double height, bool first_layer, dvec2 shift)
-        : text_(profile.filament),
-          height_(height),
-          speed_(first_layer ? profile.filament.first_layer_speed : profile.filament.print_speed),
-          support_speed_(first_layer ? profile.filament.first_layer_speed : profile.support.speed),
-          shift_(shift) {}
-
-    void bead(const Bead& bead) {
-        const dvec2 start = bead.points.front() + shift_;
-        if (island_ < 0) {
-            text_.start_at(start);
-        } else {
-            const dvec2 way = start - text_.position();
-            const double limit = bead.island == island_ ? retract_within : retract_between;
-            text_.travel(start, way.x * way.x + way.y * way.y > limit * limit);
-        }
-        island_ = bead.island;
-        announce(bead);
-        const double speed = bead.role == Role::support ? support_speed_ : speed_;
-        const std::size_t n = bead.points.size();
-        for (std::size_t i = 1; i < n + (bead.closed ? 1 : 0); ++i) {
-            const double area =
-                (bead_area(bead.width_at(i - 1), height_) + bead_area(bead.width_at(i % n), height_)) / 2;
-            to(bead.points[i % n], area * bead.flow, speed);
-        }
-    }
-    const GcodeText& text() const { return text_; }
-
-  private:
-    void to(dvec2 point, double area, double speed) {
-        point += shift_;
-        const dvec2 way = point - text_.position();
-        constexpr double shortest = 0.002;  // mm; shorter ones would vanish in the rounding of the words
-        if (way.x * way.x + way.y * way.y >= shortest * shortest) text_.extrude(point, area, speed);
-    }
-    void announce(const Bead& bead) {
-        if (!announced_ || bead.role != role_) text_.line(std::string(";TYPE:") + role_name(bead.role));
-        const std::string width = format_number(bead.width, 3);
-        if (width != width_) text_.line(";WIDTH:" + width);
-        announced_ = true;
-        role_ = bead.role;
-        width_ = width;
-    }
-
-    GcodeText text_;
-    double height_;
-    double speed_;
-    double support_speed_;
-    dvec2 shift_;
-    int island_ = -1;
-    bool announced_ = false;
-    Role role_ = Role::external_perimeter;
-    std::string width_;
 };
 
 class Gcode : public Backend {
   public:
     Gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output)
-        : profile_(profile), filament_(profile_.filament), output_(std::move(output)) {}
+        : profile_(profile),
+          filament_(profile_.filament),
+          gcode_(profile_.gcode),
+          output_(std::move(output)),
+          rate_(std::max(2, profile.gcode.planner_blocks)) {}
     Gcode(const Gcode&) = delete;
     Gcode& operator=(const Gcode&) = delete;
 
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
-        check_filament_profile(filament_, job.layer_height);
+        check_filament_profile(profile_, job.layer_height);
         supported_ = job.supports != nullptr;
         if (supported_) check_support_speed(profile_.support);
         check_fit(job);
@@ -140,7 +58,8 @@ class Gcode : public Backend {
         range_ = range;
         const dvec3 center = job.bounds.center();
         shift_ = dvec2(filament_.bed_x, filament_.bed_y) * 0.5 - dvec2(center.x, center.y);
-        const int next = output_->begin({job.identity, settings(), range}, resume);
+        const std::string supports = supported_ ? fmt::format(" supports {}", profile_.support.speed) : "";
+        const int next = output_->begin({job.identity, gcode_settings(profile_) + supports, range}, resume);
         if (const nlohmann::ordered_json state = output_->state(); !state.is_null()) {
             restore(state);
         } else {
@@ -156,82 +75,155 @@ class Gcode : public Backend {
         const std::vector<Contour> supports = layer.support_contours(filament_.tolerance);
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
         for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
-        // Supports first: the part comes to rest on them. They are filled whatever the part is.
+        // What goes round it comes first; then supports, for the part comes to rest on them. They are filled
+        // whatever the part is.
+        std::vector<Bead> beads = round(layer, contours, supports);
+        int islands = beads.empty() ? 0 : 1;
         Toolpaths under = plan(layer, supports, 1);
+        for (Bead& bead : under.beads) {
+            bead.role = Role::support;
+            bead.island += islands;
+        }
+        islands += under.islands;
         Toolpaths paths = plan(layer, contours, filament_.infill_density);
-        for (Bead& bead : under.beads) bead.role = Role::support;
-        for (Bead& bead : paths.beads) bead.island += under.islands;
+        for (Bead& bead : paths.beads) bead.island += islands;
         product->islands_left_out = under.islands_left_out + paths.islands_left_out;
-        if (under.beads.empty() && paths.beads.empty()) return product;
-        BeadWriter writer(profile_, height_, layer.index() == 0, shift_);
-        for (const Bead& bead : under.beads) writer.bead(bead);
-        product->support_filament = writer.text().use().filament;
-        for (const Bead& bead : paths.beads) writer.bead(bead);
-        const Bead& first = under.beads.empty() ? paths.beads.front() : under.beads.front();
-        product->text = writer.text().text();
-        product->first = first.points.front() + shift_;
-        product->last = writer.text().position();
-        product->use = writer.text().use();
+        for (const Toolpaths* planned : {&under, &paths})
+            beads.insert(beads.end(), planned->beads.begin(), planned->beads.end());
+        if (!beads.empty()) lay(beads, layer.index() == 0, *product);
         return product;
     }
 
     void write(const Layer& layer, LayerProduct& any) override {
         const auto& product = dynamic_cast<GcodeProduct&>(any);
-        GcodeText text(filament_);
-        text.start_at(position_);
+        const int index = layer.index();
+        GcodeText text(profile_);
         text.line(";LAYER_CHANGE");
         text.line(";Z:" + format_number(layer.top(), 3));
         text.line(";HEIGHT:" + format_number(height_, 3));
-        text.line(fmt::format("M73 P{}", 100LL * layer.index() / layer_count_));
-        // The first layer has to stick, later ones to set.
-        text.line(layer.index() == 0 ? "M107" : "M106 S255");
-        const bool moves = !product.text.empty();
-        const bool retract = moves && text.retracts();
-        if (retract) text.retract(false);
-        text.travel_z(layer.top());
-        if (moves) text.travel(product.first, false);
-        if (retract) text.retract(true);
-        add(text.use());
-        add(product.use);
-        if (moves) position_ = product.last;
+        text.line(layer_progress(gcode_.flavour, index, layer_count_));
+        text.line(fan_line(gcode_.flavour, fan(index)));
+        if (index > range_.first) change_heat(index, text);
+        text.lines(expand_script(layer_script(gcode_), values(index)));
+        const bool prints = !product.text.empty();
+        const double below = index > range_.first ? index * height_ : gcode_.prime_line ? prime_height : 0;
+        GcodeMoves moves(profile_, position_);
+        const bool retract = prints && moves.retracts();
+        if (retract) moves.retract();
+        moves.lift(layer.top(), layer.top() - below);
+        if (prints) moves.travel(product.first, false);
+        if (retract) moves.restore();
+        append(moves, text);
+        add(product.seconds);
+        filament_used_ += product.filament;
+        if (prints) position_ = product.last;
         support_filament_ += product.support_filament;
+        slowed_ += product.slowed;
         islands_left_out_ += product.islands_left_out;
-        output_->commit(text.text() + product.text, layer.index() + 1, state());
+        output_->commit(text.text() + product.text, index + 1, state());
     }
 
     void end() override {
-        GcodeText text(filament_);
-        text.start_at(position_);
+        GcodeText text(profile_);
         const double top = range_.last * height_;
+        const double parked = std::min(top + 10, std::max(filament_.bed_z, top));
         text.line(";TYPE:Custom");
-        if (text.retracts()) text.retract(false);
-        text.travel_z(std::min(top + 10, std::max(filament_.bed_z, top)));
-        text.travel({0, filament_.bed_y}, false);
-        for (const char* off : {"M104 S0", "M140 S0", "M107", "M84", "M73 P100"}) text.line(off);
-        constexpr double pi = 3.14159265358979323846;
-        const double section = pi / 4 * filament_.filament * filament_.filament;
-        text.line("; filament used [mm] = " + format_number(use_.filament, 2));
-        text.line("; filament used [cm3] = " + format_number(use_.filament * section / 1000, 3));
-        if (supported_) {
-            text.line("; support material used [mm] = " + format_number(support_filament_, 2));
-            text.line("; support material used [cm3] = " +
-                      format_number(support_filament_ * section / 1000, 3));
-        }
-        text.line("; estimated printing time (normal mode) = " + duration(use_.seconds));
-        text.line(fmt::format("; total layers count = {}", range_.count()));
-        text.line("; layer_height = " + format_number(height_, 4));
-        text.line(fmt::format("; islands too small for a bead = {}", islands_left_out_));
+        GcodeMoves moves(profile_, position_);
+        if (moves.retracts()) moves.retract();
+        moves.lift(parked, parked - top);
+        moves.travel({0, filament_.bed_y}, false);
+        append(moves, text);
+        text.lines(expand_script(end_script(gcode_), values(range_.last - 1)));
+        text.line(end_progress(gcode_.flavour, range_.last));
+        write_facts(text);
         output_->end(text.text());
     }
 
   private:
     Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density) const {
-        return plan_toolpaths(contours, {{filament_.line_width, height_, filament_.tolerance}, 1, density},
-                              layer.index());
+        const ToolpathProfile& t = profile_.toolpath;
+        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index());
+    }
+    LineSettings line() const { return {filament_.line_width, height_, filament_.tolerance}; }
+
+    /// Brim and skirt of the first layer.
+    std::vector<Bead> round(const Layer& layer, const std::vector<Contour>& part,
+                            const std::vector<Contour>& supports) const {
+        if (layer.index() > 0) return {};
+        Polygons standing;
+        for (const std::vector<Contour>* contours : {&part, &supports}) {
+            for (const Contour& contour : *contours) standing.push_back(to_polygon(contour.points));
+        }
+        return skirt_beads(standing, profile_.toolpath, line());
+    }
+
+    /// Beads to lines: those of supports come first.
+    void lay(const std::vector<Bead>& beads, bool first_layer, GcodeProduct& product) const {
+        product.first = beads.front().points.front() + shift_;
+        GcodeMoves planned(profile_, product.first);
+        add_beads(beads, profile_, height_, first_layer, shift_, planned);
+        std::vector<GcodeMove>& moves = planned.moves();
+        slow_to_time(moves, product.first, gcode_);
+        product.slowed = slow_to_rate(moves, gcode_);
+        product.seconds = seconds_of(moves, product.first, gcode_);
+        product.last = planned.position();
+        GcodeText text(profile_);
+        text.moves(moves, product.first, beads);
+        product.text = text.text();
+        product.filament = text.filament();
+        for (const GcodeMove& move : moves) {
+            if (move.bead >= 0 && beads[static_cast<std::size_t>(move.bead)].role == Role::support)
+                product.support_filament += move.filament;
+        }
+    }
+
+    double nozzle_temperature(int layer) const {
+        const double first = gcode_.first_layer_nozzle_temperature;
+        return layer == 0 && first > 0 ? first : filament_.nozzle_temperature;
+    }
+    double bed_temperature(int layer) const {
+        const double first = gcode_.first_layer_bed_temperature;
+        return layer == 0 && first > 0 ? first : filament_.bed_temperature;
+    }
+    /// Heats to what this layer has and the one before had not; nothing waits for it.
+    void change_heat(int layer, GcodeText& text) const {
+        if (nozzle_temperature(layer) != nozzle_temperature(layer - 1))
+            text.line("M104 S" + format_number(nozzle_temperature(layer), 0));
+        if (bed_temperature(layer) != bed_temperature(layer - 1))
+            text.line("M140 S" + format_number(bed_temperature(layer), 0));
+    }
+    /// The first layers have to stick, later ones to set.
+    double fan(int layer) const {
+        const int on = layer - gcode_.fan_off_layers + 1;  // layers with fan, this one included
+        if (on <= 0) return 0;
+        return gcode_.fan * std::min(1.0, on / (gcode_.fan_ramp_layers + 1.0));
+    }
+
+    ScriptValues values(int layer) const {
+        return {layer + 1,
+                layer_count_,
+                (layer + 1) * height_,
+                height_,
+                nozzle_temperature(layer),
+                bed_temperature(layer),
+                filament_.nozzle,
+                filament_.bed_x,
+                filament_.bed_y,
+                filament_.bed_z,
+                filament_used_};
+    }
+
+    const char* with_what(bool skirted) const {
+        if (skirted)
+            return supported_ ? "the part with its supports, brim and skirt is"
+                              : "the part with its brim and skirt is";
+        return supported_ ? "the part with its supports is" : "the part is";
     }
 
     void check_fit(const Job& job) const {
-        const dvec3 size = job.bounds.size();
+        const double reach =
+            skirt_reach(profile_.toolpath, {filament_.line_width, job.layer_height, filament_.tolerance});
+        const dvec3 size = job.bounds.size() + dvec3(2 * reach, 2 * reach, 0);
         const double room_x = filament_.bed_x - 2 * prime_strip;
         const double room_y = filament_.bed_y - 2 * prime_strip;
         const double top = job.layer_count * job.layer_height;
@@ -240,66 +232,97 @@ class Gcode : public Backend {
             top <= filament_.bed_z * (1 + slack)) {
             return;
         }
-        throw InputError(
-            fmt::format("{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
-                        "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
-                        "larger printer",
-                        supported_ ? "the part with its supports is" : "the part is", size.x, size.y, top,
-                        room_x, room_y, filament_.bed_z, prime_strip));
-    }
-
-    std::string settings() const {
-        const FilamentProfile& f = filament_;
-        const std::string supports = supported_ ? fmt::format(" supports {}", profile_.support.speed) : "";
-        return fmt::format("marlin {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}", f.bed_x, f.bed_y, f.bed_z,
-                           f.nozzle, f.filament, f.line_width, f.infill_density, f.nozzle_temperature,
-                           f.bed_temperature, f.print_speed, f.first_layer_speed, f.travel_speed,
-                           f.retraction, f.retraction_speed, f.tolerance, supports);
+        throw InputError(fmt::format(
+            "{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
+            "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
+            "larger printer",
+            with_what(reach > 0), size.x, size.y, top, room_x, room_y, filament_.bed_z, prime_strip));
     }
 
     /// Comments, heating, homing and a line that fills the nozzle.
     std::string start(const Job& job) {
-        GcodeText text(filament_);
+        GcodeText text(profile_);
         text.line("; generated by Lamella " LAMELLA_VERSION);
         text.line("; job: " + comment_text(job.name));
         text.line("; identity: " + comment_text(job.identity));
         text.line("; printer: " + comment_text(profile_.name));
         text.line(fmt::format("; layers {}:{} of {}", range_.first, range_.last, layer_count_));
-        text.line("M73 P0");
-        const std::string bed = format_number(filament_.bed_temperature, 0);
-        const std::string nozzle = format_number(filament_.nozzle_temperature, 0);
-        text.line("M140 S" + bed);
-        text.line("M104 S" + nozzle);
-        text.line("G28");
-        text.line("M190 S" + bed);
-        text.line("M109 S" + nozzle);
+        if (profile_.resin.preview) text.lines(gcode_thumbnails(job.picture));
+        text.line(start_progress(gcode_.flavour, layer_count_));
+        text.lines(expand_script(start_script(gcode_), values(range_.first)));
         for (const char* mode : {"G21", "G90", "M83", "M107"}) text.line(mode);
-        text.line(";TYPE:Custom");
-        const double length = std::min(prime_length, filament_.bed_x - 20);
-        const double width = std::max(filament_.line_width, prime_height);
-        text.travel({10, prime_strip / 2}, false);
-        text.travel_z(prime_height);
-        text.extrude({10 + length, prime_strip / 2}, bead_area(width, prime_height),
-                     filament_.first_layer_speed);
-        position_ = text.position();
-        add(text.use());
+        if (sets_acceleration(gcode_) && has_travel_acceleration(gcode_.flavour))
+            text.line(travel_acceleration_line(travel_acceleration(gcode_)));
+        if (gcode_.prime_line) prime(text);
         return text.text();
     }
 
-    void add(const GcodeUse& use) {
-        use_.filament += use.filament;
-        use_.seconds += use.seconds;
+    void prime(GcodeText& text) {
+        text.line(";TYPE:Custom");
+        const dvec2 from(10, prime_strip / 2);
+        const dvec2 to = from + dvec2(std::min(prime_length, filament_.bed_x - 20), 0);
+        const double width = std::max(filament_.line_width, prime_height);
+        GcodeMoves moves(profile_, position_);
+        moves.travel(from, false);
+        moves.lift(prime_height, prime_height);
+        moves.extrude(straight_pieces(std::vector<dvec2>{from, to}).front(), bead_area(width, prime_height),
+                      filament_.first_layer_speed, gcode_.acceleration, -1);
+        append(moves, text);
+        filament_used_ += text.filament();
+    }
+
+    /// Writes moves that begin where the nozzle is, and counts their time.
+    void append(GcodeMoves& moves, GcodeText& text) {
+        slow_to_rate(moves.moves(), gcode_);
+        text.moves(moves.moves(), position_);
+        add(seconds_of(moves.moves(), position_, gcode_));
+        position_ = moves.position();
+    }
+    void add(const std::vector<double>& seconds) {
+        for (const double s : seconds) {
+            seconds_ += s;
+            rate_.add(s);
+        }
+    }
+
+    /// What hosts and previewers look for at the end of a file, and what became of the job.
+    void write_facts(GcodeText& text) const {
+        constexpr double pi = 3.14159265358979323846;
+        const double section = pi / 4 * filament_.filament * filament_.filament / 1000;  // cm3 a mm
+        const double density = profile_.support.density;
+        const auto used = [&](const char* what, double filament) {
+            text.line(fmt::format("; {} used [mm] = {}", what, format_number(filament, 2)));
+            text.line(fmt::format("; {} used [cm3] = {}", what, format_number(filament * section, 3)));
+            text.line(
+                fmt::format("; {} used [g] = {}", what, format_number(filament * section * density, 2)));
+        };
+        used("filament", filament_used_);
+        if (supported_) used("support material", support_filament_);
+        text.line("; filament density [g/cm3] = " + format_number(density, 3));
+        text.line("; estimated printing time (normal mode) = " + duration_text(seconds_));
+        text.line(fmt::format("; worst segment rate [lines/s] = {} over {} lines",
+                              format_number(rate_.worst(), 1), gcode_.planner_blocks));
+        if (gcode_.lines_per_second > 0) {
+            text.line("; slowed for the segment rate [mm] = " + format_number(slowed_, 1));
+        }
+        text.line(fmt::format("; total layers count = {}", range_.count()));
+        text.line("; layer_height = " + format_number(height_, 4));
+        text.line(fmt::format("; islands too small for a bead = {}", islands_left_out_));
     }
 
     nlohmann::ordered_json state() const {
-        return {position_.x, position_.y, use_.filament, use_.seconds, islands_left_out_, support_filament_};
+        return {position_.x,       position_.y, filament_used_, seconds_,      islands_left_out_,
+                support_filament_, slowed_,     rate_.worst(),  rate_.recent()};
     }
     void restore(const nlohmann::ordered_json& state) {
         try {
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
-            use_ = {state.at(2).get<double>(), state.at(3).get<double>()};
+            filament_used_ = state.at(2).get<double>();
+            seconds_ = state.at(3).get<double>();
             islands_left_out_ = state.at(4).get<std::int64_t>();
             support_filament_ = state.at(5).get<double>();
+            slowed_ = state.at(6).get<double>();
+            rate_.restore(state.at(8).get<std::vector<double>>(), state.at(7).get<double>());
         } catch (const nlohmann::json::exception&) {
             throw output_->damaged_state();
         }
@@ -307,14 +330,18 @@ class Gcode : public Backend {
 
     PrinterProfile profile_;
     const FilamentProfile& filament_;
+    const GcodeProfile& gcode_;
     std::unique_ptr<GcodeOutput> output_;
     double height_ = 0;
     int layer_count_ = 0;
     LayerRange range_;
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};
-    GcodeUse use_;
-    double support_filament_ = 0;  // of use_, mm
+    double filament_used_ = 0;     // mm
+    double support_filament_ = 0;  // of it, mm
+    double seconds_ = 0;
+    double slowed_ = 0;  // mm of extrusion
+    RateMeter rate_;
     std::int64_t islands_left_out_ = 0;
     bool supported_ = false;
 };
@@ -326,6 +353,7 @@ std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::st
 }
 
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output) {
+    if (profile.gcode.flavour == Flavour::grbl) return make_laser_gcode(profile, std::move(output));
     return std::make_unique<Gcode>(profile, std::move(output));
 }
 

@@ -1,4 +1,4 @@
-// Back-end: G-code for filament printers with Marlin firmware, one extruder.
+// Back-end: G-code for filament printers with one extruder, and for lasers (laser_gcode.h).
 #pragma once
 
 #include <memory>
@@ -13,10 +13,12 @@ namespace lamella {
 /// Writes a G-code file: absolute millimetres, relative extrusion, the part's bounds centred on the bed,
 /// comments that previewers of the Slic3r family read. What a layer's lines are depends on the layer alone,
 /// but for the travel to its first bead. Toolpaths: see plan_toolpaths. Islands too small for any bead are
-/// counted in the file's last lines. No line is longer than 95 characters.
+/// counted in the file's last lines, as are filament and time by the motion model. No line is longer than 95
+/// characters. What the words of a firmware are: see gcode_flavour.h.
 ///
 /// begin throws InputError for a profile that makes no sense and for a part that does not fit the bed less a
 /// strip round it for the priming line.
+/// Where the flavour is grbl, make_laser_gcode makes the back-end.
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::string& path, bool force);
 /// The same to any other place.
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);

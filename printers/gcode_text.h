@@ -1,54 +1,47 @@
-// Lines of G-code: moves of a nozzle, and what they take in filament and time.
+// Lines of G-code: moves of a nozzle as text, and what they take in filament.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
-#include "printers/profile.h"
-#include "printers/toolpath.h"
+#include "printers/gcode_moves.h"
 
 namespace lamella {
 
-/// What moves used up.
-struct GcodeUse {
-    double filament = 0;  ///< mm, retraction not counted
-    double seconds = 0;   ///< at the speeds asked for, acceleration not counted
-};
+/// What goes into a comment: printable ASCII, and not too much of it.
+std::string comment_text(const std::string& text);
+/// "1d 2h 3m 4s", as slicers write it.
+std::string duration_text(double seconds);
 
-/// Appends moves to a text. Positions are on the bed, mm.
+/// Appends lines to a text.
 class GcodeText {
   public:
-    explicit GcodeText(const FilamentProfile& profile) : profile_(profile) {}
+    explicit GcodeText(const PrinterProfile& profile) : profile_(profile) {}
 
     void line(std::string_view text) { (text_ += text) += '\n'; }
-    /// Moves without extruding, retracted when `retract` is set.
-    void travel(dvec2 to, bool retract);
-    void travel_z(double z);
-    /// Extrudes along a straight line a bead of this cross-section (mm^2), at this speed (mm/s).
-    void extrude(dvec2 to, double area, double speed);
-    /// Where the nozzle is taken to be, without a line.
-    void start_at(dvec2 position) { position_ = position; }
+    /// Lines that end in a line feed already.
+    void lines(std::string_view text) { text_ += text; }
+    /// The moves, which begin at `position`, with changes of the beads' roles and widths announced.
+    void moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads = {});
 
-    dvec2 position() const { return position_; }
-    const GcodeUse& use() const { return use_; }
     const std::string& text() const { return text_; }
-    bool retracts() const { return profile_.retraction > 0; }
-    void retract(bool forward);
+    double filament() const { return filament_; }  ///< extruded, retraction not counted, mm
 
   private:
+    void move(const GcodeMove& move, dvec2 from);
+    void announce(const Bead& bead);
+    void acceleration(const GcodeMove& move);
     void word(char letter, double value, int decimals);
     void speed(double mm_per_second);
 
-    const FilamentProfile& profile_;
+    const PrinterProfile& profile_;
     std::string text_;
-    dvec2 position_{0};
-    double speed_ = 0;  // of the last F word, mm/s
-    GcodeUse use_;
+    double filament_ = 0;
+    double speed_ = 0;         // of the last F word, mm/s
+    double acceleration_ = 0;  // of the last M204, mm/s^2
+    int role_ = -1;
+    std::string width_;
 };
-
-/// Throws InputError for the first value of a profile that no printer could work with; height is that of a
-/// layer, mm.
-void check_filament_profile(const FilamentProfile& profile, double height);
-/// The same for the speed of printing supports.
-void check_support_speed(const SupportProfile& profile);
 
 }  // namespace lamella

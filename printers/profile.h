@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "printers/gcode_profile.h"
+
 namespace lamella {
 
 /// How grey values of an image stack are made.
@@ -188,6 +190,8 @@ struct PrinterProfile {
     CuttingProfile cutting;
     FilamentProfile filament;
     ToolpathProfile toolpath;
+    GcodeProfile gcode;
+    LaserProfile laser;
     SupportProfile support;
 };
 

@@ -149,6 +149,7 @@ TEST_CASE("a profile written down as TOML is read back the same") {
         MachineProfile profile = *profiles.find(name);
         profile.printer.support.tip = 0.4375;
         profile.printer.resin.material = "a \"grey\" \\ resin";
+        profile.printer.gcode.start_script = "M117 \"{layers}\"\n\nG28 ; {{home}}";
         write(folder / (name + ".toml"), profile_as_toml(profile));
         const auto again = with(folder).find(name);
         REQUIRE(again);
@@ -162,7 +163,8 @@ TEST_CASE("a profile written down as TOML is read back the same") {
         if (setting.section != "printer" && setting.section != "support") continue;
         const bool other = setting.name() == "printer.profile" || setting.name() == "support.kind" ||
                            setting.key == "pixel" || setting.key == "dpi" ||
-                           setting.type == ValueType::rows;  // empty: only to be filled in
+                           setting.type == ValueType::rows ||
+                           setting.type == ValueType::lines;  // empty: only to be filled in
         INFO(setting.name());
         const std::string section = text.substr(text.find("\n[" + setting.section + "]"));
         CHECK((section.substr(0, section.find("\n\n")).find("\n" + setting.key + " = ") !=

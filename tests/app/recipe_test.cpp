@@ -69,6 +69,8 @@ Value another_value(const Setting& setting) {
         case ValueType::text:
         case ValueType::path:
             return std::string("word");
+        case ValueType::lines:
+            return std::string("M117 layer {layer}\nM400");
         case ValueType::graded:
             return GradedNumber{"3 + x / 64", ""};
         case ValueType::formula:
@@ -110,6 +112,7 @@ std::string toml_text(const Setting& setting, const Value& value) {
     }
     const bool plain = setting.type == ValueType::boolean || setting.type == ValueType::integer ||
                        setting.type == ValueType::number;
+    if (setting.type == ValueType::lines) return "\"\"\"\n" + text + "\n\"\"\"";
     return plain ? text : "\"" + text + "\"";
 }
 
@@ -402,4 +405,27 @@ TEST_CASE("every setting that holds decides the identity") {
         const bool decides = find_section(setting.section)->decides_layers;
         CHECK((job_identity(changed) != job_identity(plain)) == decides);
     }
+}
+
+TEST_CASE("scripts are lists of lines or texts of several lines") {
+    const std::string printer = sphere + "[printer]\nkind = \"gcode\"\n";
+    const std::string listed = printer + "start_script = [\"G28\", \"M117 {layers}\"]\n";
+    CHECK(read(listed).printer.gcode.start_script == "G28\nM117 {layers}");
+    const std::string whole = printer + "start_script = \"\"\"\nG28\r\nM117 {layers}\n\"\"\"\n";
+    CHECK(read(whole).printer.gcode.start_script == "G28\nM117 {layers}");
+    CHECK(job_identity(read(whole)) == job_identity(read(listed)));
+
+    CHECK_THAT(complaint(printer + "end_script = [\"M84\", 5]\n"),
+               Catch::StartsWith("folder/test.toml:6: printer.end_script: an array was found") &&
+                   Catch::Contains("a list of lines"));
+    CHECK_THAT(complaint(printer + "end_script = []\n"), Catch::Contains("there is no line"));
+    CHECK_THAT(complaint(printer + "end_script = [\"M84\", \"M117 \u00e9\"]\n"),
+               Catch::StartsWith("folder/test.toml:6: printer.end_script: line 2 holds a character"));
+    CHECK_THAT(
+        complaint(printer + "layer_script = [\"M400\", \"\", \"M117 {Layer}\"]\n"),
+        Catch::StartsWith("folder/test.toml:6: printer.layer_script: line 3: there is no placeholder"));
+    const std::string wide = "layer_script = \"M117 " + std::string(80, 'x') + "\"\n";
+    CHECK(read(printer + wide).printer.gcode.layer_script.size() == 85);
+    CHECK_THAT(complaint(printer + "flavour = \"grbl\"\n" + wide),
+               Catch::StartsWith("folder/test.toml:7: printer.layer_script: line 1: it has up to 85 bytes"));
 }

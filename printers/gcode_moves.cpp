@@ -1,0 +1,227 @@
+// From beads to moves, and the two reasons to slow them down.
+#include "printers/gcode_moves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "printers/gcode_roles.h"
+
+namespace lamella {
+namespace {
+
+using Kind = GcodeMove::Kind;
+
+constexpr double lift_speed = 10;         // mm/s; screws are slow
+constexpr double retract_between = 2;     // mm of travel between islands that oozing may not spoil
+constexpr double retract_within = 10;     // mm of travel over the island itself
+constexpr double shortest_piece = 0.002;  // mm; shorter ones would vanish in the rounding of the words
+constexpr double word_unit = 0.001;       // mm, of the last decimal of X, Y, I and J
+
+double length_of(dvec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+
+/// The bead's points on the bed, less those that are too near to the one before, and its width at each, mm.
+struct BeadPath {
+    std::vector<dvec2> points;
+    std::vector<double> widths;
+};
+
+BeadPath path_of(const Bead& bead, dvec2 shift) {
+    BeadPath path{{bead.points.front() + shift}, {bead.width_at(0)}};
+    const std::size_t n = bead.points.size();
+    for (std::size_t i = 1; i < n + (bead.closed ? 1 : 0); ++i) {
+        const dvec2 p = bead.points[i % n] + shift, way = p - path.points.back();
+        if (way.x * way.x + way.y * way.y < shortest_piece * shortest_piece) continue;
+        path.points.push_back(p);
+        path.widths.push_back(bead.width_at(i % n));
+    }
+    return path;
+}
+
+std::vector<PathPiece> pieces_of(const std::vector<dvec2>& points, const PrinterProfile& profile) {
+    const double tolerance = profile.filament.tolerance;
+    const bool merge = profile.gcode.lines_per_second > 0;
+    if (profile.gcode.arcs) return arc_pieces(points, tolerance, merge, word_unit);
+    return merge ? merged_pieces(points, tolerance) : straight_pieces(points);
+}
+
+MotionMove motion_of(const GcodeMove& move, dvec2 from) {
+    MotionMove m{move.length, move.speed, move.acceleration};
+    const bool in_plane = move.kind == Kind::travel || move.kind == Kind::extrude;
+    const double chord = length_of(move.to - from);
+    if (!in_plane || chord == 0) return m;
+    if (move.turn == 0) {
+        m.in = m.out = (move.to - from) / chord;
+        return m;
+    }
+    const auto tangent = [&](dvec2 at) {
+        const dvec2 arm = at - move.center;
+        return dvec2(-arm.y, arm.x) * (move.turn / length_of(arm));
+    };
+    m.in = tangent(from);
+    m.out = tangent(move.to);
+    m.radius = length_of(from - move.center);
+    return m;
+}
+
+double total_of(const std::vector<double>& seconds) {
+    double sum = 0;
+    for (const double s : seconds) sum += s;
+    return sum;
+}
+
+/// Lowers a speed, to what an F word without decimals can say.
+void slow(GcodeMove& move, double speed) {
+    if (speed >= move.speed) return;
+    move.speed = std::max(1.0, std::floor(speed * 60)) / 60;
+    move.slowed = true;
+}
+
+}  // namespace
+
+void GcodeMoves::retract() {
+    const FilamentProfile& f = profile_.filament;
+    GcodeMove move{Kind::retract};
+    move.to = position_;
+    move.length = f.retraction;
+    move.speed = f.retraction_speed;
+    move.acceleration = profile_.gcode.acceleration;
+    moves_.push_back(move);
+}
+
+void GcodeMoves::restore() {
+    retract();
+    moves_.back().kind = Kind::restore;
+}
+
+void GcodeMoves::travel(dvec2 to, bool retracted) {
+    retracted = retracted && retracts();
+    if (retracted) retract();
+    GcodeMove move{Kind::travel};
+    move.to = to;
+    move.length = length_of(to - position_);
+    move.speed = profile_.filament.travel_speed;
+    move.acceleration = travel_acceleration(profile_.gcode);
+    moves_.push_back(move);
+    position_ = to;
+    if (retracted) restore();
+}
+
+void GcodeMoves::lift(double z, double way) {
+    GcodeMove move{Kind::lift};
+    move.to = position_;
+    move.z = z;
+    move.length = std::abs(way);
+    move.speed = lift_speed;
+    move.acceleration = travel_acceleration(profile_.gcode);
+    moves_.push_back(move);
+}
+
+void GcodeMoves::extrude(const PathPiece& piece, double area, double speed, double acceleration, int bead) {
+    constexpr double pi = 3.14159265358979323846;
+    const double section = pi / 4 * profile_.filament.filament * profile_.filament.filament;
+    GcodeMove move{Kind::extrude};
+    move.turn = piece.turn;
+    move.bead = bead;
+    move.to = piece.to;
+    move.center = piece.center;
+    move.length = piece.length;
+    move.filament = piece.run * area / section;
+    move.speed = speed;
+    move.acceleration = acceleration;
+    moves_.push_back(move);
+    position_ = piece.to;
+}
+
+void add_beads(std::span<const Bead> beads, const PrinterProfile& profile, double height, bool first_layer,
+               dvec2 shift, GcodeMoves& moves) {
+    int island = -1;
+    for (std::size_t i = 0; i < beads.size(); ++i) {
+        const Bead& bead = beads[i];
+        const BeadPath path = path_of(bead, shift);
+        if (i > 0) {
+            const double limit = bead.island == island ? retract_within : retract_between;
+            const dvec2 way = path.points.front() - moves.position();
+            moves.travel(path.points.front(), way.x * way.x + way.y * way.y > limit * limit);
+        }
+        island = bead.island;
+        const double speed = role_speed(profile, bead.role, first_layer);
+        const double acceleration = role_acceleration(profile.gcode, bead.role, first_layer);
+        const auto area = [&](double width) { return bead.flow * bead_area(width, height); };
+        // A bead of changing width has as few points as it can already.
+        const std::vector<PathPiece> pieces =
+            bead.widths.empty() ? pieces_of(path.points, profile) : straight_pieces(path.points);
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const double section = bead.widths.empty()
+                                       ? area(bead.width)
+                                       : (area(path.widths[k]) + area(path.widths[k + 1])) / 2;
+            moves.extrude(pieces[k], section, speed, acceleration, static_cast<int>(i));
+        }
+    }
+}
+
+std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position,
+                               const GcodeProfile& profile) {
+    std::vector<MotionMove> motion;
+    motion.reserve(moves.size());
+    for (const GcodeMove& move : moves) {
+        motion.push_back(motion_of(move, position));
+        position = move.to;
+    }
+    return move_times(motion, profile.junction_deviation);
+}
+
+void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile) {
+    if (profile.least_layer_time <= 0 || moves.empty()) return;
+    if (total_of(seconds_of(moves, position, profile)) >= profile.least_layer_time) return;
+    const std::vector<GcodeMove> fast = moves;
+    double fastest = 0;
+    for (const GcodeMove& move : fast) {
+        if (move.kind == Kind::extrude) fastest = std::max(fastest, move.speed);
+    }
+    const auto apply = [&](double factor) {
+        moves = fast;
+        for (GcodeMove& move : moves) {
+            if (move.kind != Kind::extrude) continue;
+            slow(move, std::max(move.speed * factor, std::min(profile.least_speed, move.speed)));
+        }
+        return total_of(seconds_of(moves, position, profile));
+    };
+    double too_fast = 1, slow_enough = std::min(1.0, profile.least_speed / std::max(fastest, 1e-9));
+    if (apply(slow_enough) < profile.least_layer_time) return;
+    constexpr int halvings = 20;  // to a millionth of the speed
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = (too_fast + slow_enough) / 2;
+        (apply(middle) < profile.least_layer_time ? too_fast : slow_enough) = middle;
+    }
+    apply(slow_enough);
+}
+
+double slow_to_rate(std::vector<GcodeMove>& moves, const GcodeProfile& profile) {
+    if (profile.lines_per_second <= 0) return 0;
+    const auto window = static_cast<std::ptrdiff_t>(profile.planner_blocks);
+    const auto count = static_cast<std::ptrdiff_t>(moves.size());
+    std::vector<double> before(moves.size() + 1, 0);  // seconds at the speeds asked for
+    const auto at = [](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+        before[at(i) + 1] = before[at(i)] + moves[at(i)].length / moves[at(i)].speed;
+    // By how much each window must become slower; a move follows the slowest window that it is in.
+    std::vector<double> factors(moves.size(), 1);
+    for (std::ptrdiff_t end = 1; end < count + window; ++end) {
+        const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, end - window), last = std::min(end, count);
+        const double seconds = before[at(last)] - before[at(first)];
+        const double least = static_cast<double>(last - first) / profile.lines_per_second;
+        if (!(seconds < least)) continue;
+        const double factor = least / std::max(seconds, 1e-9);
+        for (std::ptrdiff_t i = first; i < last; ++i) factors[at(i)] = std::max(factors[at(i)], factor);
+    }
+    double slowed = 0;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        GcodeMove& move = moves[at(i)];
+        if (factors[at(i)] <= 1) continue;
+        slow(move, move.speed / factors[at(i)]);
+        if (move.kind == Kind::extrude) slowed += move.length;
+    }
+    return slowed;
+}
+
+}  // namespace lamella

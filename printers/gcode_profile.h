@@ -1,0 +1,50 @@
+// What a recipe says about G-code besides the nozzle and the bed: dialect, scripts, speeds, motion, laser.
+#pragma once
+
+#include <string>
+
+namespace lamella {
+
+/// Whose words a G-code file is written in.
+enum class Flavour : unsigned char {
+    marlin,
+    klipper,
+    reprapfirmware,
+    grbl  ///< lasers: layers are cut, not printed
+};
+
+/// Lengths in mm, speeds in mm/s, accelerations in mm/s^2.
+struct GcodeProfile {
+    Flavour flavour = Flavour::marlin;
+    /// Lines with placeholders in braces (see gcode_script.h); empty: the flavour's own.
+    std::string start_script, layer_script, end_script;
+    bool prime_line = true;                     ///< fill the nozzle along the bed's front edge
+    double first_layer_nozzle_temperature = 0;  ///< degrees Celsius; 0: as the other layers
+    double first_layer_bed_temperature = 0;     ///< degrees Celsius; 0: as the other layers
+    double fan = 1;                             ///< share of its full speed
+    int fan_off_layers = 1;                     ///< first layers without fan
+    int fan_ramp_layers = 0;                    ///< over which it then comes to its speed
+    double least_layer_time = 0;                ///< s; layers that would be faster are slowed down
+    double least_speed = 10;                    ///< below which no layer is slowed down
+    double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0, thin_speed = 0,
+           bridge_speed = 0;     ///< of beads by what they are for; 0: print_speed
+    double acceleration = 1000;  ///< that the machine has by itself
+    double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: as that
+    double junction_deviation = 0.013;  ///< of corners; of classic jerk j: 0.4 j^2 / acceleration
+    int planner_blocks = 16;            ///< moves that the machine looks ahead
+    double lines_per_second = 0;        ///< that the machine can take; 0: any
+    bool arcs = false;                  ///< G2 and G3 where they fit within the tolerance
+};
+
+/// How a laser under GRBL cuts layers.
+struct LaserProfile {
+    double cut_power = 1;        ///< share of the full power
+    double engrave_power = 0.3;  ///< the same, of numbers and scored lines
+    double cut_speed = 10;       ///< mm/s
+    double engrave_speed = 50;   ///< mm/s
+    int power_steps = 1000;      ///< the S word of full power, $30
+    bool dynamic_power = true;   ///< power that follows the speed (M4) instead of constant power (M3)
+    int cut_passes = 1;          ///< times that each cut is gone along
+};
+
+}  // namespace lamella
