@@ -117,7 +117,8 @@ void add_motion(std::vector<Setting>& t) {
         t, "junction_deviation", "--printer-junction-deviation",
         {.unit = "mm",
          .limits = {0.001, 1},
-         .help = "Junction deviation of the machine; of classic jerk j: 0.4 j^2 / acceleration."});
+         .help = "Junction deviation of the machine; of classic jerk or square corner velocity j: 0.4 j^2 / "
+                 "acceleration."});
     add_row<&G::planner_blocks>(t, "planner_blocks", "--printer-planner-blocks",
                                 {.unit = "moves",
                                  .limits = {2, 1000},

@@ -30,7 +30,7 @@ struct GcodeProfile {
            bridge_speed = 0;     ///< of beads by what they are for; 0: print_speed
     double acceleration = 1000;  ///< that the machine has by itself
     double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: as that
-    double junction_deviation = 0.013;  ///< of corners; of classic jerk j: 0.4 j^2 / acceleration
+    double junction_deviation = 0.013;  ///< of corners; for classic jerk j 0.4 j^2 / acceleration
     int planner_blocks = 16;            ///< moves that the machine looks ahead
     double lines_per_second = 0;        ///< that the machine can take; 0: any
     bool arcs = false;                  ///< G2 and G3 where they fit within the tolerance
