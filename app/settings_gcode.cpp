@@ -131,6 +131,10 @@ void add_motion(std::vector<Setting>& t) {
              "still too fast is slowed down; 0: any."});
     add_row<&G::arcs>(t, "arcs", "--printer-arcs",
                       {.help = "Make arcs (G2, G3) of points that lie on one within the tolerance."});
+    add_row<&G::thumbnails>(
+        t, "thumbnails", "--printer-thumbnails",
+        {.help = "Put pictures of the part into the file, for hosts and displays; drawing "
+                 "them comes before the first layer."});
 }
 
 void add_laser(std::vector<Setting>& t) {

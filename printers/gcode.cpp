@@ -247,7 +247,7 @@ class Gcode : public Backend {
         text.line("; identity: " + comment_text(job.identity));
         text.line("; printer: " + comment_text(profile_.name));
         text.line(fmt::format("; layers {}:{} of {}", range_.first, range_.last, layer_count_));
-        if (profile_.resin.preview) text.lines(gcode_thumbnails(job.picture));
+        if (gcode_.thumbnails) text.lines(gcode_thumbnails(job.picture));
         text.line(start_progress(gcode_.flavour, layer_count_));
         text.lines(expand_script(start_script(gcode_), values(range_.first)));
         for (const char* mode : {"G21", "G90", "M83", "M107"}) text.line(mode);

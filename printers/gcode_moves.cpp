@@ -155,6 +155,7 @@ void add_beads(std::span<const Bead> beads, const PrinterProfile& profile, doubl
                                        ? area(bead.width)
                                        : (area(path.widths[k]) + area(path.widths[k + 1])) / 2;
             moves.extrude(pieces[k], section, speed, acceleration, static_cast<int>(i));
+            moves.moves().back().width = bead_width(section, height);
         }
     }
 }

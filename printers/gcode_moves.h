@@ -24,6 +24,7 @@ struct GcodeMove {
     double z = 0;             ///< of a lift
     double length = 0;        ///< mm of x and y, of z, or of filament
     double filament = 0;      ///< extruded, mm
+    double width = 0;         ///< of the bead that it lays, mm
     double speed = 0;         ///< mm/s
     double acceleration = 0;  ///< mm/s^2
 };

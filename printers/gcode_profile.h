@@ -33,6 +33,7 @@ struct GcodeProfile {
     double junction_deviation = 0.013;  ///< of corners; for classic jerk j 0.4 j^2 / acceleration
     int planner_blocks = 16;            ///< moves that the machine looks ahead
     double lines_per_second = 0;        ///< that the machine can take; 0: any
+    bool thumbnails = false;            ///< pictures of the part for hosts, at the cost of drawing them first
     bool arcs = false;                  ///< G2 and G3 where they fit within the tolerance
 };
 

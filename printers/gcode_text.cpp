@@ -45,10 +45,10 @@ void GcodeText::speed(double mm_per_second) {
     word('F', mm_per_second * 60, 0);
 }
 
-void GcodeText::announce(const Bead& bead) {
-    const int role = static_cast<int>(bead.role);
-    if (role != role_) line(std::string(";TYPE:") + role_name(bead.role));
-    const std::string width = format_number(bead.width, 3);
+void GcodeText::announce(Role bead_role, double bead_width) {
+    const int role = static_cast<int>(bead_role);
+    if (role != role_) line(std::string(";TYPE:") + role_name(bead_role));
+    const std::string width = format_number(bead_width, 3);
     if (width != width_) line(";WIDTH:" + width);
     role_ = role;
     width_ = width;
@@ -96,9 +96,8 @@ void GcodeText::move(const GcodeMove& move, dvec2 from) {
 }
 
 void GcodeText::moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads) {
-    int bead = -1;
     for (const GcodeMove& m : moves) {
-        if (m.bead >= 0 && m.bead != bead) announce(beads[static_cast<std::size_t>(bead = m.bead)]);
+        if (m.bead >= 0) announce(beads[static_cast<std::size_t>(m.bead)].role, m.width);
         acceleration(m);
         move(m, position);
         position = m.to;

@@ -30,7 +30,7 @@ class GcodeText {
 
   private:
     void move(const GcodeMove& move, dvec2 from);
-    void announce(const Bead& bead);
+    void announce(Role bead_role, double bead_width);
     void acceleration(const GcodeMove& move);
     void word(char letter, double value, int decimals);
     void speed(double mm_per_second);

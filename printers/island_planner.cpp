@@ -30,6 +30,11 @@ std::vector<Bead> IslandPlanner::plan(const Polygons& island) {
     Polygons piece = simplified(island, line_.tolerance / 2);
     if (piece.empty()) piece = island;
     fill(island, piece, 0);
+    // Threads that would tear are left out, unless they are all there is.
+    const auto is_thread = [&](const Bead& bead) {
+        return bead.width < LineSettings::narrowest * line_.width;
+    };
+    if (!std::ranges::all_of(beads_, is_thread)) std::erase_if(beads_, is_thread);
     return std::move(beads_);
 }
 

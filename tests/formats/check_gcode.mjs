@@ -203,13 +203,13 @@ function checkLaser(model, options) {
 const koala = "examples/models/koala_mm.obj", fish = "tests/models/good/fish_mm.obj",
       gears = "tests/models/good/cube_gears.3mf";
 const foam = ["--cell", "5", "--beam", "0.6", "--skin", "1.2", "--layer-height", "0.3"];
-checkPrint(gears, "marlin", ["--layer-height", "0.4"], {plastic: 0.015});
-checkPrint(koala, "marlin", foam, {plastic: 0.06});
+checkPrint(gears, "marlin", ["--layer-height", "0.4"], {plastic: 0.01});
+checkPrint(koala, "marlin", foam, {plastic: 0.01});
 checkPrint(fish, "klipper", [...foam, "--printer-wall-acceleration", "800", "--printer-fan", "0.5",
                              "--printer-first-layer-bed-temperature", "70", "--printer-least-layer-time", "8"],
-           {plastic: 0.06});
+           {plastic: 0.01});
 checkPrint(koala, "reprapfirmware", [...foam, "--printer-arcs", "--printer-lines-per-second", "60",
                                      "--printer-travel-acceleration", "2000", "--printer-fan", "0.7"],
-           {plastic: 0.06, merged: true});
+           {plastic: 0.01, merged: true});
 checkLaser(gears, ["--layer-height", "3", "--printer-tolerance", "0.01"]);
 checkLaser(koala, ["--cell", "8", "--beam", "1", "--skin", "2", "--layer-height", "2", "--printer-tolerance", "0.01"]);

@@ -372,7 +372,9 @@ TEST_CASE("pictures stand in comments that are base64 of PNG files", "[gcode][th
         for (int i = 0; i < 3 * size * size; ++i) picture.rgb.push_back(static_cast<std::uint8_t>(i * i / 7));
         return picture;
     };
-    const std::string text = print(job, plain(), {0, 1});
+    PrinterProfile profile = plain();
+    profile.gcode.thumbnails = true;
+    const std::string text = print(job, profile, {0, 1});
     std::size_t at = 0;
     for (const char* size : {"300x300", "32x32"}) {
         at = text.find(std::string("; thumbnail begin ") + size + " ", at);
@@ -388,7 +390,6 @@ TEST_CASE("pictures stand in comments that are base64 of PNG files", "[gcode][th
         CHECK(body.size() == said);
         CHECK(body.starts_with("iVBORw0KGgo"));  // the signature of PNG
     }
-    PrinterProfile profile = plain();
-    profile.resin.preview = false;
+    profile.gcode.thumbnails = false;
     CHECK(print(job, profile, {0, 1}).find("thumbnail") == std::string::npos);
 }
