@@ -93,8 +93,10 @@ void RunCollector::make_room(std::size_t lines) {
     // The pieces that open minus those that close at each line, then their sum, then the sum of the sums.
     starts_.assign(lines + 1, 0);
     for (const Piece& piece : pieces_) {
-        ++starts_[static_cast<std::size_t>(piece.first)];
-        --starts_[static_cast<std::size_t>(piece.first + piece.count)];
+        const auto first = static_cast<std::size_t>(piece.first),
+                   count = static_cast<std::size_t>(piece.count);
+        ++starts_[first];
+        --starts_[first + count];
     }
     std::uint32_t open = 0, start = 0;
     for (std::uint32_t& line : starts_) {

@@ -25,6 +25,7 @@ std::vector<Segment> lines_in(const Polygons& region, dvec2 direction, double fi
 
 std::vector<Bead> beads_along(const std::vector<Segment>& lines, double width, Role role) {
     std::vector<Bead> beads;
+    beads.reserve(lines.size());
     for (const Segment& s : lines) beads.push_back({{s.a, s.b}, width, role, false, 0});
     return beads;
 }

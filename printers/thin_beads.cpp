@@ -49,6 +49,7 @@ std::vector<Bead> center_line_beads(const Polygons& region, double thickness, do
     for (const CenterLine& path : paths) length += length_of(path);
     if (!(length > 0)) return {};
     std::vector<Bead> beads;
+    beads.reserve(paths.size());
     for (const CenterLine& path : paths)
         beads.push_back({path.points, line.width_for(area, length), role, path.closed, 0});
     return beads;

@@ -103,6 +103,7 @@ TEST_CASE("borders that cross themselves give an axis of sorts or none, but no h
     std::uniform_real_distribution<double> place(-2, 2);
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<dvec2> points;
+        points.reserve(12);
         for (int i = 0; i < 12; ++i) points.push_back({place(random), place(random)});
         const MedialAxis axis = medial_axis({to_polygon(points)}, 0.01);
         const ThinParts parts = find_thin_parts(axis, 0.1, 0.6, 0.01);
