@@ -15,9 +15,10 @@
 namespace lamella {
 
 struct SenderSettings {
-    std::size_t window = 127;  ///< bytes that may be unanswered; one less than the printer's receive buffer
-    bool ping_pong = false;    ///< one line at a time
-    double greeting = 3;       ///< s that a board which was reset by opening the port may stay silent
+    std::size_t window = 127;   ///< bytes that may be unanswered; one less than the printer's receive buffer
+    bool ping_pong = false;     ///< one line at a time
+    bool within_slots = false;  ///< no more lines than the printer has slots for, if it tells (ADVANCED_OK)
+    double greeting = 3;        ///< s that a board which was reset by opening the port may stay silent
     double byte_time = 10.0 / 250000;  ///< s that a byte takes on the wire
 };
 

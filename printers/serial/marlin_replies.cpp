@@ -7,11 +7,12 @@
 namespace lamella {
 namespace {
 
-constexpr int most_askings = 10;         // for one line
-constexpr std::int64_t believable = 32;  // lines that the count of oks may be ahead of the truth
-constexpr double missing_ok = 0.5;       // s in which the ok of a resend comes, if it does
-constexpr double straggling = 0.05;      // s after which a resend is about the line as sent again
-constexpr double boot_quiet = 0.5;       // s from a board's first word to its readiness
+constexpr int most_askings = 10;             // for one line
+constexpr std::int64_t believable = 32;      // lines that the count of oks may be ahead of the truth
+constexpr std::int64_t careful_lines = 256;  // after a resend
+constexpr double missing_ok = 0.5;           // s in which the ok of a resend comes, if it does
+constexpr double straggling = 0.05;          // s after which a resend is about the line as sent again
+constexpr double boot_quiet = 0.5;           // s from a board's first word to its readiness
 
 }  // namespace
 
@@ -105,6 +106,7 @@ void MarlinSender::on_ok(const Reply& reply, double now) {
     }
     if (state_ != State::running && state_ != State::asking) return;
     note_planner(reply);
+    if (cursor_ - acked_ == 2 && now - last_start_ < 0.5 * (wire_free_ - last_start_)) real_wire_ = false;
     if (swallow_ok_ && !reply.number && !reply.temperatures) {
         swallow_ok_ = false;
         if (going_back_) go_back_at_ = now + 0.02 + 128 * settings_.byte_time;
@@ -179,8 +181,7 @@ void MarlinSender::go_back(std::int64_t number, double now) {
         return;
     }
     ++statistics_.resends;
-    recent_resends_.push_back(next_);
-    if (recent_resends_.size() > 5) recent_resends_.pop_front();
+    careful_until_ = next_ + careful_lines;
     if (number <= acked_) acknowledge(number - 1);
     cursor_ = number;
     going_back_ = true;

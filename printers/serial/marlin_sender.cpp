@@ -19,6 +19,7 @@ constexpr double slow_impatient = 4.5;  // for commands that take long: busy com
 constexpr double slow_patient = 60;
 constexpr int most_tickles = 20;
 constexpr int silent_tickles = 5;
+constexpr double careful_pause = 0.1;  // s between lines while the link has faults, unless all are answered
 constexpr double relink_patience = 3;  // s in which a board that was reset says so
 
 bool takes_long(const std::string& command) {
@@ -89,19 +90,24 @@ std::size_t MarlinSender::unanswered() const {
     return bytes;
 }
 
-bool MarlinSender::fits(std::size_t bytes) const {
+bool MarlinSender::fits(std::size_t bytes, double now) const {
+    if (real_wire_ && now < wire_free_ + wire_gap()) return false;
     const std::size_t before = unanswered();
     if (before == 0) return true;
     if (settings_.ping_pong || state_ != State::running) return false;
-    // A printer that asks often for lines again may have less room than believed: then no more lines than it
-    // has slots for.
-    const bool troubled = recent_resends_.size() >= 5 && next_ - recent_resends_.front() <= 100;
-    if (troubled && most_slots_free_ >= 0 && cursor_ - 1 - acked_ > most_slots_free_) return false;
+    if (cursor_ < careful_until_ && now < last_start_ + careful_pause) return false;
+    // No more lines than there are slots for, where the printer tells their number and the one that runs.
+    if (settings_.within_slots && most_slots_free_ >= 0 && cursor_ - 1 - acked_ > most_slots_free_)
+        return false;
     return before + bytes <= settings_.window;
 }
 
 void MarlinSender::send(std::int64_t number, double now) {
     if (unanswered() == 0) sign_of_work_ = now;
+    // After a pause the count of oks is in doubt.
+    if (unanswered() > 0 && cursor_ < careful_until_) marker_due_ = !sent(number).marker;
+    last_start_ = now;
+    wire_free_ = std::max(now, wire_free_) + static_cast<double>(sent(number).size) * settings_.byte_time;
     const std::string line = numbered_line(number, sent(number).command);
     cursor_ = number + 1;
     if (number == asked_ && asked_sent_ < 0) asked_sent_ = now;
@@ -110,7 +116,7 @@ void MarlinSender::send(std::int64_t number, double now) {
 
 bool MarlinSender::send_command(const std::string& command, bool of_job, double now, bool forced) {
     const std::size_t size = wire_size(next_, command);
-    if (!forced && !fits(size)) return false;
+    if (!forced && !fits(size, now)) return false;
     if (of_job) ++job_lines_;
     const bool marker = command == "M105";
     if (marker) last_marker_ = next_, marker_due_ = false;
@@ -155,17 +161,25 @@ bool MarlinSender::send_new(double now) {
 }
 
 void MarlinSender::feed(double now) {
+    last_fed_ = now;
     if (stop_ || going_back_) return;
     if (state_ == State::asking && urgent_.empty() && unanswered() == 0 && cursor_ == next_) settle();
     if (state_ != State::asking && state_ != State::running) return;
     while (cursor_ < next_) {
-        if (!fits(sent(cursor_).size)) return;
+        if (!fits(sent(cursor_).size, now)) return;
         ++statistics_.repeated;
         send(cursor_, now);
     }
     while (send_new(now)) {
     }
 }
+
+bool MarlinSender::has_more() const {
+    return cursor_ < next_ || !urgent_.empty() || marker_due_ || (!held_ && !pending_.empty()) ||
+           (finishing_ && finish_step_ < 3);
+}
+
+double MarlinSender::wire_gap() const { return 10 * settings_.byte_time + 0.0001; }
 
 double MarlinSender::patience() const {
     if (unanswered() == 0) return never;
@@ -182,6 +196,12 @@ double MarlinSender::wake_at() const {
     if (state_ != State::running && state_ != State::asking) return state_until_;
     double at = going_back_ ? go_back_at_ : sign_of_work_ + patience();
     if (swallow_ok_) at = std::min(at, swallow_until_);
+    if (!going_back_ && has_more()) {
+        at = std::min(at, real_wire_ ? wire_free_ + wire_gap() : never);
+        if (cursor_ < careful_until_) at = std::min(at, last_start_ + careful_pause);
+        // What is due already waits for an answer.
+        if (at <= last_fed_) at = std::min({sign_of_work_ + patience(), recheck_at_, probe_at_});
+    }
     return std::min({at, recheck_at_, probe_at_});
 }
 

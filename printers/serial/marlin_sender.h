@@ -64,7 +64,9 @@ class MarlinSender : public LineSender {
     bool send_new(double now);
     bool send_command(const std::string& command, bool of_job, double now, bool forced);
     void send(std::int64_t number, double now);
-    bool fits(std::size_t bytes) const;
+    bool fits(std::size_t bytes, double now) const;
+    bool has_more() const;
+    double wire_gap() const;
     double patience() const;
     std::optional<std::int64_t> marker_answered() const;
     void drop_history();
@@ -98,7 +100,15 @@ class MarlinSender : public LineSender {
     double recheck_at_ = never;
     std::int64_t impossible_ = -1;
     double probe_at_ = never;
-    std::deque<std::int64_t> recent_resends_;  // numbers of lines next when asked, for judging their share
+    // A printer that asks for a line throws away what it has received. Where that cuts the line behind in two
+    // between its number and its command, it executes the rest as a command without a number. Therefore no
+    // line follows another on the wire without a gap in which the printer can look at it; and on a link with
+    // faults hardly any line follows one that is unanswered.
+    std::int64_t careful_until_ = 0;
+    double last_start_ = 0;
+    double wire_free_ = 0;
+    double last_fed_ = 0;
+    bool real_wire_ = true;  // answers never come sooner than bytes could go over a wire of this speed
 
     bool busy_seen_ = false;
     double sign_of_work_ = 0;  // last ok, busy or heating line, or the first line after a pause
