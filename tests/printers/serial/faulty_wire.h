@@ -68,21 +68,24 @@ class FaultyWire {
         }
         line_.clear();
     }
-    /// A burst of bytes. One whose XOR is 0 passes every checksum, and a line end in it can leave a command
-    /// without its number: no sender can see either.
+    /// A burst that overwrites some bytes. One that leaves the XOR as it is passes every checksum, and a line
+    /// end in it can leave a command without its number: no sender can see either.
     void spoil() {
-        std::string burst;
-        unsigned sum = 0;
-        while (burst.empty() || sum == 0) {
-            burst.clear(), sum = 0;
-            for (std::size_t i = 1 + random_() % 20; i > 0; --i) {
+        const std::string before = line_;
+        const auto sum = [](const std::string& text) {
+            unsigned all = 0;
+            for (const char c : text) all ^= static_cast<unsigned char>(c);
+            return all;
+        };
+        while (sum(line_) == sum(before)) {
+            line_ = before;
+            const std::size_t first = somewhere();
+            const std::size_t last = std::min(line_.size() - 1, first + 1 + random_() % 10);
+            for (std::size_t i = first; i < last; ++i) {
                 const auto byte = static_cast<unsigned char>(random_() % 256);
-                if (byte == '\n' || byte == '\r' || byte == '*') continue;
-                burst += static_cast<char>(byte);
-                sum ^= byte;
+                if (byte != '\n' && byte != '\r' && byte != '*') line_[i] = static_cast<char>(byte);
             }
         }
-        line_.insert(somewhere(), burst);
     }
 
     WireFaults faults_;
