@@ -91,7 +91,7 @@ std::size_t MarlinSender::unanswered() const {
 }
 
 bool MarlinSender::fits(std::size_t bytes, double now) const {
-    if (real_wire_ && now < wire_free_ + wire_gap()) return false;
+    if (paced() && now < wire_free_ + wire_gap()) return false;
     const std::size_t before = unanswered();
     if (before == 0) return true;
     if (settings_.ping_pong || state_ != State::running) return false;
@@ -197,7 +197,7 @@ double MarlinSender::wake_at() const {
     double at = going_back_ ? go_back_at_ : sign_of_work_ + patience();
     if (swallow_ok_) at = std::min(at, swallow_until_);
     if (!going_back_ && has_more()) {
-        at = std::min(at, real_wire_ ? wire_free_ + wire_gap() : never);
+        at = std::min(at, paced() ? wire_free_ + wire_gap() : never);
         if (cursor_ < careful_until_) at = std::min(at, last_start_ + careful_pause);
         // What is due already waits for an answer.
         if (at <= last_fed_) at = std::min({sign_of_work_ + patience(), recheck_at_, probe_at_});

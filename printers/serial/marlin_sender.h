@@ -67,6 +67,7 @@ class MarlinSender : public LineSender {
     bool fits(std::size_t bytes, double now) const;
     bool has_more() const;
     double wire_gap() const;
+    bool paced() const { return real_wire_ && settings_.byte_time > 0; }
     double patience() const;
     std::optional<std::int64_t> marker_answered() const;
     void drop_history();

@@ -119,6 +119,18 @@ LinkStatus PrintLink::status() const {
     return status_;
 }
 
+std::string PrintLink::end_words() {
+    if (!thread_.joinable()) return {};
+    stop();
+    thread_.join();
+    try {
+        if (failure_) std::rethrow_exception(failure_);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
 void PrintLink::work() {
     try {
         sender_->connect(now());
@@ -137,6 +149,7 @@ void PrintLink::round() {
     } else {
         go_on_aborting(time);
     }
+    if (phase_ == Phase::done) return;
     sender_->tick(time);
     move_bytes(time);
     time = now();
@@ -148,7 +161,7 @@ void PrintLink::round() {
 void PrintLink::take_requests(double now) {
     const bool cancelled = settings_.cancel != nullptr && settings_.cancel->cancelled();
     if (phase_ != Phase::printing) return;
-    if (cancelled || stopping_) return abort(now);
+    if (cancelled || stopping_) return abort(now, cancelled);
     if (pausing_.exchange(false) && !paused_ && sender_->connected()) {
         paused_ = true;
         sender_->hold(true);
@@ -295,7 +308,7 @@ void PrintLink::write_journal(double now) {
     journal_->write(text.dump() + "\n");
 }
 
-void PrintLink::abort(double now) {
+void PrintLink::abort(double now, bool at_once) {
     sender_->drop_pending();
     current_ = {};
     current_at_ = 0;
@@ -304,8 +317,7 @@ void PrintLink::abort(double now) {
         return end(std::make_exception_ptr(
             Interrupted("interrupted before the printer was known; nothing was printed")));
     }
-    const bool at_once = sender_->halts_at_once() && !stopping_;
-    if (at_once) {
+    if (at_once && sender_->halts_at_once()) {
         sender_->halt(now);
         abort_words_ = settings_.grbl
                            ? "the machine was held, then reset: its position is kept"
@@ -353,6 +365,7 @@ void PrintLink::go_on_aborting(double now) {
 }
 
 void PrintLink::end(std::exception_ptr failure) {
+    if (phase_ == Phase::done) return;  // the first reason counts
     phase_ = Phase::done;
     note_status(now(), true);
     {

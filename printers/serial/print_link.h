@@ -85,6 +85,9 @@ class PrintLink {
     /// Ends the print cleanly, when what the printer has already got is done.
     void stop() { request(stopping_); }
     LinkStatus status() const;
+    /// Waits until the print has ended, cleanly where it was cancelled, and tells what became of the machine;
+    /// empty when it was never reached.
+    std::string end_words();
 
   private:
     enum class Phase : unsigned char { printing, aborting, switching_off, halting, done };
@@ -100,7 +103,7 @@ class PrintLink {
     void reopen(double now);
     void leave();
     void come_back();
-    void abort(double now);
+    void abort(double now, bool at_once);
     void go_on_aborting(double now);
     void end(std::exception_ptr failure);
     void note_status(double now, bool at_once);

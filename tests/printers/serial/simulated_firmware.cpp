@@ -129,8 +129,8 @@ std::string SimulatedMarlin::temperatures() const {
 void SimulatedMarlin::start_command(double now) {
     const std::string& text = slots_.front().text;
     const auto digits = text.find_first_not_of("0123456789", 1);
-    const bool known = text.size() > 1 && std::string("GMT").find(text[0]) != std::string::npos && digits != 1 &&
-                       (digits == std::string::npos || text[digits] == ' ');
+    const bool known = text.size() > 1 && std::string("GMT").find(text[0]) != std::string::npos &&
+                       digits != 1 && (digits == std::string::npos || text[digits] == ' ');
     running_ = true;
     run_until_ = now + options_.line_time;
     next_busy_ = now + 2;
