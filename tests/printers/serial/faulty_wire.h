@@ -2,9 +2,12 @@
 // two of them.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace lamella::test {
 
@@ -35,6 +38,8 @@ class FaultyWire {
         }
         return bytes;
     }
+    /// The next line that is just so does not arrive.
+    void lose_next(std::string line) { doomed_ = std::move(line) + "\n"; }
     int faults() const { return count_; }
 
   private:
@@ -45,6 +50,7 @@ class FaultyWire {
     }
     std::size_t somewhere() { return random_() % (line_.size() - 1); }
     void send(double now) {
+        if (line_ == doomed_) line_.clear(), doomed_.clear();
         if (line_.size() > 1) {
             // One fault a line: the XOR of a line misses many a pair of them.
             if (happens(faults_.flipped_bit)) {
@@ -93,6 +99,7 @@ class FaultyWire {
     double byte_time_;
     std::mt19937 random_;
     std::string line_;
+    std::string doomed_;
     std::deque<std::pair<double, char>> under_way_;
     double free_at_ = 0;
     int count_ = 0;

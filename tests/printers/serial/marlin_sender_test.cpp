@@ -1,73 +1,10 @@
 // The Marlin sender against a simulated printer: what was executed is the judge.
-#include "printers/serial/marlin_sender.h"
-
 #include <catch2/catch.hpp>
 
-#include "tests/printers/serial/faulty_wire.h"
-#include "tests/printers/serial/simulated_firmware.h"
+#include "tests/printers/serial/marlin_bench.h"
 
 using namespace lamella;
 using namespace lamella::test;
-
-namespace {
-
-/// Moves that take `duration` seconds each, all different.
-std::vector<std::string> moves(int count, double duration = 0) {
-    std::vector<std::string> lines;
-    for (int i = 0; i < count; ++i) {
-        const double way = duration > 0 ? duration * 100 : 0;
-        lines.push_back("G1 X" + std::to_string(i % 2 == 0 ? static_cast<int>(way) : 0) + " E" +
-                        std::to_string(i) + " F6000");
-    }
-    return lines;
-}
-
-/// A sender, a printer and two wires, moved on by small steps of time.
-struct Bench {
-    explicit Bench(FirmwareOptions options, SenderSettings settings = {}, WireFaults to = {},
-                   WireFaults from = {}, unsigned seed = 1, double latency = 0.001)
-        : sender(settings, {}),
-          printer(options),
-          out(to, latency, 10.0 / 250000, seed),
-          in(from, latency, 10.0 / 250000, seed + 1000) {
-        printer.boot(0);
-        sender.connect(0);
-    }
-    void step() {
-        now += 0.00025;
-        sender.tick(now);
-        const std::string bytes(sender.output());
-        sender.wrote(bytes.size());
-        most_unanswered = std::max(most_unanswered, sender.unanswered());
-        if (!unplugged) out.put(bytes, now);
-        printer.receive(out.take(now), now);
-        const std::string said = printer.run(now);
-        if (!unplugged) in.put(said, now);
-        sender.receive(in.take(now), now);
-    }
-    template <class Until>
-    bool run(double seconds, Until until) {
-        for (const double end = now + seconds; now < end;) {
-            step();
-            if (until()) return true;
-        }
-        return false;
-    }
-    bool print(const std::vector<std::string>& lines, double seconds) {
-        for (const std::string& line : lines) sender.push(line);
-        sender.finish();
-        return run(seconds, [&] { return sender.finished() || sender.stopped(); });
-    }
-
-    MarlinSender sender;
-    SimulatedMarlin printer;
-    FaultyWire out, in;
-    double now = 0;
-    bool unplugged = false;
-    std::size_t most_unanswered = 0;
-};
-
-}  // namespace
 
 TEST_CASE("without faults every line is executed once, none is asked for twice, and no byte is lost") {
     FirmwareOptions options;
@@ -75,7 +12,7 @@ TEST_CASE("without faults every line is executed once, none is asked for twice, 
     options.advanced_ok = GENERATE(false, true);
     SenderSettings settings;
     settings.window = GENERATE(64, 127);
-    Bench bench(options, settings);
+    MarlinBench bench(options, settings);
     const auto lines = moves(3000, 0.004);
     REQUIRE(bench.print(lines, 100));
     CHECK(!bench.sender.stopped());
@@ -98,7 +35,7 @@ TEST_CASE("ten thousand lines get through one per cent of every fault, once each
     options.seed = seed;
     const WireFaults to{0.01, 0.01, 0.01, 0.01, 0, 0.01};
     const WireFaults from{0.0, 0.0, 0.0, 0.01, 0.01, 0.0};
-    Bench bench(options, {}, to, from, seed);
+    MarlinBench bench(options, {}, to, from, seed);
     const auto lines = moves(10000);
     INFO("seed " << seed);
     REQUIRE(bench.print(lines, 5 * 900));
@@ -121,7 +58,7 @@ TEST_CASE("spoilt replies end in the whole job or in a plain stop, never in a wr
     options.old = seed % 2 == 0;
     options.seed = seed;
     const WireFaults from{0.01, 0.01, 0.01, 0.01, 0.01, 0.01};
-    Bench bench(options, {}, {0.005, 0.005, 0.005, 0.005, 0, 0.005}, from, seed);
+    MarlinBench bench(options, {}, {0.005, 0.005, 0.005, 0.005, 0, 0.005}, from, seed);
     const auto lines = moves(5000);
     INFO("seed " << seed);
     REQUIRE(bench.print(lines, 5000));
