@@ -50,8 +50,7 @@ class DryRunOutput : public GcodeOutput {
         report_.bytes = sender_->statistics().bytes;
         report_.seconds = maker_.seconds();
         report_.need = maker_.need();
-        if (sender_->answered() != report_.lines)
-            throw FaultError("the dry run did not come to its end");
+        if (sender_->answered() != report_.lines) throw FaultError("the dry run did not come to its end");
     }
 
   private:

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -132,6 +134,9 @@ std::string PrintLink::end_words() {
 }
 
 void PrintLink::work() {
+    // Layers are computed on all cores meanwhile: lines go first, where the system allows it.
+    const sched_param priority{1};
+    pthread_setschedparam(pthread_self(), SCHED_RR, &priority);
     try {
         sender_->connect(now());
         while (phase_ != Phase::done) round();

@@ -76,7 +76,7 @@ class SerialOutput : public GcodeOutput {
   private:
     nlohmann::ordered_json read_journal(const JobStamp& stamp) const {
         std::ifstream in(settings_.journal);
-        const auto record = nlohmann::ordered_json::parse(in, nullptr, false);
+        auto record = nlohmann::ordered_json::parse(in, nullptr, false);
         if (!record.is_object() || !record.contains("stamp")) throw damaged_state();
         check_same_job(record["stamp"], stamp, settings_.journal);
         return record;

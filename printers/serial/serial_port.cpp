@@ -65,9 +65,9 @@ std::string usb_description(const std::string& name) {
     fs::path folder = fs::canonical("/sys/class/tty/" + name + "/device", error);
     for (int level = 0; !error && level < 4; ++level, folder = folder.parent_path()) {
         const std::string product = first_line(folder / "product");
-        const std::string maker = first_line(folder / "manufacturer");
-        if (!product.empty() || !maker.empty())
-            return maker.empty() || product.empty() ? maker + product : maker + " " + product;
+        std::string text = first_line(folder / "manufacturer");
+        if (!product.empty()) (text += text.empty() ? "" : " ") += product;
+        if (!text.empty()) return text;
     }
     return {};
 }

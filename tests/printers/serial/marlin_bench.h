@@ -20,13 +20,13 @@ inline std::vector<std::string> moves(int count, double duration = 0) {
     return lines;
 }
 
-/// A sender, a printer and two wires, moved on by small steps of time.
+/// A sender, a printer whose replies take `latency` seconds, and two wires, moved on by small steps of time.
 struct MarlinBench {
     explicit MarlinBench(FirmwareOptions options, SenderSettings settings = {}, WireFaults to = {},
                          WireFaults from = {}, unsigned seed = 1, double latency = 0.001)
         : sender(settings, {}),
           printer(options),
-          out(to, latency, 10.0 / 250000, seed),
+          out(to, 0.0005, 10.0 / 250000, seed),
           in(from, latency, 10.0 / 250000, seed + 1000) {
         printer.boot(0);
         sender.connect(0);
