@@ -20,7 +20,22 @@ namespace lamella::test {
 class PtyMachine {
   public:
     /// `pace` seconds of the machine pass in each second.
-    explicit PtyMachine(FirmwareOptions options, double pace = 1) : printer_(options), pace_(pace) {
+    explicit PtyMachine(FirmwareOptions options, double pace = 1) : printer_(options), pace_(pace) { plug(); }
+    ~PtyMachine() { unplug(); }
+    PtyMachine(const PtyMachine&) = delete;
+    PtyMachine& operator=(const PtyMachine&) = delete;
+
+    /// Pulls the plug: the port is gone, the printer stays on.
+    void unplug() {
+        ending_ = true;
+        if (thread_.joinable()) thread_.join();
+        if (slave_ >= 0) close(slave_);
+        if (master_ >= 0) close(master_);
+        slave_ = master_ = -1;
+    }
+    /// Puts it in again, at another path.
+    void plug() {
+        ending_ = false;
         master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
         REQUIRE(master_ >= 0);
         REQUIRE(grantpt(master_) == 0);
@@ -37,14 +52,6 @@ class PtyMachine {
         tcsetattr(slave_, TCSANOW, &mode);
         thread_ = std::thread([this] { work(); });
     }
-    ~PtyMachine() {
-        ending_ = true;
-        thread_.join();
-        close(slave_);
-        close(master_);
-    }
-    PtyMachine(const PtyMachine&) = delete;
-    PtyMachine& operator=(const PtyMachine&) = delete;
 
     const std::string& path() const { return path_; }
     std::vector<std::string> executed() {
