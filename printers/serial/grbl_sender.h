@@ -23,8 +23,7 @@ class GrblSender : public LineSender {
     /// Holds the motion, waits until it stands, then resets: the position is kept.
     void halt(double now) override;
     bool halts_at_once() const override { return true; }
-    /// Lets a held machine move again.
-    void release() { transmit_raw("~", false); }
+    void hold_motion(bool held) override { transmit_raw(held ? "!" : "~", false); }
 
   protected:
     void handle(const Reply& reply, double now) override;

@@ -89,6 +89,8 @@ class LineSender {
     std::size_t pending() const { return pending_.size(); }
     /// While held, no line of the job is sent; the host's own are.
     void hold(bool held) { held_ = held; }
+    /// Stops or goes on with the motion itself, where the machine can.
+    virtual void hold_motion(bool) {}
     /// Forgets what was not sent yet.
     void drop_pending() { pending_.clear(), urgent_.clear(); }
     /// Nothing to send and nothing unanswered.

@@ -170,11 +170,13 @@ void PrintLink::take_requests(double now) {
     if (pausing_.exchange(false) && !paused_ && sender_->connected()) {
         paused_ = true;
         sender_->hold(true);
+        sender_->hold_motion(true);
         if (!parked_) leave();
     }
     if (resuming_.exchange(false) && paused_) {
         paused_ = false;
         if (!parked_) come_back();
+        sender_->hold_motion(false);
         sender_->hold(false);
     }
 }

@@ -146,3 +146,17 @@ TEST_CASE("GRBL is reset only once it stands still") {
     CHECK(bench.machine.reset_while_held);
     CHECK(bench.machine.executed.size() <= 101);
 }
+
+TEST_CASE("a pause holds GRBL's motion, and nothing is lost") {
+    Bench bench;
+    for (int i = 0; i < 200; ++i) bench.sender.push("G1X" + std::to_string(i));
+    bench.sender.finish();
+    REQUIRE(bench.run(60, [&] { return bench.machine.executed.size() == 100; }));
+    bench.sender.hold_motion(true);
+    bench.run(5, [] { return false; });
+    CHECK(bench.machine.executed.size() <= 101);
+    CHECK(!bench.sender.stopped());
+    bench.sender.hold_motion(false);
+    REQUIRE(bench.run(60, [&] { return bench.sender.finished(); }));
+    CHECK(bench.machine.executed.size() == 201);
+}
