@@ -8,58 +8,28 @@
 #include <optional>
 
 #include "app/beam_output.h"
-#include "app/build_job.h"
-#include "app/build_supports.h"
 #include "app/commands.h"
-#include "app/grading_report.h"
 #include "app/interrupt.h"
 #include "app/island_report.h"
-#include "app/job_picture.h"
-#include "app/layer_range.h"
+#include "app/job_report.h"
 #include "app/outputs.h"
-#include "app/printer_choice.h"
+#include "app/prepare_job.h"
 #include "app/progress.h"
-#include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/layer_stream.h"
-#include "engine/plate.h"
 #include "printers/registry.h"
 
 namespace lamella {
 
 namespace {
 
-struct SliceOptions {
-    RecipeOptions recipe;
+struct SliceOptions : JobOptions {
     std::vector<std::string> output;
-    std::string layers;
-    std::string plans = default_plan_folder();
-    std::vector<std::string> beside;
-    int threads = 0;
-    int look_ahead = 0;
-    bool resume = false;
     bool force = false;
-    bool quiet = false;
     bool json = false;
     std::string repeat;  ///< the command line that continues this run
 };
-
-std::string quoted(const std::string& argument) {
-    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./:,@%";
-    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
-    std::string text = "'";
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-std::string resuming(const std::vector<std::string>& arguments) {
-    std::string line = "lamella";
-    for (std::size_t i = 1; i < arguments.size(); ++i) {
-        if (arguments[i] != "--resume" && arguments[i] != "--force") line += " " + quoted(arguments[i]);
-    }
-    return line + " --resume";
-}
 
 std::int64_t peak_memory_bytes() {
     rusage usage{};
@@ -123,44 +93,6 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
     if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
 }
 
-void survey(const Recipe& recipe, BuiltJob& built, const SliceOptions& options, const CancelToken& cancel) {
-    ProgressDisplay display(options.quiet, "survey for islands: ");
-    IslandSurveyOptions survey;
-    survey.threads = options.threads;
-    survey.cancel = &cancel;
-    survey.on_progress = [&](const Progress& progress) { display.show(progress); };
-    drop_islands(recipe, built, survey);
-    display.finish();
-    if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
-}
-
-/// The recipes of what stands beside the part, with its machine, layers and supports.
-std::vector<Recipe> read_beside(const SliceOptions& options, const Recipe& first) {
-    std::vector<Recipe> recipes;
-    for (const std::string& input : options.beside) {
-        Recipe recipe = read_recipe(input, options.recipe.profiles());
-        recipe.printer = first.printer;
-        recipe.layer_height = first.layer_height;
-        recipe.support = first.support;
-        recipes.push_back(std::move(recipe));
-    }
-    return recipes;
-}
-
-/// Makes the job one of all parts and their copies.
-void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
-                const SliceOptions& options, const CancelToken& cancel) {
-    std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
-    for (const Recipe& other : others) {
-        BuiltJob beside = build_job(other);
-        if (other.foam && other.foam->drop_islands) survey(other, beside, options, cancel);
-        add_supports_with_progress(other, beside, {options.plans, options.threads, {}, &cancel},
-                                   options.quiet);
-        items.push_back({beside.job, other.plate.copies});
-    }
-    built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
-}
-
 /// Standard output takes the layers and nothing else.
 void check_standard_output(const SliceOptions& options) {
     if (options.json) {
@@ -180,43 +112,12 @@ void run(const SliceOptions& options) {
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
     const std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles());
-    BuiltJob built = build_job(recipe);
-    if (!options.quiet) note_unused(options.recipe, recipe);
-    if (built.mesh && !options.quiet) {
-        for (const std::string& note : built.mesh->notes) {
-            std::fputs((built.mesh->path + ": " + note + "\n").c_str(), stderr);
-        }
-    }
-    if (!options.quiet) {
-        for (const GradingReport& graded : grading_reports(built)) {
-            for (const std::string& line : warnings(graded)) std::fputs((line + "\n").c_str(), stderr);
-        }
-    }
-    if (!options.quiet) {
-        for (const std::string& line : built.regions.warnings) std::fputs((line + "\n").c_str(), stderr);
-    }
-    if (built.drains && !options.quiet)
-        std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
-    if (built.dowels && !options.quiet)
-        std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
-    std::vector<Recipe> others = read_beside(options, recipe);
-    // Surveys take time: what is wrong should be known before them.
-    parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
-    if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
-    const auto supports = add_supports_with_progress(
-        recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
-    if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
-    add_picture(recipe, built, supports, options.threads);
-    if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
-    StreamOptions stream;
-    stream.range = parse_layers(options.layers, built.job.layer_count);
+    const PreparedJob prepared = prepare_job(options, recipe, cancel);
+    const BuiltJob& built = prepared.built;
+    StreamOptions stream = prepared.stream;
     // Of several runs for ranges of layers, the first writes the beams.
     const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
     if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
-    stream.threads = options.threads;
-    stream.look_ahead = options.look_ahead;
-    stream.resume = options.resume;
-    stream.cancel = &cancel;
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
     StreamReport report;
     std::vector<std::string> notes;
@@ -250,27 +151,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        .add_option("--layers", options->layers,
-                    "Layers A up to, not including, B, counted from 0; default: all")
-        ->type_name("A:B");
-    command
-        .add_option(
-            "--beside", options->beside,
-            "Another recipe or model on the same plate; with several, --beside stands before each. It "
-            "is cut and supported as the first one says")
-        ->type_name("FILE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")
-        ->check(CLI::Range(0, 1024));
-    command.add_option("--look-ahead", options->look_ahead, "Layers in flight at most; 0: two a thread")
-        ->check(CLI::Range(0, 4096));
-    command
-        .add_option("--plans", options->plans,
-                    "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "
-                    "default: lamella/plans in the user's cache")
-        ->type_name("DIR");
+    add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
     command.add_flag("--force", options->force, "Replace an output that exists");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");

@@ -9,6 +9,9 @@ namespace lamella {
 
 /// `arguments` is the command line as typed, for the advice on how to go on after an interruption.
 void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments);
+/// The same for `arguments`.
+void add_print_command(CLI::App& root, const std::vector<std::string>& arguments);
+void add_ports_command(CLI::App& root);
 void add_preview_command(CLI::App& root);
 void add_info_command(CLI::App& root);
 void add_extract_command(CLI::App& root);

@@ -73,6 +73,8 @@ int run_command(const std::vector<std::string>& arguments) {
             "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
             "130 interrupted.");
         add_slice_command(root, arguments);
+        add_print_command(root, arguments);
+        add_ports_command(root);
         add_preview_command(root);
         add_info_command(root);
         add_extract_command(root);

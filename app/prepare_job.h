@@ -1,0 +1,41 @@
+// What every command that computes layers does before them: the job's options, its surveys and supports.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/build_job.h"
+#include "app/recipe_options.h"
+#include "app/support_plan.h"
+#include "engine/layer_stream.h"
+
+namespace lamella {
+
+struct JobOptions {
+    RecipeOptions recipe;
+    std::string layers;  ///< A:B
+    std::string plans = default_plan_folder();
+    std::vector<std::string> beside;  ///< other inputs on the same plate
+    int threads = 0;
+    int look_ahead = 0;
+    bool resume = false;
+    bool quiet = false;
+};
+
+/// Adds the options to a subcommand.
+void add_job_options(CLI::App& command, JobOptions& options);
+
+struct PreparedJob {
+    BuiltJob built;
+    StreamOptions stream;  ///< without its on_progress
+};
+
+/// Builds the job of a recipe with all that stands beside it, and says on standard error what a user should
+/// know of it. Throws InputError for what cannot be made, Interrupted when cancelled.
+PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel);
+
+/// The command line that continues this run.
+std::string resuming(const std::vector<std::string>& arguments);
+
+}  // namespace lamella

@@ -1,0 +1,99 @@
+// A print without a printer: everything but the port.
+#include <algorithm>
+#include <chrono>
+
+#include "engine/error.h"
+#include "printers/serial/gcode_line.h"
+#include "printers/serial/grbl_sender.h"
+#include "printers/serial/marlin_sender.h"
+#include "printers/serial/serial_output.h"
+
+namespace lamella {
+namespace {
+
+/// Drives the real sender; every line it sends is answered before the next is looked at.
+class DryRunOutput : public GcodeOutput {
+  public:
+    DryRunOutput(const LinkSettings& settings, DryRun& report)
+        : grbl_(settings.grbl), maker_(settings.grbl ? longest_grbl_line : longest_command), report_(report) {
+        SenderSettings sender = settings.sender;
+        sender.greeting = 0;
+        sender.byte_time = 0;
+        if (grbl_) {
+            sender_ = std::make_unique<GrblSender>(sender, SenderListener{});
+        } else {
+            sender_ = std::make_unique<MarlinSender>(sender, SenderListener{});
+        }
+    }
+
+    int begin(const JobStamp& stamp, bool resume) override {
+        if (resume) throw InputError("--dry-run leaves nothing behind that could be resumed");
+        sender_->connect(0);
+        return stamp.range.first;
+    }
+    nlohmann::ordered_json state() const override { return nullptr; }
+    InputError damaged_state() const override { return InputError("a dry run keeps no state"); }
+    void commit(std::string_view text, int, const nlohmann::ordered_json&) override {
+        const std::string lines = maker_.clean(text);
+        for (std::size_t at = 0; at < lines.size();) {
+            const std::size_t end = lines.find('\n', at);
+            sender_->push(lines.substr(at, end - at));
+            at = end + 1;
+        }
+        run([&] { return sender_->connected() && sender_->idle(); });
+    }
+    void end(std::string_view text) override {
+        commit(text, 0, nullptr);
+        sender_->finish();
+        run([&] { return sender_->finished(); });
+        report_.lines = maker_.lines();
+        report_.bytes = sender_->statistics().bytes;
+        report_.seconds = maker_.seconds();
+        report_.need = maker_.need();
+        if (sender_->answered() != report_.lines) throw FaultError("the dry run did not come to its end");
+    }
+
+  private:
+    template <class Done>
+    void run(Done done) {
+        const auto start = std::chrono::steady_clock::now();
+        while (!sender_->stopped() && !done()) {
+            now_ += 0.001;
+            sender_->tick(now_);
+            answer();
+        }
+        report_.sending_seconds +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (sender_->stopped()) throw FaultError(sender_->stopped()->why);
+    }
+    void answer() {
+        while (!sender_->output().empty()) {
+            const std::string out(sender_->output());
+            sender_->wrote(out.size());
+            std::string replies;
+            for (std::size_t at = 0; at < out.size();) {
+                const std::size_t end = std::min(out.find('\n', at), out.size());
+                const std::string_view line = std::string_view(out).substr(at, end - at);
+                if (line.find("M115") != std::string_view::npos) replies += "FIRMWARE_NAME:Marlin\n";
+                if (end < out.size())
+                    replies += line.find(" M105*") != std::string_view::npos ? "ok T:0 /0\n" : "ok\n";
+                at = end + 1;
+            }
+            sender_->receive(replies, now_);
+        }
+    }
+
+    bool grbl_;
+    ChunkMaker maker_;
+    DryRun& report_;
+    std::unique_ptr<LineSender> sender_;
+    double now_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<GcodeOutput> make_dry_run(const LinkSettings& settings, DryRun& report) {
+    return std::make_unique<DryRunOutput>(settings, report);
+}
+
+}  // namespace lamella

@@ -1,0 +1,134 @@
+// Stripping, numbering, checksums.
+#include "printers/serial/gcode_line.h"
+
+#include <algorithm>
+
+#include "engine/error.h"
+
+namespace lamella {
+namespace {
+
+bool is_digit(char c) { return '0' <= c && c <= '9'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+char upper(char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool shows_text(const std::string& word) {
+    return word == "M117" || word == "M118" || word == "M23" || word == "M28" || word == "M30" ||
+           word == "M32";
+}
+
+/// Without "N12" at the front and "*34" at the end.
+std::string_view without_number(std::string_view line) {
+    line = line.substr(0, line.find('*'));
+    if (line.size() < 2 || upper(line[0]) != 'N' || !is_digit(line[1])) return line;
+    std::size_t at = 1;
+    while (at < line.size() && (is_digit(line[at]) || is_blank(line[at]))) ++at;
+    return line.substr(at);
+}
+
+std::string without_comments(std::string_view line) {
+    std::string text;
+    int depth = 0;
+    for (const char c : line) {
+        if (c == ';') break;
+        if (c == '(') ++depth;
+        if (depth == 0) text += is_blank(c) ? ' ' : upper(c);
+        if (c == ')' && depth > 0) --depth;
+    }
+    return text;
+}
+
+/// "1.500" becomes "1.5", "2.0" becomes "2"; what is no decimal number stays.
+void drop_trailing_zeros(std::string& word) {
+    const auto point = word.find('.');
+    if (point == std::string::npos || point + 1 >= word.size()) return;
+    if (!std::all_of(word.begin() + static_cast<std::ptrdiff_t>(point) + 1, word.end(), is_digit)) return;
+    const bool digits_before = point > 0 && is_digit(word[point - 1]);
+    while (word.back() == '0' && (digits_before || word.size() > point + 2)) word.pop_back();
+    if (word.back() == '.') word.pop_back();
+}
+
+/// Words parted by single blanks.
+std::string tidy_words(std::string_view text) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        if (text[at] == ' ') {
+            ++at;
+            continue;
+        }
+        const auto end = std::min(text.find(' ', at), text.size());
+        std::string word(text.substr(at, end - at));
+        drop_trailing_zeros(word);
+        if (!result.empty()) result += ' ';
+        result += word;
+        at = end;
+    }
+    return result;
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::string shown(std::string_view line) {
+    std::string text;
+    for (const char c : line.substr(0, 60)) text += ' ' <= c && c <= '~' ? c : '?';
+    return text;
+}
+
+}  // namespace
+
+std::string command_word(std::string_view command) {
+    std::string word;
+    for (const char c : command) {
+        if (word.empty() ? !('A' <= c && c <= 'Z') && c != '$' : !is_digit(c) && c != '.') break;
+        if (word.size() == 2 && word[1] == '0' && is_digit(c)) word.pop_back();
+        word += c;
+    }
+    return word;
+}
+
+std::string clean_command(std::string_view line, std::size_t longest) {
+    const std::string_view bare = trimmed(without_number(trimmed(line)));
+    std::string start;
+    for (const char c : bare.substr(0, 6)) start += upper(c);
+    const std::string word = command_word(start);
+    std::string command;
+    if (shows_text(word)) {
+        for (const char c : bare.substr(0, bare.find(';'))) command += ' ' <= c && c <= '~' ? c : '?';
+        for (std::size_t i = 0; i < word.size(); ++i) command[i] = upper(command[i]);
+        command = std::string(trimmed(std::string_view(command).substr(0, longest)));
+    } else {
+        command = tidy_words(without_comments(bare));
+    }
+    // Numbering the lines is the sender's business alone.
+    if (command.empty() || command == "%" || word == "M110") return {};
+    if (command[0] != '$' && !('A' <= command[0] && command[0] <= 'Z'))
+        throw InputError("\"" + shown(line) + "\" is no G-code: a line begins with a letter");
+    if (!std::all_of(command.begin(), command.end(), [](char c) { return ' ' <= c && c <= '~'; }))
+        throw InputError("\"" + shown(line) + "\" holds characters that are no ASCII");
+    if (command.size() > longest) {
+        throw InputError("the line \"" + shown(line) + "...\" has " + std::to_string(command.size()) +
+                         " characters, more than the " + std::to_string(longest) +
+                         " that the printer can read");
+    }
+    return command;
+}
+
+unsigned xor_checksum(std::string_view text) {
+    unsigned sum = 0;
+    for (const char c : text) sum ^= static_cast<unsigned char>(c);
+    return sum;
+}
+
+std::string numbered_line(std::int64_t number, std::string_view command) {
+    std::string line = "N" + std::to_string(number) + " ";
+    line += command;
+    const unsigned sum = xor_checksum(line);
+    line += "*" + std::to_string(sum) + "\n";
+    return line;
+}
+
+}  // namespace lamella

@@ -1,0 +1,56 @@
+// A ready G-code file, cut into parts that are sent as wholes.
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "engine/error.h"
+#include "printers/serial/serial_output.h"
+
+namespace lamella {
+namespace {
+
+constexpr int lines_a_part = 500;  // where the file does not tell its layers
+
+/// Calls take(part) for each part in order; parts begin where slicers announce a layer.
+template <typename Take>
+void for_each_part(const std::filesystem::path& path, const Take& take) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError("cannot read " + path.string());
+    std::string part, line;
+    int lines = 0;
+    while (std::getline(in, line)) {
+        const bool layer = line.starts_with(";LAYER_CHANGE") || line.starts_with(";LAYER:");
+        if ((layer || lines >= lines_a_part) && !part.empty()) {
+            take(part);
+            part.clear();
+            lines = 0;
+        }
+        (part += line) += '\n';
+        ++lines;
+    }
+    if (in.bad()) throw FaultError("reading " + path.string() + " failed");
+    take(part);
+}
+
+}  // namespace
+
+int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool resume,
+                    const CancelToken* cancel) {
+    // FNV-1a of the whole file tells whether it is still the same when a print is taken up.
+    std::uint64_t hash = 14695981039346656037ULL;
+    int parts = 0;
+    for_each_part(path, [&](const std::string& part) {
+        ++parts;
+        for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+    });
+    const int first = output.begin({fmt::format("file-{:016x}", hash), "gcode file", {0, parts}}, resume);
+    int index = 0;
+    for_each_part(path, [&](const std::string& part) {
+        if (cancel != nullptr && cancel->cancelled()) throw Interrupted("interrupted");
+        if (index++ >= first) output.commit(part, index, nullptr);
+    });
+    output.end("");
+    return parts;
+}
+
+}  // namespace lamella

@@ -1,0 +1,182 @@
+// Character counting, status reports, and the polite stop.
+#include "printers/serial/grbl_sender.h"
+
+#include <algorithm>
+
+#include "printers/serial/gcode_line.h"
+
+namespace lamella {
+namespace {
+
+constexpr double status_interval = 0.2;  // s; more often costs the reply line
+constexpr double ask_patience = 2;       // s
+constexpr int most_tries = 10;
+constexpr double idle_patience = 3;  // s that GRBL is idle although lines are unanswered
+constexpr double hold_interval = 0.1;
+constexpr double hold_patience = 5;  // s from the hold to standing still
+
+bool goes_alone(const std::string& command) {
+    const std::string word = command_word(command);
+    return command[0] == '$' || word == "G10" || word == "G28.1" || word == "G30.1";
+}
+
+}  // namespace
+
+void GrblSender::connect(double now) {
+    state_ = State::greeting;
+    state_until_ = now + settings_.greeting;
+}
+
+void GrblSender::reconnect(double now) {
+    forget_wire();
+    if (state_ != State::running) {
+        connect(now);
+        return;
+    }
+    stop(StopKind::unanswered,
+         "the line to GRBL was lost: without line numbers nobody knows what it has received");
+}
+
+bool GrblSender::finished() const { return finishing_ && dwelt_ && idle(); }
+
+double GrblSender::wake_at() const {
+    if (state_ == State::idle || stop_) return never;
+    return state_ == State::running || state_ == State::holding ? next_status_ : state_until_;
+}
+
+void GrblSender::check_time(double now) {
+    if (state_ == State::idle) return;
+    if (state_ == State::holding) {
+        if (now >= state_until_) return reset();
+        if (now >= next_status_) transmit_raw("?", false), next_status_ = now + hold_interval;
+        return;
+    }
+    if (state_ != State::running && now < state_until_) return;
+    if (state_ == State::running) {
+        if (now >= next_status_) {
+            transmit_raw("?", false);
+            next_status_ = now + status_interval;
+        }
+        if (idle_since_ >= 0 && bytes_ > 0 && now - idle_since_ > idle_patience) {
+            stop(StopKind::lost_count, "GRBL is idle but has not answered line \"" + sent_.front().command +
+                                           "\": bytes were lost on the line, and it cannot be told which");
+        }
+        return;
+    }
+    if (++tries_ > most_tries) {
+        stop(StopKind::unanswered, "nothing at the port answers like GRBL; is it on, and is --baud right?");
+        return;
+    }
+    state_ = State::asking;
+    state_until_ = now + ask_patience;
+    sent_ = {{"$I", 3, false, true}};
+    bytes_ = 3;
+    transmit("$I\n", now);
+}
+
+void GrblSender::refuse(const std::string& why, double now) {
+    stop(StopKind::refused, why);
+    // Lines behind it wait in the machine: it is held before it runs them.
+    transmit_raw("!", false);
+    (void)now;
+}
+
+void GrblSender::answer(const Reply& reply, double now) {
+    if (sent_.empty()) {
+        ++statistics_.surplus;
+        return;
+    }
+    const Sent first = sent_.front();
+    sent_.pop_front();
+    bytes_ -= first.size;
+    idle_since_ = -1;
+    if (first.job) ++answered_job_;
+    if (reply.kind == ReplyKind::grbl_error && state_ == State::running) {
+        const std::string which =
+            first.job ? "line " + std::to_string(answered_job_) + " of the job" : "a line";
+        refuse("GRBL refuses " + which + " (\"" + first.command + "\"): error " +
+                   std::to_string(*reply.number) + ". The machine is held",
+               now);
+    }
+    if (state_ == State::asking) state_ = State::running;
+}
+
+void GrblSender::handle(const Reply& reply, double now) {
+    switch (reply.kind) {
+        case ReplyKind::ok:
+        case ReplyKind::grbl_error:
+            answer(reply, now);
+            break;
+        case ReplyKind::grbl_alarm:
+            refuse("GRBL raises alarm " + std::to_string(*reply.number) + " near \"" +
+                       (sent_.empty() ? std::string("the end") : sent_.front().command) +
+                       "\": its position may be lost; unlock with $X or home with $H",
+                   now);
+            break;
+        case ReplyKind::grbl_banner:
+            firmware_ = reply.text;
+            if (state_ == State::running) {
+                stop(StopKind::reset, "GRBL was reset (\"" + reply.text +
+                                          "\"): work offset and modes are lost; nothing more is sent");
+            } else {
+                state_ = State::greeting;
+                state_until_ = now + 0.1;
+            }
+            break;
+        case ReplyKind::grbl_options:
+            // One byte less than the buffer is safe whatever it counts.
+            if (*reply.number > 16)
+                settings_.window = std::min(settings_.window, static_cast<std::size_t>(*reply.number) - 1);
+            break;
+        case ReplyKind::grbl_status:
+            // Standing still, so that the reset loses no steps.
+            if (state_ == State::holding && (reply.text == "Hold:0" || reply.text == "Idle")) return reset();
+            if (reply.text != "Idle" || bytes_ == 0) {
+                idle_since_ = -1;
+            } else if (idle_since_ < 0) {
+                idle_since_ = now;
+            }
+            break;
+        default:
+            break;
+    }
+}
+
+bool GrblSender::send_next(std::deque<std::string>& lines, bool of_job, double now) {
+    if (lines.empty()) return false;
+    const std::string& command = lines.front();
+    const std::size_t size = command.size() + 1;
+    const bool alone = settings_.ping_pong || goes_alone(command);
+    if (!sent_.empty() && (alone || sent_.back().alone || bytes_ + size > settings_.window)) return false;
+    sent_.push_back({command, size, of_job, alone});
+    bytes_ += size;
+    machine_.apply(command);
+    transmit(command + "\n", now);
+    lines.pop_front();
+    return true;
+}
+
+void GrblSender::feed(double now) {
+    if (state_ != State::running) return;
+    while (send_next(urgent_, false, now) || (!held_ && send_next(pending_, true, now))) {
+    }
+    if (!finishing_ || dwelt_ || !pending_.empty() || !urgent_.empty()) return;
+    // Answered when all motion before it is done.
+    urgent_.emplace_back("G4 P0.01");
+    dwelt_ = true;
+    send_next(urgent_, false, now);
+}
+
+void GrblSender::halt(double now) {
+    transmit_raw("!", false);
+    state_ = State::holding;
+    next_status_ = now;
+    state_until_ = now + hold_patience;
+}
+
+void GrblSender::reset() {
+    stop(StopKind::halted, "stopped");
+    transmit_raw("\x18", false);
+}
+
+}  // namespace lamella

@@ -1,0 +1,59 @@
+// GrblSender: counts characters, and stops at the first thing that GRBL does not like.
+#pragma once
+
+#include "printers/serial/line_sender.h"
+
+namespace lamella {
+
+/// Keeps the receive buffer of GRBL 1.1 filled without ever overflowing it. GRBL goes on behind a line that
+/// it refuses, so the sender counts answers, names the line that was refused, and holds the machine. Lines
+/// that write settings ($..., G10, G28.1, G30.1) go alone: interrupts are off while they are written.
+class GrblSender : public LineSender {
+  public:
+    using LineSender::LineSender;
+
+    void connect(double now) override;
+    void reconnect(double now) override;
+    double wake_at() const override;
+    std::int64_t answered() const override { return answered_job_; }
+    std::size_t unanswered() const override { return bytes_; }
+    bool connected() const override { return state_ == State::running; }
+    void finish() override { finishing_ = true; }
+    bool finished() const override;
+    /// Holds the motion, waits until it stands, then resets: the position is kept.
+    void halt(double now) override;
+    bool halts_at_once() const override { return true; }
+    void hold_motion(bool held) override { transmit_raw(held ? "!" : "~", false); }
+
+  protected:
+    void handle(const Reply& reply, double now) override;
+    void check_time(double now) override;
+    void feed(double now) override;
+
+  private:
+    enum class State : unsigned char { idle, greeting, asking, running, holding };
+    struct Sent {
+        std::string command;
+        std::size_t size;
+        bool job;
+        bool alone;
+    };
+    void answer(const Reply& reply, double now);
+    void reset();
+    void refuse(const std::string& why, double now);
+    bool send_next(std::deque<std::string>& lines, bool of_job, double now);
+
+    State state_ = State::idle;
+    double state_until_ = 0;
+    int tries_ = 0;
+    std::deque<Sent> sent_;
+    std::size_t bytes_ = 0;
+    std::int64_t answered_job_ = 0;
+    double next_status_ = 0;
+    double idle_since_ = -1;  // GRBL said Idle although lines are unanswered
+    std::string why_held_;
+    bool dwelt_ = false;
+    bool finishing_ = false;
+};
+
+}  // namespace lamella

@@ -1,0 +1,65 @@
+// What all dialects share: lines in, bytes out, statistics.
+#include "printers/serial/line_sender.h"
+
+#include <algorithm>
+
+namespace lamella {
+
+void LineSender::receive(std::string_view bytes, double now) {
+    if (!bytes.empty()) heard_ = now;
+    replies_.feed(bytes);
+    while (const auto line = replies_.next()) {
+        if (listener_.on_line) listener_.on_line('<', *line, unanswered());
+        if (stop_) continue;
+        const Reply reply = parse_reply(*line);
+        if (reply.temperatures) temperatures_ = *reply.temperatures;
+        handle(reply, now);
+    }
+    if (!stop_) feed(now);
+}
+
+void LineSender::tick(double now) {
+    if (stop_) return;
+    check_time(now);
+    if (!stop_) feed(now);
+}
+
+void LineSender::wrote(std::size_t bytes) {
+    out_at_ += bytes;
+    if (out_at_ < out_.size()) return;
+    out_.clear();
+    out_at_ = 0;
+}
+
+void LineSender::transmit(std::string_view line, double now) {
+    out_ += line;
+    ++statistics_.lines;
+    statistics_.bytes += static_cast<std::int64_t>(line.size());
+    if (last_line_ >= 0) statistics_.longest_gap = std::max(statistics_.longest_gap, now - last_line_);
+    last_line_ = now;
+    if (listener_.on_line) listener_.on_line('>', line.substr(0, line.find('\n')), unanswered());
+}
+
+void LineSender::transmit_raw(std::string_view bytes, bool on_own_line) {
+    if (on_own_line && line_cut_) out_ += '\n';
+    line_cut_ = false;
+    out_ += bytes;
+    if (listener_.on_line) listener_.on_line('>', bytes.substr(0, bytes.find('\n')), unanswered());
+}
+
+void LineSender::stop(StopKind kind, std::string why) {
+    if (stop_) return;
+    stop_ = SenderStop{kind, std::move(why)};
+    // What has not left yet is not to leave any more.
+    line_cut_ = out_at_ > 0 && out_[out_at_ - 1] != '\n';
+    out_.clear();
+    out_at_ = 0;
+}
+
+void LineSender::forget_wire() {
+    out_.clear();
+    out_at_ = 0;
+    replies_.clear();
+}
+
+}  // namespace lamella

@@ -1,0 +1,161 @@
+// Following moves, modes and temperatures.
+#include "printers/serial/machine_state.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/number_format.h"
+#include "printers/serial/gcode_line.h"
+
+namespace lamella {
+namespace {
+
+constexpr double lift = 5;            // mm that a parked nozzle stands over the part
+constexpr double retraction = 2;      // mm that keep it from oozing there
+constexpr double prime = 8;           // mm of filament that fill a nozzle which has stood cold
+constexpr double least_nozzle = 150;  // degrees below which nothing is extruded
+
+std::optional<double> word(std::string_view command, char letter) {
+    for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;
+         at = command.find(letter, at + 1)) {
+        const std::string_view rest = command.substr(at + 1);
+        double value = 0;
+        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+        if (error == std::errc() && end != rest.data()) return value;
+    }
+    return std::nullopt;
+}
+
+std::string number(double value, int decimals = 3) { return format_number(value, decimals); }
+
+}  // namespace
+
+double MachineState::apply(std::string_view command) {
+    const std::string name = command_word(command);
+    constexpr char letters[] = {'X', 'Y', 'Z', 'E'};
+    if (name == "G0" || name == "G1" || name == "G2" || name == "G3") {
+        double way = 0, pushed = 0;
+        for (int axis = 0; axis < 4; ++axis) {
+            const auto value = word(command, letters[axis]);
+            if (!value) continue;
+            const bool relative = axis == 3 ? relative_e_ : relative_;
+            const double to = relative ? at_[axis] + *value : *value;
+            const double step = to - at_[axis];
+            (axis == 3 ? pushed : way) += step * step;
+            at_[axis] = to;
+            if (axis < 3 && !relative) known_[axis] = true;
+        }
+        if (const auto feed = word(command, 'F')) feed_ = *feed;
+        return feed_ > 0 ? std::sqrt(way > 0 ? way : pushed) / feed_ * 60 : 0;
+    }
+    if (name == "G4") return word(command, 'S').value_or(word(command, 'P').value_or(0) / 1000);
+    if (name == "G28") {
+        const bool all = command.find_first_of("XYZ") == std::string_view::npos;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!all && command.find(letters[axis]) == std::string_view::npos) continue;
+            at_[axis] = 0;
+            known_[axis] = true;
+        }
+    } else if (name == "G90" || name == "G91") {
+        relative_ = name == "G91";
+        relative_e_ = relative_;
+    } else if (name == "M82" || name == "M83") {
+        relative_e_ = name == "M83";
+    } else if (name == "G92") {
+        for (int axis = 0; axis < 4; ++axis) {
+            if (const auto value = word(command, letters[axis])) at_[axis] = *value;
+        }
+    } else if (name == "M104" || name == "M109") {
+        nozzle_ = word(command, 'S').value_or(word(command, 'R').value_or(nozzle_));
+    } else if (name == "M140" || name == "M190") {
+        bed_ = word(command, 'S').value_or(word(command, 'R').value_or(bed_));
+    } else if (name == "M106") {
+        fan_ = word(command, 'S').value_or(255);
+    } else if (name == "M107") {
+        fan_ = 0;
+    }
+    return 0;
+}
+
+nlohmann::ordered_json MachineState::to_json() const {
+    return {
+        {"x", at_[0]},          {"y", at_[1]},           {"z", at_[2]},   {"e", at_[3]},
+        {"located", located()}, {"relative", relative_}, {"feed", feed_}, {"relative_extrusion", relative_e_},
+        {"nozzle", nozzle_},    {"bed", bed_},           {"fan", fan_}};
+}
+
+MachineState MachineState::from_json(const nlohmann::ordered_json& json) {
+    MachineState state;
+    constexpr const char* names[] = {"x", "y", "z", "e"};
+    for (int axis = 0; axis < 4; ++axis) state.at_[axis] = json.at(names[axis]).get<double>();
+    for (bool& known : state.known_) known = json.at("located").get<bool>();
+    state.relative_ = json.at("relative").get<bool>();
+    state.relative_e_ = json.at("relative_extrusion").get<bool>();
+    state.feed_ = json.at("feed").get<double>();
+    state.nozzle_ = json.at("nozzle").get<double>();
+    state.bed_ = json.at("bed").get<double>();
+    state.fan_ = json.at("fan").get<double>();
+    return state;
+}
+
+double MachineState::lifted(double z, double highest) const {
+    return std::max(z, std::min(z + lift, highest));
+}
+
+std::vector<std::string> MachineState::modes() const {
+    std::vector<std::string> lines;
+    lines.emplace_back(relative_ ? "G91" : "G90");
+    lines.emplace_back(relative_e_ ? "M83" : "M82");
+    if (!relative_e_) lines.push_back("G92 E" + number(at_[3], 5));
+    if (feed_ > 0) lines.push_back("G1 F" + number(feed_));
+    return lines;
+}
+
+std::vector<std::string> MachineState::leave(double park_x, double park_y, double highest) const {
+    std::vector<std::string> lines{"G90", "M83"};
+    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(-retraction) + " F1800");
+    if (!located()) return lines;
+    lines.push_back("G0 Z" + number(lifted(at_[2], highest)) + " F600");
+    lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
+    return lines;
+}
+
+std::vector<std::string> MachineState::come_back(double highest) const {
+    std::vector<std::string> lines{"G90", "M83"};
+    if (bed_ > 0) lines.push_back("M190 S" + number(bed_));
+    if (nozzle_ > 0) lines.push_back("M109 S" + number(nozzle_));
+    if (located()) {
+        lines.push_back("G0 Z" + number(lifted(at_[2], highest)) + " F600");
+        lines.push_back("G0 X" + number(at_[0]) + " Y" + number(at_[1]) + " F6000");
+        lines.push_back("G0 Z" + number(at_[2]) + " F600");
+    }
+    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
+    for (std::string& line : modes()) lines.push_back(std::move(line));
+    return lines;
+}
+
+std::vector<std::string> MachineState::take_up(double z, double park_x, double park_y, double highest) const {
+    const double up = lifted(z, highest);
+    std::vector<std::string> lines{"G21", "G90", "M83"};
+    if (bed_ > 0) lines.push_back("M140 S" + number(bed_));
+    if (nozzle_ > 0) lines.push_back("M104 S" + number(nozzle_));
+    lines.push_back("G92 Z" + number(z));
+    lines.push_back("G0 Z" + number(up) + " F600");
+    lines.emplace_back("G28 X Y");
+    lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
+    if (bed_ > 0) lines.push_back("M190 S" + number(bed_));
+    if (nozzle_ > 0) lines.push_back("M109 S" + number(nozzle_));
+    if (nozzle_ >= least_nozzle) {
+        lines.push_back("G1 E" + number(prime) + " F120");
+        lines.push_back("G1 E" + number(-retraction) + " F1800");
+    }
+    lines.push_back("G0 X" + number(at_[0]) + " Y" + number(at_[1]) + " F6000");
+    lines.push_back("G0 Z" + number(at_[2]) + " F600");
+    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
+    lines.push_back(fan_ > 0 ? "M106 S" + number(fan_) : "M107");
+    for (std::string& line : modes()) lines.push_back(std::move(line));
+    return lines;
+}
+
+}  // namespace lamella

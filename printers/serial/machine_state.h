@@ -1,0 +1,52 @@
+// What a machine does behind the lines it was sent: where its nozzle goes, in which modes, how hot.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamella {
+
+/// Follows G-code line by line. Lengths in mm, speeds in mm/min, degrees Celsius.
+class MachineState {
+  public:
+    /// Takes a clean command and returns the seconds its motion takes at the speed asked for.
+    double apply(std::string_view command);
+
+    /// True once every axis is known, by homing or by a move.
+    bool located() const { return known_[0] && known_[1] && known_[2]; }
+    double x() const { return at_[0]; }
+    double y() const { return at_[1]; }
+    double z() const { return at_[2]; }
+    bool relative_extrusion() const { return relative_e_; }
+    double nozzle() const { return nozzle_; }
+    double bed() const { return bed_; }
+
+    nlohmann::ordered_json to_json() const;
+    /// Throws nlohmann::json::exception when something is missing.
+    static MachineState from_json(const nlohmann::ordered_json& json);
+
+    /// Lines that take the nozzle off the part and aside, and those that bring it back as it was.
+    std::vector<std::string> leave(double park_x, double park_y, double highest) const;
+    std::vector<std::string> come_back(double highest) const;
+    /// Lines that bring a machine that may have been reset to this state, with the part on its bed: the
+    /// nozzle stands at height `z`. X and Y are homed, never Z.
+    std::vector<std::string> take_up(double z, double park_x, double park_y, double highest) const;
+
+  private:
+    std::vector<std::string> modes() const;
+    double lifted(double z, double highest) const;
+
+    double at_[4] = {0, 0, 0, 0};  // x, y, z, e
+    bool known_[3] = {false, false, false};
+    bool relative_ = false;
+    bool relative_e_ = false;
+    double feed_ = 0;
+    double nozzle_ = 0;
+    double bed_ = 0;
+    double fan_ = 0;  // 0 to 255
+};
+
+}  // namespace lamella

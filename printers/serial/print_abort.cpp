@@ -1,0 +1,63 @@
+// Ending a print before its end.
+#include "engine/error.h"
+#include "printers/serial/print_link.h"
+
+namespace lamella {
+
+void PrintLink::abort(double now, bool at_once) {
+    sender_->drop_pending();
+    current_ = {};
+    current_at_ = 0;
+    write_journal(now);
+    if (!sender_->connected()) {
+        return end(std::make_exception_ptr(
+            Interrupted("interrupted before the printer was known; nothing was printed")));
+    }
+    if (at_once && sender_->halts_at_once()) {
+        sender_->halt(now);
+        abort_words_ = settings_.grbl
+                           ? "the machine was held, then reset: its position is kept"
+                           : "the printer was halted at once (M112): heaters and motors are off, and it has "
+                             "to be reset before it prints again";
+        phase_ = Phase::halting;
+        phase_until_ = now + (settings_.grbl ? 6.0 : 0.5);
+        return;
+    }
+    const Temperatures& t = sender_->temperatures();
+    if (t.nozzle < t.nozzle_target - 3 || t.bed < t.bed_target - 3) sender_->end_waiting();
+    sender_->hold(true);
+    phase_ = Phase::aborting;
+    phase_until_ = now + 60;
+    abort_words_ =
+        "the printer went on with the moves it had already got, for it cannot be stopped in the midst of "
+        "them; "
+        "then heaters and motors were switched off";
+}
+
+void PrintLink::go_on_aborting(double now) {
+    const bool late = now >= phase_until_;
+    if (phase_ == Phase::halting) {
+        // GRBL stands still before it is reset; Marlin is given the time to say so.
+        const bool gone = sender_->output().empty() && (!settings_.grbl || sender_->stopped());
+        if (late || (settings_.grbl && gone)) end(std::make_exception_ptr(Interrupted(abort_words_)));
+        return;
+    }
+    if (sender_->stopped() || late) {
+        const std::string why = sender_->stopped() ? sender_->stopped()->why : "the printer does not answer";
+        return end(std::make_exception_ptr(
+            FaultError("the print was to be stopped, but " + why +
+                       "; look after the machine: its heaters may be on. Switch it off, or reset it")));
+    }
+    if (!sender_->quiet()) return;
+    if (phase_ == Phase::aborting && !settings_.grbl) {
+        for (std::string& line :
+             sender_->machine().leave(settings_.park_x, settings_.park_y, settings_.highest))
+            sender_->interject(std::move(line));
+        for (const char* line : {"M104 S0", "M140 S0", "M107", "M84"}) sender_->interject(line);
+        phase_ = Phase::switching_off;
+        return;
+    }
+    end(std::make_exception_ptr(Interrupted(abort_words_)));
+}
+
+}  // namespace lamella

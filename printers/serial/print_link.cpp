@@ -1,0 +1,370 @@
+// The queue of a print, and the rounds of its thread.
+#include "printers/serial/print_link.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "engine/error.h"
+#include "engine/number_format.h"
+#include "printers/serial/grbl_sender.h"
+#include "printers/serial/marlin_sender.h"
+
+namespace lamella {
+namespace {
+
+constexpr std::size_t lines_before_sender = 64;
+constexpr double journal_interval = 2;  // s
+constexpr double status_interval = 0.05;
+constexpr double cancel_interval = 0.02;  // s between two looks at the token
+constexpr double retry_interval = 0.5;
+
+}  // namespace
+
+PrintLink::PrintLink(LinkSettings settings)
+    : settings_(std::move(settings)), wake_(eventfd(0, EFD_NONBLOCK)) {
+    settings_.sender.byte_time = 10.0 / settings_.baud;
+    SenderListener listener;
+    if (!settings_.log.empty()) {
+        log_.open(settings_.log);
+        if (!log_) throw InputError("cannot write the log " + settings_.log);
+        listener.on_line = [this](char direction, std::string_view line, std::size_t in_flight) {
+            log_ << format_number(now(), 6) << ' ' << direction << ' ' << in_flight << ' ' << line << '\n';
+        };
+    }
+    listener.on_action = [this](const std::string& action) {
+        if (action == "pause" || action == "paused") pausing_ = true;
+        if (action == "resume") resuming_ = true;
+        if (action == "cancel") stopping_ = true;
+    };
+    if (settings_.grbl) {
+        sender_ = std::make_unique<GrblSender>(settings_.sender, std::move(listener));
+    } else {
+        sender_ = std::make_unique<MarlinSender>(settings_.sender, std::move(listener));
+    }
+}
+
+PrintLink::~PrintLink() {
+    if (thread_.joinable()) {
+        stop();
+        thread_.join();
+    }
+    if (wake_ >= 0) close(wake_);
+}
+
+double PrintLink::now() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void PrintLink::wake() {
+    const std::uint64_t one = 1;
+    if (write(wake_, &one, sizeof one) < 0) return;  // full: it will wake anyway
+}
+
+void PrintLink::request(std::atomic<bool>& flag) {
+    flag = true;
+    wake();
+}
+
+void PrintLink::connect() {
+    lasting_name_ = lasting_name(settings_.port);
+    port_ = SerialPort::open(settings_.port, settings_.baud);
+    if (settings_.reset_board) port_.reset_board();
+    if (!settings_.journal.empty()) journal_ = std::make_unique<PrintJournal>(settings_.journal);
+    thread_ = std::thread([this] { work(); });
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return connected_ || done_; });
+    check();
+}
+
+void PrintLink::check() {
+    if (failure_) std::rethrow_exception(failure_);
+    if (done_ && !closing_) throw FaultError("the print has ended already");
+}
+
+void PrintLink::submit(PrintChunk chunk) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] {
+        return done_ || queue_.empty() ||
+               (queue_.size() < settings_.layers_ahead && queued_bytes_ < settings_.bytes_ahead);
+    });
+    check();
+    queued_bytes_ += chunk.lines.size();
+    queued_lines_ += chunk.count;
+    queue_.push_back(std::move(chunk));
+    lock.unlock();
+    wake();
+}
+
+void PrintLink::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = true;
+    }
+    wake();
+    if (thread_.joinable()) thread_.join();
+    const std::lock_guard lock(mutex_);
+    check();
+    if (journal_) journal_->remove();
+}
+
+LinkStatus PrintLink::status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+}
+
+std::string PrintLink::end_words() {
+    if (!thread_.joinable()) return {};
+    stop();
+    thread_.join();
+    try {
+        if (failure_) std::rethrow_exception(failure_);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
+void PrintLink::work() {
+    // Layers are computed on all cores meanwhile: lines go first, where the system allows it.
+    const sched_param priority{1};
+    pthread_setschedparam(pthread_self(), SCHED_RR, &priority);
+    try {
+        sender_->connect(now());
+        while (phase_ != Phase::done) round();
+    } catch (...) {
+        end(std::current_exception());
+    }
+}
+
+void PrintLink::round() {
+    double time = now();
+    take_requests(time);
+    if (phase_ == Phase::printing) {
+        take_lines(time);
+        watch_queue(time);
+    } else {
+        go_on_aborting(time);
+    }
+    if (phase_ == Phase::done) return;
+    sender_->tick(time);
+    move_bytes(time);
+    time = now();
+    watch_answers(time);
+    note_status(time, false);
+    if (phase_ != Phase::done) wait(time);
+}
+
+void PrintLink::take_requests(double now) {
+    const bool cancelled = settings_.cancel != nullptr && settings_.cancel->cancelled();
+    if (phase_ != Phase::printing) return;
+    if (cancelled || stopping_) return abort(now, cancelled);
+    if (pausing_.exchange(false) && !paused_ && sender_->connected()) {
+        paused_ = true;
+        sender_->hold(true);
+        sender_->hold_motion(true);
+        if (!parked_) leave();
+    }
+    if (resuming_.exchange(false) && paused_) {
+        paused_ = false;
+        if (!parked_) come_back();
+        sender_->hold_motion(false);
+        sender_->hold(false);
+    }
+}
+
+void PrintLink::leave() {
+    left_ = sender_->machine();
+    if (settings_.grbl) return;
+    for (std::string& line : left_.leave(settings_.park_x, settings_.park_y, settings_.highest))
+        sender_->interject(std::move(line));
+}
+
+void PrintLink::come_back() {
+    if (settings_.grbl) return;
+    for (std::string& line : left_.come_back(settings_.highest)) sender_->interject(std::move(line));
+}
+
+/// Moves lines from the queue to the sender. A layer is taken only when it is whole.
+void PrintLink::take_lines(double now) {
+    if (!sender_->connected()) return;
+    while (sender_->pending() < lines_before_sender) {
+        if (current_at_ >= current_.lines.size()) {
+            std::unique_lock lock(mutex_);
+            if (queue_.empty()) {
+                if (closing_) sender_->finish();
+                return;
+            }
+            current_ = std::move(queue_.front());
+            queue_.pop_front();
+            queued_bytes_ -= current_.lines.size();
+            lock.unlock();
+            changed_.notify_all();
+            current_at_ = 0;
+            pushed_ += current_.count;
+            answering_.push_back({pushed_, current_.resume});
+            if (dry_since_ >= 0) underrun_seconds_ += now - dry_since_;
+            dry_since_ = -1;
+            started_ = true;
+            if (std::exchange(parked_, false) && !paused_) come_back();
+            continue;
+        }
+        const std::size_t end = current_.lines.find('\n', current_at_);
+        sender_->push(current_.lines.substr(current_at_, end - current_at_));
+        current_at_ = end + 1;
+    }
+}
+
+/// Takes the nozzle off the part when no layer is ready.
+void PrintLink::watch_queue(double now) {
+    if (!started_ || paused_ || parked_ || !sender_->idle() || current_at_ < current_.lines.size()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (closing_ || !queue_.empty()) return;
+    }
+    if (dry_since_ < 0) {
+        dry_since_ = now;
+        ++underruns_;
+    }
+    if (now - dry_since_ < settings_.park_after || settings_.grbl) return;
+    leave();
+    parked_ = true;
+}
+
+void PrintLink::move_bytes(double now) {
+    if (!port_.is_open()) return reopen(now);
+    std::string came;
+    PortOutcome outcome = port_.read(came);
+    sender_->receive(came, now);
+    const std::string_view out = sender_->output();
+    if (!outcome.lost && !out.empty()) {
+        outcome = port_.write(out);
+        sender_->wrote(outcome.bytes);
+    }
+    if (!outcome.lost) return;
+    port_.close();
+    lost_since_ = now;
+    next_try_ = now + retry_interval;
+}
+
+void PrintLink::reopen(double now) {
+    if (phase_ != Phase::printing) return end(std::make_exception_ptr(Interrupted("the port is gone")));
+    if (now < next_try_) return;
+    next_try_ = now + retry_interval;
+    try {
+        port_ = SerialPort::open(lasting_name_, settings_.baud);
+        lost_since_ = -1;
+        sender_->reconnect(now);
+    } catch (const Error& error) {
+        if (now - lost_since_ < settings_.reconnect_for) return;
+        end(std::make_exception_ptr(
+            FaultError(fmt::format("the port {} was lost and did not come back within {} s ({}){}",
+                                   lasting_name_, settings_.reconnect_for, error.what(), where()))));
+    }
+}
+
+std::string PrintLink::where() const {
+    return fmt::format("; {} lines were answered, the nozzle was sent to Z {}", sender_->answered(),
+                       format_number(sender_->machine().z(), 3));
+}
+
+void PrintLink::watch_answers(double now) {
+    const std::int64_t answered = sender_->answered();
+    bool layer_done = false;
+    while (!answering_.empty() && answering_.front().last <= answered) {
+        if (!answering_.front().resume.is_null()) resume_ = std::move(answering_.front().resume);
+        answering_.pop_front();
+        layer_done = true;
+    }
+    const double z = sender_->machine().z();
+    if (layer_done || z != journaled_z_ || now - journaled_at_ >= journal_interval) write_journal(now);
+    if (sender_->connected() && !connected_) {
+        {
+            const std::lock_guard lock(mutex_);
+            connected_ = true;
+        }
+        note_status(now, true);
+        changed_.notify_all();
+    }
+    if (sender_->stopped() && phase_ == Phase::printing) {
+        // What the sender still wants to say, such as GRBL's hold, leaves first.
+        move_bytes(now);
+        write_journal(now);
+        return end(std::make_exception_ptr(FaultError(sender_->stopped()->why + where())));
+    }
+    if (phase_ == Phase::printing && sender_->finished()) end(nullptr);
+}
+
+void PrintLink::write_journal(double now) {
+    journaled_at_ = now;
+    journaled_z_ = sender_->machine().z();
+    if (!journal_ || resume_.is_null()) return;
+    nlohmann::ordered_json text = {{"stamp", stamp_},
+                                   {"resume", resume_},
+                                   {"lines_answered", sender_->answered()},
+                                   {"z", sender_->machine().z()},
+                                   {"machine", sender_->machine().to_json()}};
+    journal_->write(text.dump() + "\n");
+}
+
+void PrintLink::end(std::exception_ptr failure) {
+    if (phase_ == Phase::done) return;  // the first reason counts
+    phase_ = Phase::done;
+    note_status(now(), true);
+    {
+        const std::lock_guard lock(mutex_);
+        done_ = true;
+        failure_ = std::move(failure);
+    }
+    changed_.notify_all();
+    port_.close();
+    log_.flush();
+}
+
+void PrintLink::note_status(double now, bool at_once) {
+    if (!at_once && now - noted_at_ < status_interval) return;
+    noted_at_ = now;
+    const std::lock_guard lock(mutex_);
+    if (connected_ && connected_at_ < 0) connected_at_ = now;
+    if (connected_at_ >= 0) status_.seconds = now - connected_at_;
+    status_.firmware = sender_->firmware();
+    status_.emergency_parser = sender_->halts_at_once();
+    status_.connected = connected_;
+    status_.paused = paused_;
+    status_.parked = parked_;
+    status_.lost = !port_.is_open();
+    status_.layer = current_.layer;
+    status_.lines_queued = queued_lines_;
+    status_.lines_answered = sender_->answered();
+    status_.layers_ready = queue_.size();
+    status_.z = sender_->machine().z();
+    status_.temperatures = sender_->temperatures();
+    status_.statistics = sender_->statistics();
+    status_.underruns = underruns_;
+    status_.underrun_seconds = underrun_seconds_ + (dry_since_ >= 0 ? now - dry_since_ : 0);
+}
+
+/// Sleeps until a byte comes or can go, the sender or a request wants something.
+void PrintLink::wait(double now) {
+    double until = std::min(sender_->wake_at(), now + 0.5);
+    if (settings_.cancel != nullptr) until = std::min(until, now + cancel_interval);
+    if (dry_since_ >= 0 && !parked_) until = std::min(until, dry_since_ + settings_.park_after);
+    if (!port_.is_open()) until = std::min(until, next_try_);
+    const double left = std::max(0.0, until - this->now());
+    timespec time{static_cast<time_t>(left), static_cast<long>((left - std::floor(left)) * 1e9)};
+    const auto events = static_cast<short>(sender_->output().empty() ? POLLIN : POLLIN | POLLOUT);
+    std::array<pollfd, 2> watched{{{wake_, POLLIN, 0}, {port_.descriptor(), events, 0}}};
+    if (ppoll(watched.data(), port_.is_open() ? 2 : 1, &time, nullptr) < 0) return;
+    std::uint64_t count = 0;
+    if ((watched[0].revents & POLLIN) != 0 && read(wake_, &count, sizeof count) < 0) return;
+}
+
+}  // namespace lamella

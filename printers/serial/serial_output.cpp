@@ -1,0 +1,125 @@
+// Layers into a link, and the way back into a print that was stopped.
+#include "printers/serial/serial_output.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "engine/error.h"
+#include "engine/number_format.h"
+#include "printers/output_file.h"
+#include "printers/serial/gcode_line.h"
+
+namespace lamella {
+namespace {
+
+class SerialOutput : public GcodeOutput {
+  public:
+    SerialOutput(std::shared_ptr<PrintLink> link, const LinkSettings& settings, SerialOutputOptions options)
+        : link_(std::move(link)),
+          settings_(settings),
+          options_(std::move(options)),
+          maker_(settings.grbl ? longest_grbl_line : longest_command) {}
+
+    int begin(const JobStamp& stamp, bool resume) override {
+        link_->set_stamp(lamella::to_json(stamp));
+        int next = stamp.range.first;
+        nlohmann::ordered_json record;
+        if (is_present(settings_.journal)) {
+            if (resume) {
+                record = read_journal(stamp);
+            } else if (!options_.force) {
+                throw InputError(
+                    settings_.journal +
+                    " is left from a print that was stopped; continue it with --resume, or discard it "
+                    "with --force");
+            }
+        }
+        if (record.is_null()) {
+            link_->connect();
+            return next;
+        }
+        try {
+            const nlohmann::ordered_json& last = record.at("resume");
+            next = last.at("next").get<int>();
+            state_ = last.at("state");
+            maker_.set_machine(MachineState::from_json(last.at("machine")));
+            const double z = options_.z ? *options_.z : record.at("z").get<double>();
+            if (next < stamp.range.first || next > stamp.range.last) throw damaged_state();
+            if (settings_.grbl)
+                throw InputError("a print on GRBL cannot be taken up; discard it with --force");
+            link_->connect();
+            PrintChunk chunk{"", 0, next, last};
+            for (const std::string& line :
+                 maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest)) {
+                (chunk.lines += line) += '\n';
+                ++chunk.count;
+            }
+            link_->submit(std::move(chunk));
+        } catch (const nlohmann::json::exception&) {
+            throw damaged_state();
+        }
+        return next;
+    }
+    nlohmann::ordered_json state() const override { return state_; }
+    InputError damaged_state() const override {
+        return InputError(settings_.journal + " is damaged; discard it with --force");
+    }
+    void commit(std::string_view text, int next, const nlohmann::ordered_json& state) override {
+        send(text, next, state);
+    }
+    void end(std::string_view text) override {
+        send(text, -1, nullptr);
+        link_->finish();
+    }
+
+  private:
+    nlohmann::ordered_json read_journal(const JobStamp& stamp) const {
+        std::ifstream in(settings_.journal);
+        auto record = nlohmann::ordered_json::parse(in, nullptr, false);
+        if (!record.is_object() || !record.contains("stamp")) throw damaged_state();
+        check_same_job(record["stamp"], stamp, settings_.journal);
+        return record;
+    }
+    void send(std::string_view text, int next, const nlohmann::ordered_json& state) {
+        const std::int64_t before = maker_.lines();
+        PrintChunk chunk;
+        chunk.lines = maker_.clean(text);
+        chunk.count = maker_.lines() - before;
+        chunk.layer = next - 1;
+        if (next >= 0)
+            chunk.resume = {{"next", next}, {"state", state}, {"machine", maker_.machine().to_json()}};
+        if (!warned_ && options_.warn) {
+            const std::string warning = link_warning(maker_.need(), settings_.baud);
+            warned_ = !warning.empty();
+            if (warned_) options_.warn(warning);
+        }
+        link_->submit(std::move(chunk));
+    }
+
+    std::shared_ptr<PrintLink> link_;
+    LinkSettings settings_;
+    SerialOutputOptions options_;
+    ChunkMaker maker_;
+    nlohmann::ordered_json state_;
+    bool warned_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<GcodeOutput> make_serial_output(std::shared_ptr<PrintLink> link, const LinkSettings& settings,
+                                                SerialOutputOptions options) {
+    return std::make_unique<SerialOutput>(std::move(link), settings, std::move(options));
+}
+
+std::string link_warning(const LinkNeed& need, int baud) {
+    const double link = baud / 10.0;
+    if (need.bytes <= link) return {};
+    return fmt::format(
+        "the job needs up to {:.0f} lines/s ({:.0f} bytes/s) but {} baud carry {:.0f} bytes/s: the printer "
+        "will "
+        "slow down there; a larger tolerance makes longer lines",
+        need.lines, need.bytes, baud, link);
+}
+
+}  // namespace lamella

@@ -1,0 +1,152 @@
+// The thread between a queue of layers and a port: pauses, layers that come late, ports that vanish.
+#include "printers/serial/print_link.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "engine/error.h"
+#include "printers/serial/print_chunk.h"
+#include "tests/printers/serial/pty_machine.h"
+
+using namespace lamella;
+using namespace lamella::test;
+
+namespace {
+
+LinkSettings settings_of(const std::string& port) {
+    LinkSettings settings;
+    settings.port = port;
+    settings.sender.greeting = 0.1;
+    settings.park_x = 5;
+    settings.park_y = 200;
+    return settings;
+}
+
+PrintChunk chunk_of(const std::vector<std::string>& lines, int layer) {
+    PrintChunk chunk;
+    for (const std::string& line : lines) chunk.lines += line + "\n";
+    chunk.count = static_cast<std::int64_t>(lines.size());
+    chunk.layer = layer;
+    return chunk;
+}
+
+std::vector<std::string> layer(int index, int count) {
+    std::vector<std::string> lines{"G0 Z" + std::to_string(index + 1) + " F600"};
+    for (int i = 0; i < count; ++i)
+        lines.push_back("G1 X" + std::to_string(10 + i % 5) + " Y20 E" + std::to_string(i) + " F6000");
+    return lines;
+}
+
+const std::vector<std::string> start{"G28", "G90", "M83", "M109 S200", "G1 X10 Y20 F6000"};
+
+template <class Condition>
+bool wait_for(double seconds, Condition when) {
+    for (int i = 0; i < seconds * 500; ++i) {
+        if (when()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+}
+
+std::ptrdiff_t index_of(const std::vector<std::string>& lines, const std::string& line) {
+    return std::find(lines.begin(), lines.end(), line) - lines.begin();
+}
+
+}  // namespace
+
+TEST_CASE("when no layer is ready the nozzle waits off the part, and comes back to where it was") {
+    PtyMachine machine({}, 20);
+    PrintLink link(settings_of(machine.path()));
+    link.connect();
+    link.submit(chunk_of(start, -1));
+    link.submit(chunk_of(layer(0, 20), 0));
+    REQUIRE(wait_for(20, [&] { return link.status().parked; }));
+    link.submit(chunk_of(layer(1, 20), 1));
+    link.finish();
+    CHECK(link.status().underruns >= 1);
+    const auto lines = job_lines(machine.executed());
+    const auto parked = index_of(lines, "G0 X5 Y200 F6000");
+    // Back over the last bead, down again, hot, with what was drawn back pushed forward.
+    const std::vector<std::string> way{
+        "G1 E-2 F1800",     "G0 Z6 F600", "G0 X5 Y200 F6000", "G90", "M83", "M109 S200", "G0 Z6 F600",
+        "G0 X14 Y20 F6000", "G0 Z1 F600", "G1 E2 F1800",      "G90", "M83", "G1 F6000",  "G0 Z2 F600"};
+    REQUIRE(parked >= 2);
+    REQUIRE(lines.size() >= static_cast<std::size_t>(parked) - 2 + way.size());
+    CHECK(first_difference({lines.begin() + parked - 2,
+                            lines.begin() + parked - 2 + static_cast<std::ptrdiff_t>(way.size())},
+                           way) == "");
+}
+
+TEST_CASE("a pause parks the nozzle and a resume brings it back, with no line lost or repeated") {
+    PtyMachine machine({}, 10);
+    PrintLink link(settings_of(machine.path()));
+    link.connect();
+    link.submit(chunk_of(start, -1));
+    link.submit(chunk_of(layer(0, 2000), 0));
+    REQUIRE(wait_for(20, [&] { return machine.executed().size() > 300; }));
+    machine.with([](SimulatedMarlin& printer, double) { printer.say("//action:pause"); });
+    REQUIRE(wait_for(20, [&] {
+        return index_of(machine.executed(), "G0 X5 Y200 F6000") < std::ssize(machine.executed());
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    CHECK(wait_for(2, [&] { return link.status().paused; }));
+    CHECK(machine.executed().back() == "G0 X5 Y200 F6000");
+    link.resume();
+    link.finish();
+    std::vector<std::string> moves;
+    for (const std::string& line : machine.executed()) {
+        if (line.starts_with("G1 X1") && line.find(" E") != std::string::npos) moves.push_back(line);
+    }
+    const auto wanted = layer(0, 2000);
+    CHECK(first_difference(moves, {wanted.begin() + 1, wanted.end()}) == "");
+}
+
+TEST_CASE("a port that vanishes and comes back goes on with the line the printer waits for") {
+    PtyMachine machine({}, 10);
+    char folder[] = "/tmp/lamella_test_XXXXXX";
+    REQUIRE(mkdtemp(folder) != nullptr);
+    const std::string name = std::string(folder) + "/port";
+    std::filesystem::create_symlink(machine.path(), name);
+    LinkSettings settings = settings_of(name);
+    settings.reconnect_for = 20;
+    {
+        PrintLink link(settings);
+        link.connect();
+        link.submit(chunk_of(start, -1));
+        link.submit(chunk_of(layer(0, 1500), 0));
+        REQUIRE(wait_for(20, [&] { return machine.executed().size() > 300; }));
+        machine.unplug();
+        CHECK(wait_for(5, [&] { return link.status().lost; }));
+        std::filesystem::remove(name);
+        machine.plug();
+        std::filesystem::create_symlink(machine.path(), name);
+        link.finish();
+        auto wanted = start;
+        for (const std::string& line : layer(0, 1500)) wanted.push_back(line);
+        CHECK(first_difference(job_lines(machine.executed()), wanted) == "");
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a port that does not come back ends the print with its name") {
+    PtyMachine machine({}, 10);
+    LinkSettings settings = settings_of(machine.path());
+    settings.reconnect_for = 0.2;
+    PrintLink link(settings);
+    link.connect();
+    link.submit(chunk_of(start, -1));
+    link.submit(chunk_of(layer(0, 1500), 0));
+    machine.unplug();
+    CHECK_THROWS_AS(link.finish(), FaultError);
+}
+
+TEST_CASE("the densest stretch of a job tells what the link has to carry") {
+    ChunkMaker maker(81);
+    std::string text = "G28\nG90\nM83\nG1 X0 Y0 F6000\n";
+    for (int i = 1; i <= 100; ++i) text += "G1 X" + std::to_string(i) + " E1\n";           // 10 ms each
+    for (int i = 1; i <= 10; ++i) text += "G1 X" + std::to_string(i % 2 * 100) + " E1\n";  // 1 s each
+    maker.clean(text);
+    CHECK(maker.lines() == 114);
+    CHECK(maker.seconds() == Approx(1 + 0 + 9).margin(0.05));
+    CHECK(maker.need().lines == Approx(104).margin(2));
+}
