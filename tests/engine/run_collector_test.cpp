@@ -33,8 +33,7 @@ TEST_CASE("runs that overlap, touch, miss and stick out merge to what bits say")
                 const std::int32_t lo = std::max(begin, band.lo * run_unit),
                                    hi = std::min(end, band.hi * run_unit);
                 const auto line = static_cast<std::size_t>(first) + static_cast<std::size_t>(i);
-                for (std::int32_t u = lo; u < hi; ++u)
-                    bits[line][static_cast<std::size_t>(u - least)] = true;
+                for (std::int32_t u = lo; u < hi; ++u) bits[line][static_cast<std::size_t>(u - least)] = true;
             }
         }
         SpanRows rows;
