@@ -67,7 +67,7 @@ TEST_CASE("a run killed at twenty random moments is continued to the same bytes"
     const std::string whole = folder / "whole" + format.ending, stopped = folder / "stopped" + format.ending;
     const std::string partial =
         folder / "stopped" + (format.ending == std::string("/") ? "" : format.ending) + ".partial";
-    const auto time = time_of(part + format.settings + "-o " + whole);
+    auto time = time_of(part + format.settings + "-o " + whole);
     const std::string bytes = everything(whole);
     std::mt19937 random(7);
     int continued = 0;
@@ -80,6 +80,8 @@ TEST_CASE("a run killed at twenty random moments is continued to the same bytes"
         if (!fs::exists(stopped)) {
             continued += fs::exists(partial) ? 1 : 0;
             REQUIRE(run_lamella(part + format.settings + "--resume -o " + stopped).code == 0);
+        } else {
+            time = time * 9 / 10;  // the machine has less to do than when it was timed
         }
         REQUIRE(everything(stopped) == bytes);
         CHECK(!fs::exists(partial));
