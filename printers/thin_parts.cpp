@@ -340,13 +340,14 @@ class ThinFinder {
             end_line(line, chain.nodes.back());
             std::ranges::reverse(line.points);
             std::ranges::reverse(line.thickness);
-            if (!line.points.empty()) end_line(line, chain.nodes.front());
+            end_line(line, chain.nodes.front());
         }
         if (line.points.size() >= 2) lines.push_back(simplified(line));
     }
 
     /// Brings the last end of a line to its place.
     void end_line(TaperedLine& line, std::uint32_t node) const {
+        if (line.points.size() < 2) return;
         const auto lines =
             std::ranges::count_if(at_node_[node], [&](std::uint32_t e) { return kind_[e] == Kind::line; });
         if (lines > 1) {

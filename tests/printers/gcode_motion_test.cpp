@@ -369,7 +369,8 @@ TEST_CASE("pictures stand in comments that are base64 of PNG files", "[gcode][th
     Job job = cones();
     job.picture = [](int size) {
         Picture picture{size, size, {}};
-        for (int i = 0; i < 3 * size * size; ++i) picture.rgb.push_back(static_cast<std::uint8_t>(i * i / 7));
+        for (int i = 0; i < 3 * size * size; ++i)
+            picture.rgb.push_back(static_cast<std::uint8_t>(i % 251 * (i % 7)));
         return picture;
     };
     PrinterProfile profile = plain();
