@@ -14,7 +14,7 @@ namespace lamella {
 /// LINE_BUFFER_SIZE of 80.
 std::size_t longest_line(Flavour flavour);
 
-/// Scripts that hold where a profile has none; see gcode_script.h for their placeholders.
+/// Scripts that hold where a profile has none; see gcode_script.h for their variables.
 std::string_view usual_start_script(Flavour flavour);
 std::string_view usual_layer_script(Flavour flavour);
 std::string_view usual_end_script(Flavour flavour);

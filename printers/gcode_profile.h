@@ -16,7 +16,7 @@ enum class Flavour : unsigned char {
 /// Lengths in mm, speeds in mm/s, accelerations in mm/s^2.
 struct GcodeProfile {
     Flavour flavour = Flavour::marlin;
-    /// Lines with placeholders in braces (see gcode_script.h); empty: the flavour's own.
+    /// Lines with variables in braces (see gcode_script.h); empty: the flavour's own.
     std::string start_script, layer_script, end_script;
     bool prime_line = true;                     ///< fill the nozzle along the bed's front edge
     double first_layer_nozzle_temperature = 0;  ///< degrees Celsius; 0: as the other layers

@@ -1,4 +1,4 @@
-// Placeholders in braces.
+// Variables in braces, and what is wrong with them.
 #include "printers/gcode_script.h"
 
 #include <fmt/format.h>
@@ -14,31 +14,31 @@
 namespace lamella {
 namespace {
 
-struct Placeholder {
+struct Variable {
     std::string_view name;
     std::string (*text)(const ScriptValues&);
 };
 
-constexpr std::array placeholders{
-    Placeholder{"layer", [](const ScriptValues& v) { return std::to_string(v.layer); }},
-    Placeholder{"layers", [](const ScriptValues& v) { return std::to_string(v.layers); }},
-    Placeholder{"z", [](const ScriptValues& v) { return format_number(v.z, 3); }},
-    Placeholder{"height", [](const ScriptValues& v) { return format_number(v.height, 3); }},
-    Placeholder{"nozzle_temperature",
-                [](const ScriptValues& v) { return format_number(v.nozzle_temperature, 0); }},
-    Placeholder{"bed_temperature", [](const ScriptValues& v) { return format_number(v.bed_temperature, 0); }},
-    Placeholder{"nozzle", [](const ScriptValues& v) { return format_number(v.nozzle, 3); }},
-    Placeholder{"bed_x", [](const ScriptValues& v) { return format_number(v.bed_x, 3); }},
-    Placeholder{"bed_y", [](const ScriptValues& v) { return format_number(v.bed_y, 3); }},
-    Placeholder{"bed_z", [](const ScriptValues& v) { return format_number(v.bed_z, 3); }},
-    Placeholder{"filament_used", [](const ScriptValues& v) { return format_number(v.filament_used, 2); }},
+constexpr std::array variables{
+    Variable{"layer", [](const ScriptValues& v) { return std::to_string(v.layer); }},
+    Variable{"layers", [](const ScriptValues& v) { return std::to_string(v.layers); }},
+    Variable{"z", [](const ScriptValues& v) { return format_number(v.z, 3); }},
+    Variable{"height", [](const ScriptValues& v) { return format_number(v.height, 3); }},
+    Variable{"nozzle_temperature",
+             [](const ScriptValues& v) { return format_number(v.nozzle_temperature, 0); }},
+    Variable{"bed_temperature", [](const ScriptValues& v) { return format_number(v.bed_temperature, 0); }},
+    Variable{"nozzle", [](const ScriptValues& v) { return format_number(v.nozzle, 3); }},
+    Variable{"bed_x", [](const ScriptValues& v) { return format_number(v.bed_x, 3); }},
+    Variable{"bed_y", [](const ScriptValues& v) { return format_number(v.bed_y, 3); }},
+    Variable{"bed_z", [](const ScriptValues& v) { return format_number(v.bed_z, 3); }},
+    Variable{"filament_used", [](const ScriptValues& v) { return format_number(v.filament_used, 2); }},
 };
 
 /// Longer than any print's.
 const ScriptValues longest_values{9'999'999, 9'999'999, 9999.999,  99.999,    999,           999,
                                   9.999,     99999.999, 99999.999, 99999.999, 999'999'999.99};
 
-/// A line with values for placeholders; `mistake` receives what is wrong with it.
+/// A line with values for variables; `mistake` receives what is wrong with it.
 std::string expand_line(std::string_view line, const ScriptValues& values, std::string& mistake) {
     std::string out;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -50,17 +50,17 @@ std::string expand_line(std::string_view line, const ScriptValues& values, std::
             out += c;
             ++i;
         } else if (c == '}') {
-            mistake = "a brace } closes nothing; accepted: {placeholders}, and }} for a brace";
+            mistake = "a brace } closes nothing; accepted: {variables}, and }} for a brace";
             return out;
         } else {
             const std::size_t end = line.find('}', i);
             const std::string_view name =
                 line.substr(i + 1, end == std::string_view::npos ? end : end - i - 1);
-            const auto* found = std::ranges::find(placeholders, name, &Placeholder::name);
-            if (end == std::string_view::npos || found == placeholders.end()) {
+            const auto* found = std::ranges::find(variables, name, &Variable::name);
+            if (end == std::string_view::npos || found == variables.end()) {
                 std::string known;
-                for (const Placeholder& p : placeholders) known += fmt::format(" {{{}}}", p.name);
-                mistake = fmt::format("there is no placeholder {{{}}}; accepted:{}, and {{{{ for a brace",
+                for (const Variable& p : variables) known += fmt::format(" {{{}}}", p.name);
+                mistake = fmt::format("there is no variable {{{}}}; accepted:{}, and {{{{ for a brace",
                                       name.substr(0, 64), known);
                 return out;
             }

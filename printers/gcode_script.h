@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// What stands for placeholders: their names are those of the members. Doubled braces stand for braces.
+/// What stands for variables: their names are those of the members. Doubled braces stand for braces.
 struct ScriptValues {
     int layer = 0;      ///< from 1: the one that follows; at the end the last one
     int layers = 0;     ///< of the whole print
@@ -21,11 +21,11 @@ struct ScriptValues {
     double filament_used = 0;                            ///< so far, mm
 };
 
-/// What is wrong with a script, and where: "line 3: there is no placeholder {laier}; ...". Lines are measured
-/// with the longest values that placeholders can have.
+/// What is wrong with a script, and where: "line 3: there is no variable {laier}; ...". Lines are measured
+/// with the longest values that variables can have.
 std::optional<std::string> script_mistake(std::string_view script, Flavour flavour);
 
-/// The script's lines, each with a line feed, with values for placeholders. The script is free of mistakes.
+/// The script's lines, each with a line feed, with values for variables. The script is free of mistakes.
 std::string expand_script(std::string_view script, const ScriptValues& values);
 
 /// Throws InputError for the first mistake in the scripts of a profile.

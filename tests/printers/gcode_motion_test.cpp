@@ -136,7 +136,7 @@ TEST_CASE("each firmware is told in its own words", "[gcode][flavour]") {
     CHECK(moves(Flavour::marlin) == moves(Flavour::reprapfirmware));
 }
 
-TEST_CASE("scripts stand where they belong, with values for placeholders", "[gcode][script]") {
+TEST_CASE("scripts stand where they belong, with values for variables", "[gcode][script]") {
     PrinterProfile profile = plain();
     profile.filament.nozzle_temperature = 215;
     profile.gcode.first_layer_nozzle_temperature = 225;
@@ -169,7 +169,7 @@ TEST_CASE("scripts that no machine would read are refused with their line", "[gc
     CHECK(mistake("") == "");
     CHECK(mistake("G28\n\nM117 {layer} {{}}") == "");
     CHECK_THAT(mistake("G28\nM117 {laier}"),
-               Catch::StartsWith("line 2: there is no placeholder {laier}") && Catch::Contains("{layer}"));
+               Catch::StartsWith("line 2: there is no variable {laier}") && Catch::Contains("{layer}"));
     CHECK_THAT(mistake("M117 {layer"), Catch::Contains("line 1"));
     CHECK_THAT(mistake("M117 }"), Catch::Contains("line 1: a brace"));
     CHECK_THAT(mistake("G28\nM117 \xc3\xa9"), Catch::StartsWith("line 2: a character is not"));
@@ -177,7 +177,7 @@ TEST_CASE("scripts that no machine would read are refused with their line", "[gc
     CHECK_THAT(mistake("a\nb\n" + std::string(96, 'x')), Catch::StartsWith("line 3: it has up to 96 bytes"));
     CHECK(mistake(std::string(79, 'x'), Flavour::grbl) == "");
     CHECK_THAT(mistake(std::string(80, 'x'), Flavour::grbl), Catch::Contains("at most 79"));
-    // What a placeholder may become counts, not its name.
+    // What a variable may become counts, not its name.
     CHECK(mistake(std::string(88, 'x') + "{layer}") == "");
     CHECK_THAT(mistake(std::string(89, 'x') + "{layer}"), Catch::Contains("96 bytes"));
     PrinterProfile profile = plain();
