@@ -92,7 +92,6 @@ void add_speeds(std::vector<Setting>& t) {
     speed.operator()<&G::infill_speed>("infill_speed", "--printer-infill-speed", "sparse infill");
     speed.operator()<&G::solid_speed>("solid_speed", "--printer-solid-speed", "solid infill");
     speed.operator()<&G::thin_speed>("thin_speed", "--printer-thin-speed", "thin beams and gaps");
-    speed.operator()<&G::bridge_speed>("bridge_speed", "--printer-bridge-speed", "bridges");
 }
 
 void add_motion(std::vector<Setting>& t) {

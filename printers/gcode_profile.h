@@ -26,8 +26,8 @@ struct GcodeProfile {
     int fan_ramp_layers = 0;                    ///< over which it then comes to its speed
     double least_layer_time = 0;                ///< s; layers that would be faster are slowed down
     double least_speed = 10;                    ///< below which no layer is slowed down
-    double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0, thin_speed = 0,
-           bridge_speed = 0;     ///< of beads by what they are for; 0: print_speed
+    double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0,
+           thin_speed = 0;       ///< of beads by what they are for; 0: print_speed
     double acceleration = 1000;  ///< that the machine has by itself
     double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: as that
     double junction_deviation = 0.013;  ///< of corners; for classic jerk j 0.4 j^2 / acceleration

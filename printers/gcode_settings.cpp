@@ -31,7 +31,7 @@ void check_gcode_profile(const GcodeProfile& profile) {
          {std::pair("wall_speed", profile.wall_speed),
           std::pair("inner_wall_speed", profile.inner_wall_speed),
           std::pair("infill_speed", profile.infill_speed), std::pair("solid_speed", profile.solid_speed),
-          std::pair("thin_speed", profile.thin_speed), std::pair("bridge_speed", profile.bridge_speed)}) {
+          std::pair("thin_speed", profile.thin_speed)}) {
         if (speed != 0) check(key, speed, slowest, fastest);
     }
     check("acceleration", profile.acceleration, 1, 1e6);
@@ -109,10 +109,10 @@ std::string gcode_settings(const PrinterProfile& profile) {
                        f.bed_x, f.bed_y, f.bed_z, f.nozzle, f.filament, f.line_width, f.infill_density,
                        f.nozzle_temperature, f.bed_temperature, f.print_speed, f.first_layer_speed,
                        f.travel_speed, f.retraction, f.retraction_speed, f.tolerance) +
-           fmt::format(" heat {} {} fan {} {} {} time {} {} speeds {} {} {} {} {} {}",
+           fmt::format(" heat {} {} fan {} {} {} time {} {} speeds {} {} {} {} {}",
                        g.first_layer_nozzle_temperature, g.first_layer_bed_temperature, g.fan,
                        g.fan_off_layers, g.fan_ramp_layers, g.least_layer_time, g.least_speed, g.wall_speed,
-                       g.inner_wall_speed, g.infill_speed, g.solid_speed, g.thin_speed, g.bridge_speed) +
+                       g.inner_wall_speed, g.infill_speed, g.solid_speed, g.thin_speed) +
            fmt::format(" motion {} {} {} {} {} {} {} {} prime {}", g.acceleration, g.wall_acceleration,
                        g.travel_acceleration, g.first_layer_acceleration, g.junction_deviation,
                        g.planner_blocks, g.lines_per_second, g.arcs, g.prime_line) +

@@ -27,18 +27,6 @@ std::vector<std::string> clean_lines(const std::string& path) {
     return lines;
 }
 
-pid_t start_lamella(const std::string& arguments, const Folder& folder) {
-    const std::string line = "exec env " + command_line(arguments, folder / "cache") + " >" + folder / "out" +
-                             " 2>" + folder / "err" + " </dev/null";
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-        _exit(127);
-    }
-    return child;
-}
-
 template <class Condition>
 bool wait_for(double seconds, Condition when) {
     for (int i = 0; i < seconds * 200; ++i) {

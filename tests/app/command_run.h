@@ -38,10 +38,8 @@ inline Outcome run_lamella(const std::string& arguments) {
     return outcome;
 }
 
-/// Runs `lamella` and interrupts it as soon as `when` says so, or after 20 s.
-template <class Condition>
-Outcome interrupt_lamella(const std::string& arguments, Condition when) {
-    const Folder folder;
+/// Starts `lamella`, whose output goes to the folder's files `out` and `err`.
+inline pid_t start_lamella(const std::string& arguments, const Folder& folder) {
     const std::string line = "exec env " + command_line(arguments, folder / "cache") + " >" + folder / "out" +
                              " 2>" + folder / "err" + " </dev/null";
     const pid_t child = fork();
@@ -50,6 +48,14 @@ Outcome interrupt_lamella(const std::string& arguments, Condition when) {
         execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
         _exit(127);
     }
+    return child;
+}
+
+/// Runs `lamella` and interrupts it as soon as `when` says so, or after 20 s.
+template <class Condition>
+Outcome interrupt_lamella(const std::string& arguments, Condition when) {
+    const Folder folder;
+    const pid_t child = start_lamella(arguments, folder);
     for (int i = 0; i < 2000 && !when(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(child, SIGINT);
     int status = 0;

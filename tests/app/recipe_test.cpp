@@ -421,9 +421,8 @@ TEST_CASE("scripts are lists of lines or texts of several lines") {
     CHECK_THAT(complaint(printer + "end_script = []\n"), Catch::Contains("there is no line"));
     CHECK_THAT(complaint(printer + "end_script = [\"M84\", \"M117 \u00e9\"]\n"),
                Catch::StartsWith("folder/test.toml:6: printer.end_script: line 2 holds a character"));
-    CHECK_THAT(
-        complaint(printer + "layer_script = [\"M400\", \"\", \"M117 {Layer}\"]\n"),
-        Catch::StartsWith("folder/test.toml:6: printer.layer_script: line 3: there is no variable"));
+    CHECK_THAT(complaint(printer + "layer_script = [\"M400\", \"\", \"M117 {Layer}\"]\n"),
+               Catch::StartsWith("folder/test.toml:6: printer.layer_script: line 3: there is no variable"));
     const std::string wide = "layer_script = \"M117 " + std::string(80, 'x') + "\"\n";
     CHECK(read(printer + wide).printer.gcode.layer_script.size() == 85);
     CHECK_THAT(complaint(printer + "flavour = \"grbl\"\n" + wide),

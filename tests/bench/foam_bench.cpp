@@ -54,18 +54,7 @@ BENCHMARK(foam_coverage_8k)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 
 /// A mask's file from its grey runs.
 void foam_png_8k(benchmark::State& state) {
-    const auto foam = make_voronoi_foam(bench::plate_foam());
-    SliceContext context;
-    const SliceField& slice = context.slice(*foam, bench::plate_z);
-    Scratch scratch;
-    SpanRows rows;
-    std::vector<GreyRun> grey;
-    const int sub = static_cast<int>(state.range(0));
-    for (int first = 0; first < bench::plate_height; first += 128) {
-        const RowBand band = bench::plate_band(first, sub);
-        slice.spans(band, scratch, rows);
-        coverage(band, rows, grey);
-    }
+    const std::vector<GreyRun> grey = bench::plate_grey(static_cast<int>(state.range(0)));
     PngHeader header;
     header.width = bench::plate_width;
     header.height = bench::plate_height;

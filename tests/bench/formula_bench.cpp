@@ -95,7 +95,7 @@ RowBand whole_layer(int pixels, double side, double origin) {
     return band;
 }
 
-/// The spans of one layer in bands of 64 rows, as the layer stream asks for them.
+/// The spans of one layer in bands of 128 rows, as masks ask for them.
 void spans_of(benchmark::State& state, const FieldPtr& field, double z, int pixels, double side,
               double origin) {
     Scratch scratch;
@@ -105,8 +105,8 @@ void spans_of(benchmark::State& state, const FieldPtr& field, double z, int pixe
         SliceContext context;
         const SliceField& slice = context.slice(*field, z);
         RowBand band = whole_layer(pixels, side, origin);
-        for (band.first = 0; band.first < pixels; band.first += 64) {
-            band.count = std::min(64, pixels - band.first);
+        for (band.first = 0; band.first < pixels; band.first += 128) {
+            band.count = std::min(128, pixels - band.first);
             slice.spans(band, scratch, rows);
             length += rows.total_length();
         }

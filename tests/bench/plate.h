@@ -1,6 +1,7 @@
 // The plate that the benchmarks share: an 8K display full of foam.
 #pragma once
 
+#include "engine/coverage.h"
 #include "engine/runs.h"
 #include "engine/slice_context.h"
 #include "procedural/voronoi_foam.h"
@@ -44,6 +45,22 @@ inline std::size_t plate_runs(const SliceField& slice, Scratch& scratch, int sub
         runs += rows.runs().size();
     }
     return runs;
+}
+
+/// The grey runs of the plate's layer, `sub` lines a pixel row.
+inline std::vector<GreyRun> plate_grey(int sub) {
+    const auto foam = make_voronoi_foam(plate_foam());
+    SliceContext context;
+    const SliceField& slice = context.slice(*foam, plate_z);
+    Scratch scratch;
+    SpanRows rows;
+    std::vector<GreyRun> grey;
+    for (int first = 0; first < plate_height; first += 128) {
+        const RowBand band = plate_band(first, sub);
+        slice.spans(band, scratch, rows);
+        coverage(band, rows, grey);
+    }
+    return grey;
 }
 
 }  // namespace lamella::bench

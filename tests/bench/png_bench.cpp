@@ -11,24 +11,8 @@ namespace {
 
 using namespace lamella;
 
-/// The plate's antialiased layer as grey runs.
-std::vector<GreyRun> plate_layer() {
-    const auto foam = make_voronoi_foam(bench::plate_foam());
-    SliceContext context;
-    const SliceField& slice = context.slice(*foam, bench::plate_z);
-    Scratch scratch;
-    SpanRows rows;
-    std::vector<GreyRun> grey;
-    for (int first = 0; first < bench::plate_height; first += 64) {
-        const RowBand band = bench::plate_band(first, 4);
-        slice.spans(band, scratch, rows);
-        coverage(band, rows, grey);
-    }
-    return grey;
-}
-
 void png_spans_8k(benchmark::State& state) {
-    const std::vector<GreyRun> grey = plate_layer();
+    const std::vector<GreyRun> grey = bench::plate_grey(4);
     std::size_t bytes = 0;
     for (auto _ : state) bytes = encode_png({bench::plate_width, bench::plate_height}, grey).size();
     state.counters["bytes"] = static_cast<double>(bytes);
@@ -38,7 +22,7 @@ BENCHMARK(png_spans_8k)->Unit(benchmark::kMillisecond);
 
 void png_oiio_8k(benchmark::State& state) {
     std::vector<std::uint8_t> pixels;
-    for (const GreyRun& run : plate_layer())
+    for (const GreyRun& run : bench::plate_grey(4))
         pixels.insert(pixels.end(), run.length, static_cast<std::uint8_t>(run.value));
     std::size_t bytes = 0;
     for (auto _ : state) {
