@@ -92,6 +92,17 @@ void add_speeds(std::vector<Setting>& t) {
     speed.operator()<&G::infill_speed>("infill_speed", "--printer-infill-speed", "sparse infill");
     speed.operator()<&G::solid_speed>("solid_speed", "--printer-solid-speed", "solid infill");
     speed.operator()<&G::thin_speed>("thin_speed", "--printer-thin-speed", "thin beams and gaps");
+    add_row<&G::bridge_speed>(t, "bridge_speed", "--printer-bridge-speed",
+                              {.unit = "mm/s",
+                               .limits = speeds_or_none,
+                               .help = "Speed of beads with nothing under them; 0: as if they were held."});
+    add_row<&G::bridge_flow>(
+        t, "bridge_flow", "--printer-bridge-flow",
+        {.limits = {0.1, 3},
+         .help = "Plastic of beads with nothing under them, over what fills their volume."});
+    add_row<&G::bridge_fan>(
+        t, "bridge_fan", "--printer-bridge-fan",
+        {.limits = share, .help = "Least speed of the fan over beads with nothing under them."});
 }
 
 void add_motion(std::vector<Setting>& t) {

@@ -20,6 +20,16 @@ void add_toolpath_settings(std::vector<Setting>& t) {
          .help =
              "Beads round each island, the outermost included. What is too thin for two gets one along its "
              "middle."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.top_layers; }>(
+        "printer", "top_layers", "--printer-top-layers",
+        {.unit = "layers",
+         .limits = {0, 1000},
+         .help = "Layers that are solid under what is open above, where infill is sparse."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.bottom_layers; }>(
+        "printer", "bottom_layers", "--printer-bottom-layers",
+        {.unit = "layers",
+         .limits = {0, 1000},
+         .help = "Layers that are solid over what is open below, where infill is sparse."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.infill; }>(
         "printer", "infill", "--printer-infill", {.help = "Pattern of the beads inside the walls."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.seam; }>(

@@ -28,6 +28,7 @@ struct Bead {
     bool closed = false;           ///< the last point is joined with the first
     int island = 0;                ///< beads of one island follow each other
     std::vector<double> widths{};  ///< at each point, mm, where the width changes; else empty
+    bool hangs = false;            ///< there is nothing under it
     double flow = 1;  ///< plastic over what the cross-section takes, for round ends of short beads
 
     double width_at(std::size_t point) const { return widths.empty() ? width : widths[point]; }

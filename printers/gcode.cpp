@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/error.h"
@@ -16,6 +17,7 @@
 #include "printers/gcode_text.h"
 #include "printers/gcode_thumbnail.h"
 #include "printers/laser_gcode.h"
+#include "printers/neighbour_layers.h"
 #include "printers/skirt.h"
 
 namespace lamella {
@@ -50,6 +52,7 @@ class Gcode : public Backend {
     int begin(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_filament_profile(profile_, job.layer_height);
+        neighbours_.emplace(job, filament_.tolerance);
         supported_ = job.supports != nullptr;
         if (supported_) check_support_speed(profile_.support);
         check_fit(job);
@@ -71,26 +74,30 @@ class Gcode : public Backend {
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<GcodeProduct>();
-        const std::vector<Contour> contours = layer.contours(filament_.tolerance);
-        const std::vector<Contour> supports = layer.support_contours(filament_.tolerance);
+        const auto outlines = neighbours_->outlines(layer.index());
+        const std::vector<Contour>& contours = outlines->part;
+        const std::vector<Contour>& supports = outlines->supports;
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
         for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
         // What goes round it comes first; then supports, for the part comes to rest on them. They are filled
         // whatever the part is.
         std::vector<Bead> beads = round(layer, contours, supports);
         int islands = beads.empty() ? 0 : 1;
-        Toolpaths under = plan(layer, supports, 1);
+        const std::optional<Footing> footing = this->footing(layer);
+        const std::optional<PlacedPolygons> core = this->core(layer);
+        const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
+        Toolpaths under = plan(layer, supports, 1, {pointer(footing), nullptr});
         for (Bead& bead : under.beads) {
             bead.role = Role::support;
             bead.island += islands;
         }
         islands += under.islands;
-        Toolpaths paths = plan(layer, contours, filament_.infill_density);
+        Toolpaths paths = plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)});
         for (Bead& bead : paths.beads) bead.island += islands;
         product->islands_left_out = under.islands_left_out + paths.islands_left_out;
         for (const Toolpaths* planned : {&under, &paths})
             beads.insert(beads.end(), planned->beads.begin(), planned->beads.end());
-        if (!beads.empty()) lay(beads, layer.index() == 0, *product);
+        if (!beads.empty()) lay(beads, layer.index(), *product);
         return product;
     }
 
@@ -120,6 +127,7 @@ class Gcode : public Backend {
         support_filament_ += product.support_filament;
         slowed_ += product.slowed;
         islands_left_out_ += product.islands_left_out;
+        neighbours_->forget_below(index - profile_.toolpath.bottom_layers);
         output_->commit(text.text() + product.text, index + 1, state());
     }
 
@@ -140,9 +148,21 @@ class Gcode : public Backend {
     }
 
   private:
-    Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density) const {
+    Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density,
+                   const Surroundings& around) const {
         const ToolpathProfile& t = profile_.toolpath;
-        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index());
+        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around);
+    }
+    /// What the layer rests on; none on the bed.
+    std::optional<Footing> footing(const Layer& layer) const {
+        if (layer.index() == 0) return std::nullopt;
+        return neighbours_->footing(layer.index(), filament_.line_width / 4);
+    }
+    /// Where its infill may be sparse; none when nothing asks for solid layers.
+    std::optional<PlacedPolygons> core(const Layer& layer) const {
+        const ToolpathProfile& t = profile_.toolpath;
+        if (filament_.infill_density >= 1 || t.top_layers + t.bottom_layers == 0) return std::nullopt;
+        return neighbours_->core(layer.index(), t.bottom_layers, t.top_layers);
     }
     LineSettings line() const { return {filament_.line_width, height_, filament_.tolerance}; }
 
@@ -158,16 +178,17 @@ class Gcode : public Backend {
     }
 
     /// Beads to lines: those of supports come first.
-    void lay(const std::vector<Bead>& beads, bool first_layer, GcodeProduct& product) const {
+    void lay(const std::vector<Bead>& beads, int layer, GcodeProduct& product) const {
         product.first = beads.front().points.front() + shift_;
         GcodeMoves planned(profile_, product.first);
-        add_beads(beads, profile_, height_, first_layer, shift_, planned);
+        add_beads(beads, profile_, height_, layer == 0, shift_, planned);
         std::vector<GcodeMove>& moves = planned.moves();
         slow_to_time(moves, product.first, gcode_);
         product.slowed = slow_to_rate(moves, gcode_);
         product.seconds = seconds_of(moves, product.first, gcode_);
         product.last = planned.position();
         GcodeText text(profile_);
+        text.fan(fan(layer), gcode_.bridge_fan);
         text.moves(moves, product.first, beads);
         product.text = text.text();
         product.filament = text.filament();
@@ -332,6 +353,7 @@ class Gcode : public Backend {
     const FilamentProfile& filament_;
     const GcodeProfile& gcode_;
     std::unique_ptr<GcodeOutput> output_;
+    std::optional<NeighbourLayers> neighbours_;  // set by begin
     double height_ = 0;
     int layer_count_ = 0;
     LayerRange range_;

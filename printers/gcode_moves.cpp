@@ -138,15 +138,16 @@ void add_beads(std::span<const Bead> beads, const PrinterProfile& profile, doubl
     for (std::size_t i = 0; i < beads.size(); ++i) {
         const Bead& bead = beads[i];
         const BeadPath path = path_of(bead, shift);
-        if (i > 0) {
+        const dvec2 way = path.points.front() - moves.position();
+        if (i > 0 && way != dvec2(0)) {
             const double limit = bead.island == island ? retract_within : retract_between;
-            const dvec2 way = path.points.front() - moves.position();
             moves.travel(path.points.front(), way.x * way.x + way.y * way.y > limit * limit);
         }
         island = bead.island;
-        const double speed = role_speed(profile, bead.role, first_layer);
-        const double acceleration = role_acceleration(profile.gcode, bead.role, first_layer);
-        const auto area = [&](double width) { return bead.flow * bead_area(width, height); };
+        const double speed = role_speed(profile, bead, first_layer);
+        const double acceleration = role_acceleration(profile.gcode, bead, first_layer);
+        const double flow = bead.flow * (bead.hangs ? profile.gcode.bridge_flow : 1);
+        const auto area = [&](double width) { return flow * bead_area(width, height); };
         // A bead of changing width has as few points as it can already.
         const std::vector<PathPiece> pieces =
             bead.widths.empty() ? pieces_of(path.points, profile) : straight_pieces(path.points);

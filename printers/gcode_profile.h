@@ -28,6 +28,9 @@ struct GcodeProfile {
     double least_speed = 10;                    ///< below which no layer is slowed down
     double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0,
            thin_speed = 0;       ///< of beads by what they are for; 0: print_speed
+    double bridge_speed = 0;     ///< of beads over the void; 0: as if they were held
+    double bridge_flow = 1;      ///< plastic of beads over the void, over what fills their volume
+    double bridge_fan = 0;       ///< least speed of the fan over the void, as a share of all
     double acceleration = 1000;  ///< that the machine has by itself
     double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: as that
     double junction_deviation = 0.013;  ///< of corners; for classic jerk j 0.4 j^2 / acceleration

@@ -3,18 +3,18 @@
 
 namespace lamella {
 
-const char* role_name(Role role) {
-    switch (role) {
+const char* role_name(const Bead& bead) {
+    switch (bead.role) {
         case Role::external_perimeter:
-            return "External perimeter";
+            return bead.hangs ? "Overhang perimeter" : "External perimeter";
         case Role::perimeter:
-            return "Perimeter";
+            return bead.hangs ? "Overhang perimeter" : "Perimeter";
         case Role::internal_infill:
-            return "Internal infill";
+            return bead.hangs ? "Bridge infill" : "Internal infill";
         case Role::solid_infill:
-            return "Solid infill";
+            return bead.hangs ? "Bridge infill" : "Solid infill";
         case Role::gap_fill:
-            return "Gap fill";
+            return bead.hangs ? "Bridge infill" : "Gap fill";
         case Role::skirt:
             return "Skirt/Brim";
         case Role::support:
@@ -23,10 +23,11 @@ const char* role_name(Role role) {
     return "Custom";
 }
 
-double role_speed(const PrinterProfile& profile, Role role, bool first_layer) {
+double role_speed(const PrinterProfile& profile, const Bead& bead, bool first_layer) {
     if (first_layer) return profile.filament.first_layer_speed;
+    if (bead.hangs && profile.gcode.bridge_speed > 0) return profile.gcode.bridge_speed;
     const auto own = [&](double speed) { return speed > 0 ? speed : profile.filament.print_speed; };
-    switch (role) {
+    switch (bead.role) {
         case Role::external_perimeter:
             return own(profile.gcode.wall_speed);
         case Role::perimeter:
@@ -45,9 +46,10 @@ double role_speed(const PrinterProfile& profile, Role role, bool first_layer) {
     return profile.filament.print_speed;
 }
 
-double role_acceleration(const GcodeProfile& profile, Role role, bool first_layer) {
+double role_acceleration(const GcodeProfile& profile, const Bead& bead, bool first_layer) {
     if (first_layer && profile.first_layer_acceleration > 0) return profile.first_layer_acceleration;
-    if (role == Role::external_perimeter && profile.wall_acceleration > 0) return profile.wall_acceleration;
+    if (bead.role == Role::external_perimeter && profile.wall_acceleration > 0)
+        return profile.wall_acceleration;
     return profile.acceleration;
 }
 

@@ -31,9 +31,11 @@ void check_gcode_profile(const GcodeProfile& profile) {
          {std::pair("wall_speed", profile.wall_speed),
           std::pair("inner_wall_speed", profile.inner_wall_speed),
           std::pair("infill_speed", profile.infill_speed), std::pair("solid_speed", profile.solid_speed),
-          std::pair("thin_speed", profile.thin_speed)}) {
+          std::pair("thin_speed", profile.thin_speed), std::pair("bridge_speed", profile.bridge_speed)}) {
         if (speed != 0) check(key, speed, slowest, fastest);
     }
+    check("bridge_flow", profile.bridge_flow, 0.1, 3);
+    check("bridge_fan", profile.bridge_fan, 0, 1);
     check("acceleration", profile.acceleration, 1, 1e6);
     for (const auto& [key, acceleration] :
          {std::pair("wall_acceleration", profile.wall_acceleration),
@@ -67,6 +69,8 @@ void check_filament_profile(const PrinterProfile& printer, double height) {
     check("retraction_speed", profile.retraction_speed, 0.1, 500);
     check("tolerance", profile.tolerance, 0.0001, 1);
     check("walls", printer.toolpath.walls, 1, 1000);
+    check("top_layers", printer.toolpath.top_layers, 0, 1000);
+    check("bottom_layers", printer.toolpath.bottom_layers, 0, 1000);
     check("brim", printer.toolpath.brim, 0, 1000);
     check("skirt", printer.toolpath.skirt, 0, 1000);
     check("skirt_distance", printer.toolpath.skirt_distance, 0, 1000);
@@ -113,11 +117,13 @@ std::string gcode_settings(const PrinterProfile& profile) {
                        g.first_layer_nozzle_temperature, g.first_layer_bed_temperature, g.fan,
                        g.fan_off_layers, g.fan_ramp_layers, g.least_layer_time, g.least_speed, g.wall_speed,
                        g.inner_wall_speed, g.infill_speed, g.solid_speed, g.thin_speed) +
+           fmt::format(" bridges {} {} {}", g.bridge_speed, g.bridge_flow, g.bridge_fan) +
            fmt::format(" motion {} {} {} {} {} {} {} {} prime {}", g.acceleration, g.wall_acceleration,
                        g.travel_acceleration, g.first_layer_acceleration, g.junction_deviation,
                        g.planner_blocks, g.lines_per_second, g.arcs, g.prime_line) +
-           fmt::format(" paths {} {} {} {} {} {}", t.walls, static_cast<int>(t.infill),
-                       static_cast<int>(t.seam), t.brim, t.skirt, t.skirt_distance) +
+           fmt::format(" paths {} {} {} {} {} {} {} {}", t.walls, t.top_layers, t.bottom_layers,
+                       static_cast<int>(t.infill), static_cast<int>(t.seam), t.brim, t.skirt,
+                       t.skirt_distance) +
            "\nstart\n" + start_script(g) + "\nlayer\n" + layer_script(g) + "\nend\n" + end_script(g);
 }
 

@@ -45,9 +45,12 @@ void GcodeText::speed(double mm_per_second) {
     word('F', mm_per_second * 60, 0);
 }
 
-void GcodeText::announce(Role bead_role, double bead_width) {
-    const int role = static_cast<int>(bead_role);
-    if (role != role_) line(std::string(";TYPE:") + role_name(bead_role));
+void GcodeText::announce(const Bead& bead, double bead_width) {
+    if (bead.hangs != hangs_ && bridge_fan_ != fan_)
+        line(fan_line(profile_.gcode.flavour, bead.hangs ? bridge_fan_ : fan_));
+    hangs_ = bead.hangs;
+    const std::string role = role_name(bead);
+    if (role != role_) line(";TYPE:" + role);
     const std::string width = format_number(bead_width, 3);
     if (width != width_) line(";WIDTH:" + width);
     role_ = role;
@@ -97,7 +100,7 @@ void GcodeText::move(const GcodeMove& move, dvec2 from) {
 
 void GcodeText::moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads) {
     for (const GcodeMove& m : moves) {
-        if (m.bead >= 0) announce(beads[static_cast<std::size_t>(m.bead)].role, m.width);
+        if (m.bead >= 0) announce(beads[static_cast<std::size_t>(m.bead)], m.width);
         acceleration(m);
         move(m, position);
         position = m.to;

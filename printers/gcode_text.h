@@ -1,6 +1,7 @@
 // Lines of G-code: moves of a nozzle as text, and what they take in filament.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,12 +26,18 @@ class GcodeText {
     /// The moves, which begin at `position`, with changes of the beads' roles and widths announced.
     void moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads = {});
 
+    /// The speed of the fan in this layer, as a share of all, and its least over the void.
+    void fan(double layer, double bridges) {
+        fan_ = layer;
+        bridge_fan_ = std::max(layer, bridges);
+    }
+
     const std::string& text() const { return text_; }
     double filament() const { return filament_; }  ///< extruded, retraction not counted, mm
 
   private:
     void move(const GcodeMove& move, dvec2 from);
-    void announce(Role bead_role, double bead_width);
+    void announce(const Bead& bead, double bead_width);
     void acceleration(const GcodeMove& move);
     void word(char letter, double value, int decimals);
     void speed(double mm_per_second);
@@ -40,7 +47,9 @@ class GcodeText {
     double filament_ = 0;
     double speed_ = 0;         // of the last F word, mm/s
     double acceleration_ = 0;  // of the last M204, mm/s^2
-    int role_ = -1;
+    double fan_ = 0, bridge_fan_ = 0;
+    bool hangs_ = false;
+    std::string role_;
     std::string width_;
 };
 

@@ -8,25 +8,27 @@
 
 #include "printers/center_lines.h"
 #include "printers/infill.h"
+#include "printers/inner_regions.h"
 #include "printers/thin_beads.h"
 
 namespace lamella {
 namespace {
 
-constexpr double densest_lattice = 0.999;  // from here on regions are filled solid
-constexpr double shortest_loop = 1;        // shorter islands, in thicknesses, get a chord
+constexpr double shortest_loop = 1;  // shorter islands, in thicknesses, get a chord
 
 Role wall_role(int walls_laid) { return walls_laid == 0 ? Role::external_perimeter : Role::perimeter; }
 
 }  // namespace
 
-IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index)
+IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around)
     : settings_(settings),
       line_(settings.line),
+      around_(around),
       direction_(layer_index % 2 == 0 ? dvec2(std::sqrt(0.5)) : dvec2(std::sqrt(0.5), -std::sqrt(0.5))) {}
 
 std::vector<Bead> IslandPlanner::plan(const Polygons& island) {
     beads_.clear();
+    sparse_regions_ = 0;
     Polygons piece = simplified(island, line_.tolerance / 2);
     if (piece.empty()) piece = island;
     fill(island, piece, 0);
@@ -116,26 +118,26 @@ bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int 
         fill_narrow(exact, !wall.empty(), role);  // simplified, a sliver could leave its own outline
         return true;
     }
-    const bool solid = settings_.density > densest_lattice;
     std::vector<Polygons> regions = split_pieces(inside);
     // What is too narrow for a bead of its own comes with the wall.
     double narrow = 0;
     std::erase_if(regions, [&](const Polygons& region) {
         if (wall_thickness(region) >= line_.width * LineSettings::narrowest) return false;
-        narrow += solid ? area_of(region) : 0;
+        narrow += area_of(region);
         return true;
     });
     const double length = perimeter_of(wall);
     const double width = line_.width_for(length * spacing + narrow, length);
     for (const ClipperLib::Path& loop : wall) beads_.push_back({to_points(loop), width, role, true, 0});
+    const int sparse_before = sparse_regions_;
     for (const Polygons& region : regions) {
         if (walls_laid + 1 < settings_.walls) {
             if (area_of(region) >= line_.least_area()) fill(region, region, walls_laid + 1);
         } else {
-            fill_region(region);
+            fill_inside(region);
         }
     }
-    return solid;
+    return sparse_regions_ == sparse_before;
 }
 
 /// One bead along the middle, or two side by side, in a piece of even thickness for which that is right.
@@ -176,17 +178,34 @@ void IslandPlanner::fill_narrow(const Polygons& piece, bool full_width_fits, Rol
     add(chord_bead(piece, area, line_));
 }
 
-/// Infill of one connected region inside the walls.
-void IslandPlanner::fill_region(const Polygons& region) {
-    if (!(settings_.density > 0)) return;
-    const bool solid = settings_.density > densest_lattice;
-    if (settings_.infill == InfillPattern::concentric) {
-        add(concentric_loops(region, solid ? 1 : settings_.density, line_));
-    } else if (solid) {
-        add(solid_lines(region, direction_, line_));
-    } else {
-        add(sparse_lines(region, settings_.density, direction_, line_));
+/// Infill of one connected region inside the walls, as the layers round it ask for it.
+void IslandPlanner::fill_inside(const Polygons& inside) {
+    for (const InnerRegion& part : divide_inside(inside, around_, settings_.density, line_)) {
+        switch (part.fill) {
+            case InnerRegion::Fill::sparse:
+                ++sparse_regions_;
+                if (settings_.density > 0) fill_region(part.region, settings_.density);
+                break;
+            case InnerRegion::Fill::solid:
+                fill_region(part.region, 1);
+                break;
+            case InnerRegion::Fill::bridge: {
+                std::vector<Bead> lines = solid_lines(part.region, part.along, line_);
+                for (Bead& line : lines) line.hangs = true;
+                add(std::move(lines));
+                break;
+            }
+        }
     }
+}
+
+void IslandPlanner::fill_region(const Polygons& region, double density) {
+    if (settings_.infill == InfillPattern::concentric)
+        add(concentric_loops(region, density, line_));
+    else if (density < 1)
+        add(sparse_lines(region, density, direction_, line_));
+    else
+        add(solid_lines(region, direction_, line_));
 }
 
 }  // namespace lamella

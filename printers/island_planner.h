@@ -9,7 +9,7 @@ namespace lamella {
 /// Plans island after island of one layer; see plan_toolpaths.
 class IslandPlanner {
   public:
-    IslandPlanner(const ToolpathSettings& settings, int layer_index);
+    IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around);
 
     /// Beads of a connected piece with its holes, of at least LineSettings::least_area().
     std::vector<Bead> plan(const Polygons& island);
@@ -20,13 +20,16 @@ class IslandPlanner {
     bool lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid);
     bool fill_even_wall(const Polygons& piece, double area, Role role);
     void fill_narrow(const Polygons& piece, bool full_width_fits, Role role);
-    void fill_region(const Polygons& region);
+    void fill_inside(const Polygons& inside);
+    void fill_region(const Polygons& region, double density);
     void add(std::vector<Bead> beads);
     double volume_from(std::size_t first) const;
 
     ToolpathSettings settings_;
     LineSettings line_;
+    Surroundings around_;
     dvec2 direction_;
+    int sparse_regions_ = 0;  ///< of the island, that beads do not fill
     std::vector<Bead> beads_;
 };
 

@@ -139,7 +139,9 @@ enum class Seam : unsigned char {
 
 /// How an extruder's paths are planned. Lengths in mm.
 struct ToolpathProfile {
-    int walls = 2;  ///< beads round each island, the outermost included
+    int walls = 2;          ///< beads round each island, the outermost included
+    int top_layers = 4;     ///< solid ones under what is open above, where infill is sparse
+    int bottom_layers = 3;  ///< solid ones over what is open below
     InfillPattern infill = InfillPattern::lines;
     Seam seam = Seam::nearest;
     double brim = 0;  ///< width of what is laid round the first layer, touching it

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "printers/bead_order.h"
+#include "printers/hanging_beads.h"
 #include "printers/island_planner.h"
 #include "printers/polygons.h"
 
@@ -29,14 +30,14 @@ std::vector<Polygons> find_islands(const std::vector<Contour>& contours) {
 }  // namespace
 
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index) {
+                         int layer_index, const Surroundings& around) {
     Toolpaths result;
     const std::vector<Polygons> islands = find_islands(contours);
     result.islands = static_cast<int>(islands.size());
     std::vector<std::vector<Bead>> planned;
     std::vector<dvec2> entries;
     Rect all;
-    IslandPlanner planner(settings, layer_index);
+    IslandPlanner planner(settings, layer_index, around);
     for (const Polygons& island : islands) {
         for (const dvec2& p : to_points(island.front())) all = unite(all, Rect{p, p});
         std::vector<Bead> beads;
@@ -61,6 +62,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         append_nearest(std::span(beads).first(walls), settings.seam, at, result.beads);
         append_nearest(std::span(beads).subspan(walls), settings.seam, at, result.beads);
     }
+    if (around.footing) result.beads = cut_hanging(result.beads, *around.footing);
     return result;
 }
 

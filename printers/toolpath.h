@@ -5,6 +5,7 @@
 
 #include "engine/contours.h"
 #include "printers/bead.h"
+#include "printers/footing.h"
 #include "printers/profile.h"
 
 namespace lamella {
@@ -15,6 +16,13 @@ struct ToolpathSettings {
     double density = 1;  ///< share of the inside that infill takes, 0 to 1
     InfillPattern infill = InfillPattern::lines;
     Seam seam = Seam::nearest;
+};
+
+/// What a layer's paths must know of the layers round it.
+struct Surroundings {
+    const Footing* footing = nullptr;      ///< what it rests on; null: the bed
+    const PlacedPolygons* core = nullptr;  ///< where layers below and above are solid, so that infill may be
+                                           ///< sparse; null: everywhere
 };
 
 struct Toolpaths {
@@ -32,7 +40,10 @@ struct Toolpaths {
 /// at last a short bead along its longest chord. No bead is wider than 1.5 widths. Islands and lines are
 /// visited by nearest neighbour from the contours' lower left corner, and the tour of the islands is
 /// shortened (see short_tour): the result depends on the arguments alone.
+///
+/// Infill over the void runs along the bridge (see bridge_direction), and what hangs of any bead is marked
+/// and a bead by itself (see cut_hanging).
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index);
+                         int layer_index, const Surroundings& around = {});
 
 }  // namespace lamella

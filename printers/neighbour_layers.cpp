@@ -1,0 +1,59 @@
+// Sections traced once, and their booleans.
+#include "printers/neighbour_layers.h"
+
+#include <utility>
+
+namespace lamella {
+namespace {
+
+Polygons to_polygons(const std::vector<Contour>& contours) {
+    Polygons polygons;
+    polygons.reserve(contours.size());
+    for (const Contour& contour : contours) polygons.push_back(to_polygon(contour.points));
+    return polygons;
+}
+
+}  // namespace
+
+std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const {
+    std::shared_ptr<Entry> entry;
+    {
+        const std::lock_guard lock(mutex_);
+        std::shared_ptr<Entry>& held = entries_[index];
+        if (!held) held = std::make_shared<Entry>();
+        entry = held;
+    }
+    std::call_once(entry->traced, [&] {
+        const Layer layer(*job_, index);
+        entry->outlines = {layer.contours(tolerance_), layer.support_contours(tolerance_)};
+    });
+    return {entry, &entry->outlines};
+}
+
+Footing NeighbourLayers::footing(int index, double pitch) const {
+    const auto below = outlines(index - 1);
+    Polygons section = to_polygons(below->part);
+    if (!below->supports.empty()) section = unite_polygons(section, to_polygons(below->supports));
+    return {std::move(section), pitch};
+}
+
+PlacedPolygons NeighbourLayers::core(int index, int below, int above) const {
+    if (index < below || index + above >= job_->layer_count) return {};
+    Polygons common;
+    bool first = true;
+    for (int i = index - below; i <= index + above; ++i) {
+        if (i == index) continue;
+        // Coarser by what no bead can follow anyway.
+        Polygons section = simplified(to_polygons(outlines(i)->part), tolerance_);
+        common = std::exchange(first, false) ? std::move(section) : intersect_polygons(common, section);
+        if (common.empty()) break;
+    }
+    return PlacedPolygons(std::move(common));
+}
+
+void NeighbourLayers::forget_below(int index) {
+    const std::lock_guard lock(mutex_);
+    entries_.erase(entries_.begin(), entries_.lower_bound(index));
+}
+
+}  // namespace lamella
