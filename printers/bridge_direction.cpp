@@ -10,8 +10,8 @@ namespace lamella {
 namespace {
 
 struct Spans {
-    double unheld = 0;  ///< length of spans times their ends without a hold, mm
-    double square = 0;  ///< sum of their lengths' squares: the weighted mean of them but for a factor, mm^2
+    double unheld = 0;   ///< length of spans times their ends without a hold, mm
+    double longest = 0;  ///< mm
 };
 
 Spans spans_along(const Polygons& hanging, const Footing& footing, dvec2 direction, double width) {
@@ -24,7 +24,7 @@ Spans spans_along(const Polygons& hanging, const Footing& footing, dvec2 directi
                          static_cast<int>(!footing.holds(s.b + direction * width));
         const double length = s.length();
         spans.unheld += free * length * pitch / width;
-        spans.square += length * length * pitch / width;
+        spans.longest = std::max(spans.longest, length);
     }
     return spans;
 }
@@ -46,7 +46,7 @@ dvec2 bridge_direction(const Polygons& hanging, const Footing& footing, double w
     const double most = least + alike * area_of(hanging) / width;
     std::size_t best = tries;
     for (std::size_t i = 0; i < tries; ++i) {
-        if (spans[i].unheld <= most && (best == tries || spans[i].square < spans[best].square)) best = i;
+        if (spans[i].unheld <= most && (best == tries || spans[i].longest < spans[best].longest)) best = i;
     }
     return directions[best];
 }
