@@ -273,13 +273,13 @@ TEST_CASE("moves without extrusion are continued byte for byte, and not with oth
 }
 
 TEST_CASE("lines a second hold over the seams of layers of few moves, too", "[gcode][travel][rate]") {
-    // One bead a layer at most, which begins where the last one ended, or nearly.
+    // Few beads a layer, some of which begin where the last one ended.
     const Job job = make_job(
         {{-2, -2, 0}, {2, 2, 8}},
         [](double z) {
             const int layer = static_cast<int>(z / 0.2);
             std::vector<Figure> figures;
-            if (layer % 7 != 3) figures.push_back(disc({0, 0}, 0.15 + 0.02 * (layer % 5)));
+            if (layer % 7 != 3) figures.push_back(disc({0, 0}, 0.15 + 0.2 * (layer / 5 % 4)));
             if (layer % 11 == 5) figures.push_back(disc({1, 1}, 0.8));
             return figures;
         },
