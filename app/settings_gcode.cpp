@@ -105,6 +105,33 @@ void add_speeds(std::vector<Setting>& t) {
         {.limits = share, .help = "Least speed of the fan over beads with nothing under them."});
 }
 
+void add_travel(std::vector<Setting>& t) {
+    using G = GcodeProfile;
+    constexpr Limits lengths{0, 1e5};
+    add_row<&G::travel_inside>(
+        t, "travel_inside", "--printer-travel-inside",
+        {.help = "Go from bead to bead of an island inside it, the shortest way, where there is one."});
+    add_row<&G::retract_from>(t, "retract_from", "--printer-retract-from",
+                              {.unit = "mm",
+                               .limits = lengths,
+                               .help = "Filament is drawn back on longer ways that leave the part."});
+    add_row<&G::retract_inside_from>(
+        t, "retract_inside_from", "--printer-retract-inside-from",
+        {.unit = "mm", .limits = lengths, .help = "Filament is drawn back on longer ways inside an island."});
+    add_row<&G::wipe>(t, "wipe", "--printer-wipe",
+                      {.unit = "mm",
+                       .limits = {0, 100},
+                       .help = "Way along the last bead on which filament is drawn back, as much as "
+                               "retraction_speed allows; 0: in place."});
+    add_row<&G::z_hop>(t, "z_hop", "--printer-z-hop",
+                       {.unit = "mm",
+                        .limits = {0, 20},
+                        .help = "By how much the nozzle rises on ways on which filament is drawn back."});
+    add_row<&G::z_hop_from>(
+        t, "z_hop_from", "--printer-z-hop-from",
+        {.unit = "mm", .limits = lengths, .help = "Shorter ones of these ways are made without rising."});
+}
+
 void add_motion(std::vector<Setting>& t) {
     using G = GcodeProfile;
     add_row<&G::acceleration>(t, "acceleration", "--printer-acceleration",
@@ -177,6 +204,7 @@ void add_gcode_settings(std::vector<Setting>& table) {
     add_scripts(table);
     add_heat(table);
     add_speeds(table);
+    add_travel(table);
     add_motion(table);
     add_laser(table);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "printers/gcode_settings.h"
 #include "printers/gcode_text.h"
 #include "printers/gcode_thumbnail.h"
+#include "printers/gcode_travel.h"
 #include "printers/laser_gcode.h"
 #include "printers/neighbour_layers.h"
 #include "printers/skirt.h"
@@ -31,6 +33,7 @@ struct GcodeProduct : LayerProduct {
     std::string text;  ///< from the first bead on; empty for an empty layer
     dvec2 first{0};    ///< on the bed, mm
     dvec2 last{0};
+    std::vector<dvec2> trail;     ///< from there, to wipe the nozzle on
     double filament = 0;          ///< mm
     double support_filament = 0;  ///< of it, mm
     double slowed = 0;            ///< mm of extrusion below the speed asked for, for the rate of lines
@@ -81,23 +84,14 @@ class Gcode : public Backend {
         for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
         // What goes round it comes first; then supports, for the part comes to rest on them. They are filled
         // whatever the part is.
-        std::vector<Bead> beads = round(layer, contours, supports);
-        int islands = beads.empty() ? 0 : 1;
         const std::optional<Footing> footing = this->footing(layer);
         const std::optional<PlacedPolygons> core = this->core(layer);
         const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
-        Toolpaths under = plan(layer, supports, 1, {pointer(footing), nullptr});
-        for (Bead& bead : under.beads) {
-            bead.role = Role::support;
-            bead.island += islands;
-        }
-        islands += under.islands;
-        Toolpaths paths = plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)});
-        for (Bead& bead : paths.beads) bead.island += islands;
-        product->islands_left_out = under.islands_left_out + paths.islands_left_out;
-        for (const Toolpaths* planned : {&under, &paths})
-            beads.insert(beads.end(), planned->beads.begin(), planned->beads.end());
-        if (!beads.empty()) lay(beads, layer.index(), *product);
+        Toolpaths paths = round(layer, contours, supports);
+        append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
+        append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
+        product->islands_left_out = paths.islands_left_out;
+        if (!paths.beads.empty()) lay(paths, layer, *product);
         return product;
     }
 
@@ -114,16 +108,23 @@ class Gcode : public Backend {
         text.lines(expand_script(layer_script(gcode_), values(index)));
         const bool prints = !product.text.empty();
         const double below = index > range_.first ? index * height_ : gcode_.prime_line ? prime_height : 0;
-        GcodeMoves moves(profile_, position_);
-        const bool retract = prints && moves.retracts();
-        if (retract) moves.retract();
-        moves.lift(layer.top(), layer.top() - below);
-        if (prints) moves.travel(product.first, false);
-        if (retract) moves.restore();
+        GcodeMoves moves(profile_, position_, below);
+        if (prints) {
+            if (moves.retracts()) moves.retract(trail_);
+            moves.lift(travel_height(profile_, layer.top(), glm::distance(position_, product.first)));
+            moves.travel(product.first);
+        }
+        moves.lift(layer.top());
+        if (prints && moves.retracts()) moves.restore();
         append(moves, text);
         add(product.seconds);
         filament_used_ += product.filament;
-        if (prints) position_ = product.last;
+        if (prints) {
+            position_ = product.last;
+            trail_ = product.trail;
+        } else {
+            trail_.clear();  // the nozzle has left it
+        }
         support_filament_ += product.support_filament;
         slowed_ += product.slowed;
         islands_left_out_ += product.islands_left_out;
@@ -136,10 +137,10 @@ class Gcode : public Backend {
         const double top = range_.last * height_;
         const double parked = std::min(top + 10, std::max(filament_.bed_z, top));
         text.line(";TYPE:Custom");
-        GcodeMoves moves(profile_, position_);
-        if (moves.retracts()) moves.retract();
-        moves.lift(parked, parked - top);
-        moves.travel({0, filament_.bed_y}, false);
+        GcodeMoves moves(profile_, position_, top);
+        if (moves.retracts()) moves.retract(trail_);
+        moves.lift(parked);
+        moves.travel({0, filament_.bed_y});
         append(moves, text);
         text.lines(expand_script(end_script(gcode_), values(range_.last - 1)));
         text.line(end_progress(gcode_.flavour, range_.last));
@@ -167,28 +168,43 @@ class Gcode : public Backend {
     LineSettings line() const { return {filament_.line_width, height_, filament_.tolerance}; }
 
     /// Brim and skirt of the first layer.
-    std::vector<Bead> round(const Layer& layer, const std::vector<Contour>& part,
-                            const std::vector<Contour>& supports) const {
+    Toolpaths round(const Layer& layer, const std::vector<Contour>& part,
+                    const std::vector<Contour>& supports) const {
         if (layer.index() > 0) return {};
         Polygons standing;
         for (const std::vector<Contour>* contours : {&part, &supports}) {
             for (const Contour& contour : *contours) standing.push_back(to_polygon(contour.points));
         }
-        return skirt_beads(standing, profile_.toolpath, line());
+        Toolpaths paths;
+        paths.beads = skirt_beads(standing, profile_.toolpath, line());
+        if (!paths.beads.empty()) paths.outlines.emplace_back();  // nothing to stay inside
+        return paths;
+    }
+
+    static void append(Toolpaths added, Toolpaths& paths, std::optional<Role> role = {}) {
+        const auto islands = static_cast<int>(paths.outlines.size());
+        for (Bead& bead : added.beads) {
+            bead.island += islands;
+            bead.role = role.value_or(bead.role);
+        }
+        std::ranges::move(added.beads, std::back_inserter(paths.beads));
+        std::ranges::move(added.outlines, std::back_inserter(paths.outlines));
+        paths.islands_left_out += added.islands_left_out;
     }
 
     /// Beads to lines: those of supports come first.
-    void lay(const std::vector<Bead>& beads, int layer, GcodeProduct& product) const {
+    void lay(const Toolpaths& paths, const Layer& layer, GcodeProduct& product) const {
+        const std::vector<Bead>& beads = paths.beads;
         product.first = beads.front().points.front() + shift_;
-        GcodeMoves planned(profile_, product.first);
-        add_beads(beads, profile_, height_, layer == 0, shift_, planned);
+        GcodeMoves planned(profile_, product.first, layer.top());
+        product.trail = add_beads(paths, profile_, height_, layer.index() == 0, shift_, planned);
         std::vector<GcodeMove>& moves = planned.moves();
         slow_to_time(moves, product.first, gcode_);
         product.slowed = slow_to_rate(moves, gcode_);
         product.seconds = seconds_of(moves, product.first, gcode_);
         product.last = planned.position();
         GcodeText text(profile_);
-        text.fan(fan(layer), gcode_.bridge_fan);
+        text.fan(fan(layer.index()), gcode_.bridge_fan);
         text.moves(moves, product.first, beads);
         product.text = text.text();
         product.filament = text.filament();
@@ -283,9 +299,9 @@ class Gcode : public Backend {
         const dvec2 from(10, prime_strip / 2);
         const dvec2 to = from + dvec2(std::min(prime_length, filament_.bed_x - 20), 0);
         const double width = std::max(filament_.line_width, prime_height);
-        GcodeMoves moves(profile_, position_);
-        moves.travel(from, false);
-        moves.lift(prime_height, prime_height);
+        GcodeMoves moves(profile_, position_, 0);
+        moves.travel(from);
+        moves.lift(prime_height);
         moves.extrude(straight_pieces(std::vector<dvec2>{from, to}).front(), bead_area(width, prime_height),
                       filament_.first_layer_speed, gcode_.acceleration, -1);
         append(moves, text);
@@ -332,8 +348,10 @@ class Gcode : public Backend {
     }
 
     nlohmann::ordered_json state() const {
-        return {position_.x,       position_.y, filament_used_, seconds_,      islands_left_out_,
-                support_filament_, slowed_,     rate_.worst(),  rate_.recent()};
+        auto trail = nlohmann::ordered_json::array();
+        for (const dvec2 point : trail_) trail.push_back({point.x, point.y});
+        return {position_.x,       position_.y, filament_used_, seconds_,       islands_left_out_,
+                support_filament_, slowed_,     rate_.worst(),  rate_.recent(), trail};
     }
     void restore(const nlohmann::ordered_json& state) {
         try {
@@ -343,6 +361,9 @@ class Gcode : public Backend {
             islands_left_out_ = state.at(4).get<std::int64_t>();
             support_filament_ = state.at(5).get<double>();
             slowed_ = state.at(6).get<double>();
+            trail_.clear();
+            for (const auto& point : state.at(9))
+                trail_.emplace_back(point.at(0).get<double>(), point.at(1).get<double>());
             rate_.restore(state.at(8).get<std::vector<double>>(), state.at(7).get<double>());
         } catch (const nlohmann::json::exception&) {
             throw output_->damaged_state();
@@ -366,6 +387,7 @@ class Gcode : public Backend {
     RateMeter rate_;
     std::int64_t islands_left_out_ = 0;
     bool supported_ = false;
+    std::vector<dvec2> trail_;  // of the last bead, where the nozzle still is
 };
 
 }  // namespace

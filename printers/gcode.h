@@ -12,7 +12,8 @@ namespace lamella {
 
 /// Writes a G-code file: absolute millimetres, relative extrusion, the part's bounds centred on the bed,
 /// comments that previewers of the Slic3r family read. What a layer's lines are depends on the layer alone,
-/// but for the travel to its first bead. Toolpaths: see plan_toolpaths. Islands too small for any bead are
+/// but for the travel to its first bead, with what is drawn back and wiped before it.
+/// Toolpaths: see plan_toolpaths; ways between beads: see BeadTravel. Islands too small for any bead are
 /// counted in the file's last lines, as are filament and time by the motion model. No line is longer than 95
 /// characters. What the words of a firmware are: see gcode_flavour.h.
 ///

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "printers/gcode_roles.h"
+#include "printers/gcode_travel.h"
 
 namespace lamella {
 namespace {
@@ -12,10 +14,9 @@ namespace {
 using Kind = GcodeMove::Kind;
 
 constexpr double lift_speed = 10;         // mm/s; screws are slow
-constexpr double retract_between = 2;     // mm of travel between islands that oozing may not spoil
-constexpr double retract_within = 10;     // mm of travel over the island itself
 constexpr double shortest_piece = 0.002;  // mm; shorter ones would vanish in the rounding of the words
 constexpr double word_unit = 0.001;       // mm, of the last decimal of X, Y, I and J
+constexpr double filament_unit = 1e-5;    // mm, of the last decimal of E
 
 double length_of(dvec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
@@ -37,6 +38,24 @@ BeadPath path_of(const Bead& bead, dvec2 shift) {
     return path;
 }
 
+/// The first stretch of a path, up to `length` mm of it.
+std::vector<dvec2> stretch_of(std::span<const dvec2> path, double length) {
+    std::vector<dvec2> points;
+    for (const dvec2 p : path) {
+        if (!points.empty()) {
+            const dvec2 way = p - points.back();
+            const double step = length_of(way);
+            if (step >= length) {
+                if (length >= shortest_piece) points.push_back(points.back() + way * (length / step));
+                break;
+            }
+            length -= step;
+        }
+        points.push_back(p);
+    }
+    return points;
+}
+
 std::vector<PathPiece> pieces_of(const std::vector<dvec2>& points, const PrinterProfile& profile) {
     const double tolerance = profile.filament.tolerance;
     const bool merge = profile.gcode.lines_per_second > 0;
@@ -46,7 +65,7 @@ std::vector<PathPiece> pieces_of(const std::vector<dvec2>& points, const Printer
 
 MotionMove motion_of(const GcodeMove& move, dvec2 from) {
     MotionMove m{move.length, move.speed, move.acceleration};
-    const bool in_plane = move.kind == Kind::travel || move.kind == Kind::extrude;
+    const bool in_plane = move.kind == Kind::travel || move.kind == Kind::extrude || move.kind == Kind::wipe;
     const double chord = length_of(move.to - from);
     if (!in_plane || chord == 0) return m;
     if (move.turn == 0) {
@@ -78,42 +97,69 @@ void slow(GcodeMove& move, double speed) {
 
 }  // namespace
 
-void GcodeMoves::retract() {
+void GcodeMoves::add_extruder_move(Kind kind, double length) {
     const FilamentProfile& f = profile_.filament;
-    GcodeMove move{Kind::retract};
+    GcodeMove move{kind};
     move.to = position_;
-    move.length = f.retraction;
+    move.length = length;
     move.speed = f.retraction_speed;
     move.acceleration = profile_.gcode.acceleration;
     moves_.push_back(move);
 }
 
-void GcodeMoves::restore() {
-    retract();
-    moves_.back().kind = Kind::restore;
+void GcodeMoves::retract(std::span<const dvec2> trail) {
+    const FilamentProfile& f = profile_.filament;
+    if (trail.size() < 2) return add_extruder_move(Kind::retract, f.retraction);
+    const bool merge = profile_.gcode.lines_per_second > 0;
+    const std::vector<PathPiece> pieces = merge ? merged_pieces(trail, f.tolerance) : straight_pieces(trail);
+    double length = 0;
+    for (const PathPiece& piece : pieces) length += piece.length;
+    // All in units of the words, so that they add up to what is pushed forward again.
+    const auto in_words = [](double v) { return std::floor(v / filament_unit) * filament_unit; };
+    const double along = in_words(std::min(f.retraction, length / f.travel_speed * f.retraction_speed));
+    if (f.retraction > along) add_extruder_move(Kind::retract, f.retraction - along);
+    // A firmware takes it for a printing move.
+    const double acceleration = moves_.empty() ? profile_.gcode.acceleration : moves_.back().acceleration;
+    double gone = 0, drawn = 0;
+    for (const PathPiece& piece : pieces) {
+        gone += piece.length;
+        GcodeMove move{Kind::wipe};
+        move.to = piece.to;
+        move.length = piece.length;
+        move.filament = in_words(along * std::min(1.0, gone / length)) - drawn;
+        move.speed = f.travel_speed;
+        move.acceleration = acceleration;
+        drawn += move.filament;
+        moves_.push_back(move);
+    }
+    moves_.back().filament += along - drawn;
+    position_ = trail.back();
 }
 
-void GcodeMoves::travel(dvec2 to, bool retracted) {
-    retracted = retracted && retracts();
-    if (retracted) retract();
+void GcodeMoves::restore() { add_extruder_move(Kind::restore, profile_.filament.retraction); }
+
+void GcodeMoves::travel(dvec2 to) {
+    const double length = length_of(to - position_);
+    if (length < word_unit / 2) return;
     GcodeMove move{Kind::travel};
     move.to = to;
-    move.length = length_of(to - position_);
+    move.length = length;
     move.speed = profile_.filament.travel_speed;
     move.acceleration = travel_acceleration(profile_.gcode);
     moves_.push_back(move);
     position_ = to;
-    if (retracted) restore();
 }
 
-void GcodeMoves::lift(double z, double way) {
+void GcodeMoves::lift(double z) {
+    if (z == z_) return;
     GcodeMove move{Kind::lift};
     move.to = position_;
     move.z = z;
-    move.length = std::abs(way);
+    move.length = std::abs(z - z_);
     move.speed = lift_speed;
     move.acceleration = travel_acceleration(profile_.gcode);
     moves_.push_back(move);
+    z_ = z;
 }
 
 void GcodeMoves::extrude(const PathPiece& piece, double area, double speed, double acceleration, int bead) {
@@ -132,18 +178,14 @@ void GcodeMoves::extrude(const PathPiece& piece, double area, double speed, doub
     position_ = piece.to;
 }
 
-void add_beads(std::span<const Bead> beads, const PrinterProfile& profile, double height, bool first_layer,
-               dvec2 shift, GcodeMoves& moves) {
-    int island = -1;
-    for (std::size_t i = 0; i < beads.size(); ++i) {
-        const Bead& bead = beads[i];
-        const BeadPath path = path_of(bead, shift);
-        const dvec2 way = path.points.front() - moves.position();
-        if (i > 0 && way != dvec2(0)) {
-            const double limit = bead.island == island ? retract_within : retract_between;
-            moves.travel(path.points.front(), way.x * way.x + way.y * way.y > limit * limit);
-        }
-        island = bead.island;
+std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profile, double height,
+                             bool first_layer, dvec2 shift, GcodeMoves& moves) {
+    BeadTravel travel(profile, paths.outlines, shift, moves);
+    std::vector<dvec2> trail;  // from the end of the last bead: along a loop once more, back along a line
+    for (std::size_t i = 0; i < paths.beads.size(); ++i) {
+        const Bead& bead = paths.beads[i];
+        BeadPath path = path_of(bead, shift);
+        if (i > 0) travel.go(path.points.front(), paths.beads[i - 1].island, bead.island, trail);
         const double speed = role_speed(profile, bead, first_layer);
         const double acceleration = role_acceleration(profile.gcode, bead, first_layer);
         const double flow = bead.flow * (bead.hangs ? profile.gcode.bridge_flow : 1);
@@ -158,7 +200,10 @@ void add_beads(std::span<const Bead> beads, const PrinterProfile& profile, doubl
             moves.extrude(pieces[k], section, speed, acceleration, static_cast<int>(i));
             moves.moves().back().width = bead_width(section, height);
         }
+        if (!bead.closed) std::ranges::reverse(path.points);
+        trail = stretch_of(path.points, profile.gcode.wipe);
     }
+    return trail;
 }
 
 std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position,

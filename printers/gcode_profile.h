@@ -27,11 +27,17 @@ struct GcodeProfile {
     double least_layer_time = 0;                ///< s; layers that would be faster are slowed down
     double least_speed = 10;                    ///< below which no layer is slowed down
     double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0,
-           thin_speed = 0;       ///< of beads by what they are for; 0: print_speed
-    double bridge_speed = 0;     ///< of beads over the void; 0: as if they were held
-    double bridge_flow = 1;      ///< plastic of beads over the void, over what fills their volume
-    double bridge_fan = 0;       ///< least speed of the fan over the void, as a share of all
-    double acceleration = 1000;  ///< that the machine has by itself
+           thin_speed = 0;      ///< of beads by what they are for; 0: print_speed
+    double bridge_speed = 0;    ///< of beads over the void; 0: as if they were held
+    double bridge_flow = 1;     ///< plastic of beads over the void, over what fills their volume
+    double bridge_fan = 0;      ///< least speed of the fan over the void, as a share of all
+    bool travel_inside = true;  ///< between beads of an island stay inside it where that can be
+    double retract_from = 2;    ///< length of a travel outside the part from which filament is drawn back
+    double retract_inside_from = 10;  ///< the same where the travel stays over the island
+    double wipe = 0;                  ///< length along the last bead while filament is drawn back
+    double z_hop = 0;                 ///< by which the nozzle rises while filament is drawn back
+    double z_hop_from = 0;            ///< length of a travel from which it does so
+    double acceleration = 1000;       ///< that the machine has by itself
     double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: as that
     double junction_deviation = 0.013;  ///< of corners; for classic jerk j 0.4 j^2 / acceleration
     int planner_blocks = 16;            ///< moves that the machine looks ahead

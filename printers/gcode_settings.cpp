@@ -36,6 +36,11 @@ void check_gcode_profile(const GcodeProfile& profile) {
     }
     check("bridge_flow", profile.bridge_flow, 0.1, 3);
     check("bridge_fan", profile.bridge_fan, 0, 1);
+    check("retract_from", profile.retract_from, 0, 1e5);
+    check("retract_inside_from", profile.retract_inside_from, 0, 1e5);
+    check("wipe", profile.wipe, 0, 100);
+    check("z_hop", profile.z_hop, 0, 20);
+    check("z_hop_from", profile.z_hop_from, 0, 1e5);
     check("acceleration", profile.acceleration, 1, 1e6);
     for (const auto& [key, acceleration] :
          {std::pair("wall_acceleration", profile.wall_acceleration),
@@ -121,6 +126,8 @@ std::string gcode_settings(const PrinterProfile& profile) {
            fmt::format(" motion {} {} {} {} {} {} {} {} prime {}", g.acceleration, g.wall_acceleration,
                        g.travel_acceleration, g.first_layer_acceleration, g.junction_deviation,
                        g.planner_blocks, g.lines_per_second, g.arcs, g.prime_line) +
+           fmt::format(" travel {} {} {} wipe {} hop {} {}", g.travel_inside, g.retract_from,
+                       g.retract_inside_from, g.wipe, g.z_hop, g.z_hop_from) +
            fmt::format(" paths {} {} {} {} {} {} {} {}", t.walls, t.top_layers, t.bottom_layers,
                        static_cast<int>(t.infill), static_cast<int>(t.seam), t.brim, t.skirt,
                        t.skirt_distance) +

@@ -82,6 +82,12 @@ void GcodeText::move(const GcodeMove& move, dvec2 from) {
             text_ += "G1";
             word('E', move.kind == Kind::restore ? move.length : -move.length, 5);
             break;
+        case Kind::wipe:
+            text_ += "G1";
+            word('X', move.to.x, 3);
+            word('Y', move.to.y, 3);
+            word('E', -move.filament, 5);
+            break;
         case Kind::extrude:
             text_ += move.turn == 0 ? "G1" : move.turn > 0 ? "G3" : "G2";
             word('X', move.to.x, 3);

@@ -35,6 +35,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     const std::vector<Polygons> islands = find_islands(contours);
     result.islands = static_cast<int>(islands.size());
     std::vector<std::vector<Bead>> planned;
+    std::vector<const Polygons*> outlines;
     std::vector<dvec2> entries;
     Rect all;
     IslandPlanner planner(settings, layer_index, around);
@@ -48,6 +49,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         }
         entries.push_back(beads.front().points.front());
         planned.push_back(std::move(beads));
+        outlines.push_back(&island);
     }
     dvec2 at = all.lo;
     int number = 0;
@@ -55,6 +57,8 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         std::vector<Bead>& beads = planned[next];
         for (Bead& bead : beads) bead.island = number;
         ++number;
+        result.outlines.push_back(beads.size() > 1 ? simplified(*outlines[next], settings.line.tolerance / 2)
+                                                   : Polygons());
         // Walls before infill: they hold what comes inside.
         const auto infill =
             std::stable_partition(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; });

@@ -26,9 +26,10 @@ struct Surroundings {
 };
 
 struct Toolpaths {
-    std::vector<Bead> beads;   ///< in the order of printing
-    int islands = 0;           ///< pieces of the layer
-    int islands_left_out = 0;  ///< those smaller than a quarter of line_width^2, which get no bead
+    std::vector<Bead> beads;         ///< in the order of printing
+    std::vector<Polygons> outlines;  ///< by Bead::island, of those with several beads; within the tolerance
+    int islands = 0;                 ///< pieces of the layer
+    int islands_left_out = 0;        ///< those smaller than a quarter of line_width^2, which get no bead
 };
 
 /// Plans a layer: for each island its walls, the outermost half a width inside its contours, then infill. At

@@ -79,7 +79,7 @@ function followPrint(text, what) {
     const theirs = readByGcoder(text.file);
     const toolpath = readByToolpath(text.code);
     const moves = [];
-    let next = 0, hot = false, layer = -1, role = "", width = 0, height = 0, prime = 0, extruded = 0;
+    let next = 0, hot = false, layer = -1, role = "", width = 0, height = 0, prime = 0, extruded = 0, all = 0, wipes = 0;
     for (const [raw, isMove, extruding, x, y, z, e] of theirs.lines) {
         if (raw.startsWith("M109")) hot = true;
         if (raw === ";LAYER_CHANGE") ++layer;
@@ -87,7 +87,8 @@ function followPrint(text, what) {
         if (raw.startsWith(";WIDTH:")) width = Number(raw.slice(7));
         if (raw.startsWith(";HEIGHT:")) height = Number(raw.slice(8));
         if (!isMove) continue;
-        const inSpace = / [XYZ]/.test(raw);
+        const inSpace = / [XYZ]/.test(raw), wiping = /^G1 X\S+ Y\S+ E-/.test(raw);
+        all += e ?? 0;
         require(extruding === (e !== null && e > 0), `${what}: gcoder and E disagree in "${raw}"`);
         if (extruding) require(hot, `${what}: filament is pushed before the nozzle is hot: "${raw}"`);
         if (raw.startsWith("G0")) require(e === null, `${what}: a travel move with E: "${raw}"`);
@@ -95,7 +96,8 @@ function followPrint(text, what) {
         require(move && Math.hypot(move.v2.x - x, move.v2.y - y, move.v2.z - z) < 1e-4,  // gcoder has floats
                 `${what}: the two readers are at other places after "${raw}"`);
         if (!inSpace) continue;
-        if (/^G[123]/.test(raw)) require(extruding, `${what}: G1 in space without filament: "${raw}"`);
+        if (wiping) ++wipes;
+        else if (/^G[123]/.test(raw)) require(extruding, `${what}: G1 in space without filament: "${raw}"`);
         if (!extruding) {
             moves.push({...move, layer, raw});
             continue;
@@ -107,7 +109,10 @@ function followPrint(text, what) {
     require(next === toolpath.length, `${what}: gcode-toolpath found ${toolpath.length} moves, gcoder ${next}`);
     const drawn = Number(/; filament used \[mm\] = (.*)/.exec(text.code)[1]);
     requireNear(extruded, drawn, 1e-3, `${what}: filament in the file's last lines`);
-    return {moves, prime, extruded};
+    // What is drawn back is pushed forward again, but for the end.
+    const retraction = 0.8;
+    require(Math.abs(all - (extruded - retraction)) < 1e-3, `${what}: retractions add up to ${all - extruded} mm`);
+    return {moves, prime, extruded, wipes};
 }
 
 /** Cross-section of a rectangle with round sides; of an ellipse where it is higher than wide. */
@@ -125,7 +130,7 @@ function slice(model, options) {
 }
 
 /** `plastic`: share by which the plastic may differ from the solid's volume. */
-function checkPrint(model, flavour, options, {plastic, merged = false}) {
+function checkPrint(model, flavour, options, {plastic, merged = false, wiped = false}) {
     const what = `${path.basename(model)}, ${flavour}`;
     const text = slice(model, [...options, "--printer-flavour", flavour]);
     checkLines(text.code, flavour, what);
@@ -162,6 +167,7 @@ function checkPrint(model, flavour, options, {plastic, merged = false}) {
     require(layers.size >= text.layers - 1, `${what}: ${layers.size} layers of ${text.layers}`);
     const height = text.info.layer_height_mm;
     require(Math.abs(top - text.layers * height) <= height + 1e-6, `${what}: ends at ${top} mm`);
+    require(wiped === print.wipes > 0, `${what}: ${print.wipes} moves wipe the nozzle`);
     const arcs = print.moves.filter(m => m.motion === "G2" || m.motion === "G3").length;
     console.log(`gcode: ${what}: ${print.moves.length} moves${arcs ? `, ${arcs} of them arcs` : ""}; plastic ` +
                 `${(100 * (laid / text.volume - 1)).toFixed(2)} % off the solid's, ` +
@@ -205,6 +211,8 @@ const koala = "examples/models/koala_mm.obj", fish = "tests/models/good/fish_mm.
 const foam = ["--cell", "5", "--beam", "0.6", "--skin", "1.2", "--layer-height", "0.3"];
 checkPrint(gears, "marlin", ["--layer-height", "0.4"], {plastic: 0.01});
 checkPrint(koala, "marlin", foam, {plastic: 0.01});
+checkPrint(koala, "marlin", [...foam, "--printer-wipe", "2", "--printer-z-hop", "0.4", "--printer-z-hop-from", "5"],
+           {plastic: 0.01, wiped: true});
 checkPrint(fish, "klipper", [...foam, "--printer-wall-acceleration", "800", "--printer-fan", "0.5",
                              "--printer-first-layer-bed-temperature", "70", "--printer-least-layer-time", "8"],
            {plastic: 0.01});
