@@ -6,6 +6,11 @@
 #include "printers/shortest_way.h"
 
 namespace lamella {
+namespace {
+
+constexpr double most_detour = 3;  // beyond it the filament is better drawn back
+
+}  // namespace
 
 InnerTravel::InnerTravel(Polygons outline, double line_width)
     : outline_(std::move(outline)), regions_{{{line_width / 2}, {line_width / 10}}} {}
@@ -26,7 +31,8 @@ std::optional<std::vector<dvec2>> InnerTravel::way_within(Region& region, dvec2 
     const ClipperLib::Path ends = to_polygon({from, to});
     const auto begin = region.sight->enter(ends[0], reach), end = region.sight->enter(ends[1], reach);
     if (!begin || !end) return std::nullopt;
-    auto corners = shortest_way(*region.sight, *begin, *end);
+    auto corners =
+        shortest_way(*region.sight, *begin, *end, most_detour * polygon_scale * glm::distance(from, to));
     if (!corners) return std::nullopt;
     if (*begin != ends[0]) corners->insert(corners->begin(), *begin);
     if (*end != ends[1]) corners->push_back(*end);

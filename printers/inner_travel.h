@@ -17,7 +17,7 @@ class InnerTravel {
     InnerTravel(Polygons outline, double line_width);
 
     /// The corners of the shortest way, ends left out; nothing where there is none or it would take too long
-    /// to find (see shortest_way).
+    /// to find (see shortest_way), or where it is more than three times as long as the straight one.
     std::optional<std::vector<dvec2>> way(dvec2 from, dvec2 to);
 
   private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lamella {
 namespace {
@@ -157,7 +158,7 @@ bool PolygonSight::contains(Point p) const {
         return false;
     });
     std::ranges::sort(edges);
-    edges.erase(std::ranges::unique(edges).begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     bool in = false;
     for (const std::uint32_t edge : edges) {
         const Point a = corners_[edge].at, b = corners_[edge].after;

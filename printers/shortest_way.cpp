@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <queue>
 
 namespace lamella {
@@ -130,14 +131,14 @@ class Search {
 }  // namespace
 
 std::optional<std::vector<Point>> shortest_way(const PolygonSight& inside, Point from, Point to,
-                                               std::int64_t most_steps) {
+                                               double longest, std::int64_t most_steps) {
     std::int64_t steps = 0;
     if (inside.sees(from, to, steps)) return std::vector<Point>();
     constexpr double first_detour = 1.5, growth = 2;
-    for (double longest = first_detour * distance(from, to); steps < most_steps; longest *= growth) {
-        Search search(inside, from, to, longest, most_steps - steps);
+    for (double reach = first_detour * distance(from, to); steps < most_steps; reach *= growth) {
+        Search search(inside, from, to, std::min(reach, longest), most_steps - steps);
         if (auto way = search.run()) return way;
-        if (!search.cut_short()) break;
+        if (!search.cut_short() || reach >= longest) break;
         steps += search.steps();
     }
     return std::nullopt;

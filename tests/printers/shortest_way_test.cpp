@@ -197,7 +197,11 @@ TEST_CASE("the way round a disc is two tangents and an arc", "[shortest_way]") {
     const auto way = shortest_way(sight, units(from), units(to));
     REQUIRE(way.has_value());
     const double tangent = std::sqrt(64 - radius * radius), arc = radius * (pi - 2 * std::acos(radius / 8));
-    CHECK(length_of(from, *way, to) == Approx(2 * tangent + arc).epsilon(1e-5));
+    const double shortest = 2 * tangent + arc;
+    CHECK(length_of(from, *way, to) == Approx(shortest).epsilon(1e-5));
+    // Not found where it may not be so long.
+    CHECK(shortest_way(sight, units(from), units(to), shortest * 1.001 * polygon_scale) == way);
+    CHECK_FALSE(shortest_way(sight, units(from), units(to), shortest * 0.999 * polygon_scale).has_value());
 }
 
 TEST_CASE("a search that takes too long gives up", "[shortest_way]") {
@@ -205,8 +209,8 @@ TEST_CASE("a search that takes too long gives up", "[shortest_way]") {
                               to_polygon(as_hole(disc_contour({0, 0}, 3, 400), 0).points)});
     const Point from = units({-8, 0}), to = units({8, 0});
     CHECK(shortest_way(sight, from, to).has_value());
-    CHECK_FALSE(shortest_way(sight, from, to, 100).has_value());
-    CHECK(shortest_way(sight, from, units({-8, 5}), 100)->empty());
+    CHECK_FALSE(shortest_way(sight, from, to, infinity, 100).has_value());
+    CHECK(shortest_way(sight, from, units({-8, 5}), infinity, 100)->empty());
 }
 
 TEST_CASE("points a little outside are let in, others are not", "[shortest_way]") {
