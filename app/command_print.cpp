@@ -181,7 +181,9 @@ void add_link_options(CLI::App& command, PrintOptions& options) {
         ->check(CLI::Range(0.0, 86400.0))
         ->group("Printer");
     command
-        .add_option("--park", options.park, "Where the nozzle waits, X and Y in mm; default: behind the part")
+        .add_option("--park", options.park,
+                    "Where the nozzle waits, X and Y in mm; default: the bed's rear left corner, 0,0 for a "
+                    "ready file")
         ->expected(2)
         ->delimiter(',')
         ->group("Printer");

@@ -119,9 +119,10 @@ LinkStatus PrintLink::status() const {
 }
 
 std::string PrintLink::end_words() {
-    if (!thread_.joinable()) return {};
-    stop();
-    thread_.join();
+    if (thread_.joinable()) {
+        stop();
+        thread_.join();
+    }
     try {
         if (failure_) std::rethrow_exception(failure_);
     } catch (const std::exception& error) {
@@ -241,7 +242,7 @@ void PrintLink::take_lines(double now) {
             changed_.notify_all();
             current_at_ = 0;
             pushed_ += current_.count;
-            answering_.push_back({pushed_, current_.resume});
+            answering_.push_back({pushed_, current_.layer, current_.resume});
             if (dry_since_ >= 0) underrun_seconds_ += now - dry_since_;
             dry_since_ = -1;
             started_ = true;
@@ -320,6 +321,7 @@ void PrintLink::watch_answers(double now) {
         answering_.pop_front();
         layer_done = true;
     }
+    if (!answering_.empty()) layer_ = answering_.front().layer;
     const double z = sender_->machine().z();
     if (layer_done || z != journaled_z_ || now - journaled_at_ >= journal_interval) write_journal(now);
     if (sender_->connected() && !connected_) {
@@ -380,7 +382,7 @@ void PrintLink::note_status(double now, bool at_once) {
     status_.waits = sender_->user_wait();
     if (journal_) status_.journal_trouble = journal_->trouble();
     status_.lost = !port_.is_open();
-    status_.layer = current_.layer;
+    status_.layer = layer_;
     status_.lines_queued = queued_lines_;
     status_.lines_answered = sender_->answered();
     status_.layers_ready = queue_.size();

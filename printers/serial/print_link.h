@@ -55,7 +55,7 @@ struct LinkStatus {
     std::optional<UserWait> waits{};  ///< what the printer waits for a person to do
     std::string journal_trouble;      ///< why the journal cannot be written; empty when it can
     bool lost = false;                ///< the port is gone for now
-    int layer = -1;                   ///< that lines are sent of
+    int layer = -1;                   ///< that lines are answered of
     std::int64_t lines_queued = 0, lines_answered = 0;
     std::size_t layers_ready = 0;
     double z = 0;
@@ -144,11 +144,13 @@ class PrintLink {
     std::size_t current_at_ = 0;
     struct Answering {
         std::int64_t last = 0;  ///< lines up to its end
+        int layer = -1;
         nlohmann::ordered_json resume;
     };
     std::deque<Answering> answering_;
     nlohmann::ordered_json resume_;
     std::int64_t pushed_ = 0;
+    int layer_ = -1;  // of the line that is to be answered next
     bool paused_ = false, parked_ = false, started_ = false;
     bool away_ = false;  // the nozzle was taken off the part
     MachineState left_;  // where it was
