@@ -20,7 +20,7 @@ namespace {
 
 struct PrintOptions : JobOptions {
     LinkSettings link;
-    std::string firmware = "marlin";
+    std::string firmware;  ///< marlin or grbl; empty: as the recipe's printer, marlin for a ready file
     std::vector<double> park;
     std::optional<double> z;
     bool dry_run = false;
@@ -33,6 +33,18 @@ bool is_gcode_file(const std::string& input) {
         if (input.ends_with(ending)) return true;
     }
     return false;
+}
+
+/// Which of the two kinds of sender. Throws InputError where the recipe writes for another one.
+bool is_grbl(const PrintOptions& options, const std::optional<Recipe>& recipe) {
+    if (!recipe) return options.firmware == "grbl";
+    const bool grbl = recipe->printer.gcode.flavour == Flavour::grbl;
+    if (!options.firmware.empty() && grbl != (options.firmware == "grbl")) {
+        throw InputError("--firmware " + options.firmware + " does not go with the printer's flavour; " +
+                         (grbl ? "a laser under grbl takes no lines for Marlin"
+                               : "pass --printer-flavour grbl to cut layers with a laser"));
+    }
+    return grbl;
 }
 
 void say(const PrintOptions& options, const std::string& text) {
@@ -73,30 +85,32 @@ void dry_run(const PrintOptions& options, const std::optional<Recipe>& recipe,
 void print(const PrintOptions& options, const std::optional<Recipe>& recipe,
            const std::optional<PreparedJob>& prepared, const CancelToken& cancel) {
     const auto link = std::make_shared<PrintLink>(options.link);
-    SerialOutputOptions output{options.force, options.z,
-                               [&](const std::string& text) { say(options, text); }};
+    PrintView view(link, prepared ? prepared->built.job.layer_count : 0, options.quiet);
+    SerialOutputOptions output{options.force, options.z, [&](const std::string& text) { view.tell(text); }};
     const auto go_on = [&] {
         return link->status().lines_answered > 0 ? ". To go on: " + options.repeat : std::string();
     };
+    const auto sum_up = [&] {
+        view.close();
+        if (link->status().connected) say(options, summary_text(link->status()));
+    };
     try {
-        const PrintView view(link, prepared ? prepared->built.job.layer_count : 0, options.quiet);
         produce(options, recipe, prepared, make_serial_output(link, options.link, output), cancel);
     } catch (const Interrupted&) {
         const std::string words = link->end_words();
-        say(options, summary_text(link->status()));
+        sum_up();
         throw Interrupted((words.empty() ? "interrupted" : words) + go_on());
     } catch (const FaultError& error) {
-        say(options, summary_text(link->status()));
+        sum_up();
         throw FaultError(error.what() + go_on());
     }
-    say(options, summary_text(link->status()));
+    sum_up();
 }
 
 void run(PrintOptions options) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     options.link.cancel = &cancel;
-    options.link.grbl = options.firmware == "grbl";
     if (options.link.port.empty() && !options.dry_run)
         throw InputError("--port: name the printer's port, such as /dev/ttyUSB0; `lamella ports` lists them");
     const bool file = is_gcode_file(options.recipe.input());
@@ -110,14 +124,13 @@ void run(PrintOptions options) {
                              "\" takes no G-code (its kind is " + recipe->printer.backend +
                              "); name one that does, such as --printer marlin");
         }
-        if (options.link.grbl)
-            throw InputError("--firmware grbl: layers of filament are for Marlin; GRBL takes ready files");
         name = recipe->part.name;
         const FilamentProfile& bed = recipe->printer.filament;
         options.link.park_y = bed.bed_y;
         options.link.highest = bed.bed_z;
         prepared = prepare_job(options, *recipe, cancel);
     }
+    options.link.grbl = is_grbl(options, recipe);
     if (!options.park.empty()) options.link.park_x = options.park[0], options.link.park_y = options.park[1];
     if (options.link.journal.empty()) options.link.journal = name + ".print.journal";
     if (options.dry_run) return dry_run(options, recipe, prepared, cancel);
@@ -146,7 +159,9 @@ void add_link_options(CLI::App& command, PrintOptions& options) {
     command.add_option("--baud", link.baud, "Its speed; default: 250000")
         ->check(CLI::Range(1200, 4000000))
         ->group("Printer");
-    command.add_option("--firmware", options.firmware, "marlin or grbl; default: marlin")
+    command
+        .add_option("--firmware", options.firmware,
+                    "marlin or grbl; default: as the recipe says, marlin for a ready file")
         ->check(CLI::IsMember({"marlin", "grbl"}))
         ->group("Printer");
     command.add_option("--send-window", link.sender.window, "Bytes that may be unanswered; default: 127")
@@ -166,7 +181,9 @@ void add_link_options(CLI::App& command, PrintOptions& options) {
         ->check(CLI::Range(0.0, 86400.0))
         ->group("Printer");
     command
-        .add_option("--park", options.park, "Where the nozzle waits, X and Y in mm; default: behind the part")
+        .add_option("--park", options.park,
+                    "Where the nozzle waits, X and Y in mm; default: the bed's rear left corner, 0,0 for a "
+                    "ready file")
         ->expected(2)
         ->delimiter(',')
         ->group("Printer");
@@ -206,9 +223,12 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella print insole.toml --dry-run\n"
         "  lamella print ready.gcode --port /dev/ttyACM0 --log print.log\n"
         "  lamella print engraving.nc --port /dev/ttyUSB0 --baud 115200 --firmware grbl\n"
-        "Ctrl-C stops the print and switches its heaters off; the same command with --resume goes on with "
-        "the\n"
-        "first layer that was not done: it heats, homes X and Y, and takes Z from the journal.");
+        "Keys: p pauses, r resumes or tells a waiting printer that you are done, 1 to 9 press a button of "
+        "what\n"
+        "it asks, s stops, x halts at once. Ctrl-C stops the print and switches its heaters off; the same\n"
+        "command with --resume goes on with the first layer that was not done: it heats, homes X and Y, and\n"
+        "takes Z from the journal. Exit codes: 0 printed, 2 bad input, 3 the printer or the line failed,\n"
+        "130 stopped.");
     command.callback([options] { run(*options); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 namespace lamella {
 namespace {
@@ -45,12 +47,31 @@ class KeyMode {
     termios before_{};
 };
 
+/// As much of a line as fits the terminal: a longer one would break, and the next be drawn below it.
+std::string fitting(const std::string& text) {
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return text;
+    return text.substr(0, size.ws_col - 1U);
+}
+
 }  // namespace
+
+std::string wait_text(const LinkStatus& status) {
+    if (!status.waits) return {};
+    std::string text = "the printer waits for you: " + status.waits->text + " (r: done";
+    int key = 0;
+    for (const std::string& button : status.waits->buttons) text += fmt::format(", {}: {}", ++key, button);
+    return text + ")";
+}
 
 std::string status_text(const LinkStatus& status, int last_layer) {
     std::string text;
     if (status.lost) {
         text += "the port is gone, trying to open it again  ";
+    } else if (status.stopping) {
+        text += "stopping  ";
+    } else if (status.waits) {
+        text += "waiting for you  ";
     } else if (status.paused) {
         text += "paused  ";
     } else if (status.parked) {
@@ -93,14 +114,20 @@ PrintView::PrintView(std::shared_ptr<PrintLink> link, int last_layer, bool quiet
       keys_(isatty(STDIN_FILENO) != 0),
       thread_([this] { work(); }) {}
 
-PrintView::~PrintView() {
+void PrintView::close() {
     {
         const std::lock_guard lock(mutex_);
         ending_ = true;
     }
     ended_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
     if (line_open_) std::fputs("\n", stderr);
+    line_open_ = false;
+}
+
+void PrintView::tell(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    if (!quiet_) write_line(text);
 }
 
 void PrintView::work() {
@@ -108,8 +135,12 @@ void PrintView::work() {
     if (keys_) mode.emplace();
     std::unique_lock lock(mutex_);
     while (!ended_.wait_for(lock, redraw_interval, [&] { return ending_; })) {
-        if (keys_) read_keys();
-        if (!quiet_) show(link_->status());
+        if (mode) read_keys();
+        const LinkStatus status = link_->status();
+        // Whoever presses Ctrl-C twice is to find the terminal as it was.
+        if (status.stopping) mode.reset();
+        tell_trouble(status);
+        if (!quiet_) show(status);
     }
 }
 
@@ -120,27 +151,45 @@ void PrintView::read_keys() {
         if (key == 'p') link_->pause();
         if (key == 'r') link_->resume();
         if (key == 's') link_->stop();
+        if (key == 'x') link_->halt();
+        if ('1' <= key && key <= '9') link_->choose(static_cast<std::size_t>(key - '1'));
     }
+}
+
+void PrintView::write_line(const std::string& text) {
+    std::fputs(((line_open_ ? "\r\x1b[K" : "") + text + "\n").c_str(), stderr);
+    line_open_ = false;
+}
+
+/// What needs a person, be it quiet or not.
+void PrintView::tell_trouble(const LinkStatus& status) {
+    if (const std::string text = wait_text(status); text != told_wait_) {
+        told_wait_ = text;
+        if (!text.empty()) write_line(text);
+    }
+    if (status.journal_trouble != told_trouble_) {
+        told_trouble_ = status.journal_trouble;
+        if (!told_trouble_.empty())
+            write_line("the journal cannot be written, --resume will not go on from here: " + told_trouble_);
+    }
+}
+
+void PrintView::greet(const LinkStatus& status) {
+    const char* stops = status.emergency_parser
+                            ? "stops it at once"
+                            : "stops it when the moves it has got are done (it has no emergency parser; in "
+                              "danger press x or its reset button)";
+    write_line(fmt::format("printer: {}; Ctrl-C {}{}",
+                           status.firmware.empty() ? "unknown firmware, one line at a time" : status.firmware,
+                           stops, keys_ ? "; keys: p pause, r resume, s stop, x halt at once" : ""));
 }
 
 void PrintView::show(const LinkStatus& status) {
     if (!status.connected) return;
-    if (!told_) {
-        told_ = true;
-        std::fputs(
-            fmt::format("printer: {}; Ctrl-C {}{}\n",
-                        status.firmware.empty() ? "unknown firmware, one line at a time" : status.firmware,
-                        status.emergency_parser
-                            ? "stops it at once"
-                            : "stops it when the moves it has got are done (it has no emergency parser; in "
-                              "danger use its reset button)",
-                        keys_ ? "; keys: p pause, r resume, s stop" : "")
-                .c_str(),
-            stderr);
-    }
+    if (!std::exchange(greeted_, true)) greet(status);
     const std::string text = status_text(status, last_layer_);
     if (terminal_) {
-        std::fputs(("\r" + text + "\x1b[K").c_str(), stderr);
+        std::fputs(("\r" + fitting(text) + "\x1b[K").c_str(), stderr);
         std::fflush(stderr);
         line_open_ = true;
     } else if (status.seconds - last_line_ >= line_interval) {

@@ -12,18 +12,27 @@
 namespace lamella {
 
 /// Redraws a line on a terminal, writes one now and then elsewhere, on a thread of its own. While it lives
-/// and standard input is a terminal, p pauses, r resumes and s stops the print.
+/// and standard input is a terminal, p pauses, r resumes, s stops and x halts the print, and 1 to 9 press a
+/// button of what the printer asks.
 class PrintView {
   public:
     /// `last_layer` is the number of layers, 0 when it is not known.
     PrintView(std::shared_ptr<PrintLink> link, int last_layer, bool quiet);
-    ~PrintView();
+    ~PrintView() { close(); }
     PrintView(const PrintView&) = delete;
     PrintView& operator=(const PrintView&) = delete;
+
+    /// Says something of its own above the line.
+    void tell(const std::string& text);
+    /// Ends the line, and gives the keys back to the terminal.
+    void close();
 
   private:
     void work();
     void show(const LinkStatus& status);
+    void greet(const LinkStatus& status);
+    void tell_trouble(const LinkStatus& status);
+    void write_line(const std::string& text);
     void read_keys();
 
     std::shared_ptr<PrintLink> link_;
@@ -32,7 +41,8 @@ class PrintView {
     bool terminal_;
     bool keys_;
     bool line_open_ = false;
-    bool told_ = false;
+    bool greeted_ = false;
+    std::string told_wait_, told_trouble_;
     double last_line_ = -100;
     std::mutex mutex_;
     std::condition_variable ended_;
@@ -42,6 +52,9 @@ class PrintView {
 
 /// "layer 12/80  4711 lines  Z 2.4  nozzle 209.8/210  bed 60.1/60  8 layers ready  3 % starved".
 std::string status_text(const LinkStatus& status, int last_layer);
+
+/// What the printer waits for and which keys answer it; empty while it waits for no one.
+std::string wait_text(const LinkStatus& status);
 
 /// What a print came to: lines/s, longest gap, resends, timeouts, starvation.
 std::string summary_text(const LinkStatus& status);

@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "engine/error.h"
-#include "printers/serial/gcode_line.h"
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"
 #include "printers/serial/serial_output.h"
@@ -15,7 +14,7 @@ namespace {
 class DryRunOutput : public GcodeOutput {
   public:
     DryRunOutput(const LinkSettings& settings, DryRun& report)
-        : grbl_(settings.grbl), maker_(settings.grbl ? longest_grbl_line : longest_command), report_(report) {
+        : grbl_(settings.grbl), maker_(settings.grbl), report_(report) {
         SenderSettings sender = settings.sender;
         sender.greeting = 0;
         sender.byte_time = 0;

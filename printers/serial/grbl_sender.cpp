@@ -20,6 +20,12 @@ bool goes_alone(const std::string& command) {
     return command[0] == '$' || word == "G10" || word == "G28.1" || word == "G30.1";
 }
 
+/// What a person can do about an error that is not the line's own fault.
+std::string error_hint(std::int64_t error) {
+    if (error == 9) return " (it is locked: home it with $H, or unlock it with $X)";
+    return {};
+}
+
 }  // namespace
 
 void GrblSender::connect(double now) {
@@ -37,6 +43,20 @@ void GrblSender::reconnect(double now) {
          "the line to GRBL was lost: without line numbers nobody knows what it has received");
 }
 
+void GrblSender::hold_motion(bool held) {
+    motion_held_ = held;
+    machine_status_.clear();
+    transmit_raw(held ? "!" : "~", false);
+}
+
+std::optional<UserWait> GrblSender::user_wait() const {
+    const bool held = machine_status_.starts_with("Hold") || machine_status_.starts_with("Door");
+    if (!held || motion_held_ || state_ != State::running) return std::nullopt;
+    if (machine_status_.starts_with("Door")) return UserWait{"the safety door is open"};
+    const bool pause = !sent_.empty() && command_word(sent_.front().command) == "M0";
+    return UserWait{pause ? "M0: a pause that the job asks for" : "the machine is held"};
+}
+
 bool GrblSender::finished() const { return finishing_ && dwelt_ && idle(); }
 
 double GrblSender::wake_at() const {
@@ -47,7 +67,7 @@ double GrblSender::wake_at() const {
 void GrblSender::check_time(double now) {
     if (state_ == State::idle) return;
     if (state_ == State::holding) {
-        if (now >= state_until_) return reset();
+        if (now >= state_until_) return reset("reset, but it was not seen to stand still: home it");
         if (now >= next_status_) transmit_raw("?", false), next_status_ = now + hold_interval;
         return;
     }
@@ -74,14 +94,13 @@ void GrblSender::check_time(double now) {
     transmit("$I\n", now);
 }
 
-void GrblSender::refuse(const std::string& why, double now) {
+void GrblSender::refuse(const std::string& why) {
     stop(StopKind::refused, why);
     // Lines behind it wait in the machine: it is held before it runs them.
     transmit_raw("!", false);
-    (void)now;
 }
 
-void GrblSender::answer(const Reply& reply, double now) {
+void GrblSender::answer(const Reply& reply) {
     if (sent_.empty()) {
         ++statistics_.surplus;
         return;
@@ -95,8 +114,7 @@ void GrblSender::answer(const Reply& reply, double now) {
         const std::string which =
             first.job ? "line " + std::to_string(answered_job_) + " of the job" : "a line";
         refuse("GRBL refuses " + which + " (\"" + first.command + "\"): error " +
-                   std::to_string(*reply.number) + ". The machine is held",
-               now);
+               std::to_string(*reply.number) + error_hint(*reply.number) + ". The machine is held");
     }
     if (state_ == State::asking) state_ = State::running;
 }
@@ -105,13 +123,12 @@ void GrblSender::handle(const Reply& reply, double now) {
     switch (reply.kind) {
         case ReplyKind::ok:
         case ReplyKind::grbl_error:
-            answer(reply, now);
+            answer(reply);
             break;
         case ReplyKind::grbl_alarm:
             refuse("GRBL raises alarm " + std::to_string(*reply.number) + " near \"" +
-                       (sent_.empty() ? std::string("the end") : sent_.front().command) +
-                       "\": its position may be lost; unlock with $X or home with $H",
-                   now);
+                   (sent_.empty() ? std::string("the end") : sent_.front().command) +
+                   "\": its position may be lost; unlock with $X or home with $H");
             break;
         case ReplyKind::grbl_banner:
             firmware_ = reply.text;
@@ -129,8 +146,10 @@ void GrblSender::handle(const Reply& reply, double now) {
                 settings_.window = std::min(settings_.window, static_cast<std::size_t>(*reply.number) - 1);
             break;
         case ReplyKind::grbl_status:
+            machine_status_ = reply.text;
             // Standing still, so that the reset loses no steps.
-            if (state_ == State::holding && (reply.text == "Hold:0" || reply.text == "Idle")) return reset();
+            if (state_ == State::holding && (reply.text == "Hold:0" || reply.text == "Idle"))
+                return reset("held, then reset: its position is kept");
             if (reply.text != "Idle" || bytes_ == 0) {
                 idle_since_ = -1;
             } else if (idle_since_ < 0) {
@@ -174,8 +193,8 @@ void GrblSender::halt(double now) {
     state_until_ = now + hold_patience;
 }
 
-void GrblSender::reset() {
-    stop(StopKind::halted, "stopped");
+void GrblSender::reset(const char* how) {
+    stop(StopKind::halted, std::string("the machine was ") + how);
     transmit_raw("\x18", false);
 }
 

@@ -15,15 +15,16 @@ class GrblSender : public LineSender {
     void connect(double now) override;
     void reconnect(double now) override;
     double wake_at() const override;
-    std::int64_t answered() const override { return answered_job_; }
     std::size_t unanswered() const override { return bytes_; }
     bool connected() const override { return state_ == State::running; }
-    void finish() override { finishing_ = true; }
     bool finished() const override;
     /// Holds the motion, waits until it stands, then resets: the position is kept.
     void halt(double now) override;
     bool halts_at_once() const override { return true; }
-    void hold_motion(bool held) override { transmit_raw(held ? "!" : "~", false); }
+    void hold_motion(bool held) override;
+    /// Cycle start: ends M0 and what a button of the machine has held.
+    void end_waiting() override { transmit_raw("~", false); }
+    std::optional<UserWait> user_wait() const override;
 
   protected:
     void handle(const Reply& reply, double now) override;
@@ -38,9 +39,9 @@ class GrblSender : public LineSender {
         bool job;
         bool alone;
     };
-    void answer(const Reply& reply, double now);
-    void reset();
-    void refuse(const std::string& why, double now);
+    void answer(const Reply& reply);
+    void reset(const char* how);
+    void refuse(const std::string& why);
     bool send_next(std::deque<std::string>& lines, bool of_job, double now);
 
     State state_ = State::idle;
@@ -48,12 +49,11 @@ class GrblSender : public LineSender {
     int tries_ = 0;
     std::deque<Sent> sent_;
     std::size_t bytes_ = 0;
-    std::int64_t answered_job_ = 0;
     double next_status_ = 0;
-    double idle_since_ = -1;  // GRBL said Idle although lines are unanswered
-    std::string why_held_;
+    double idle_since_ = -1;      // GRBL said Idle although lines are unanswered
+    std::string machine_status_;  // as reported last
+    bool motion_held_ = false;    // on our demand
     bool dwelt_ = false;
-    bool finishing_ = false;
 };
 
 }  // namespace lamella

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "printers/serial/machine_state.h"
 #include "printers/serial/reply.h"
@@ -54,8 +56,14 @@ struct SenderStatistics {
 struct SenderListener {
     /// A line that went out ('>') or came in ('<'), with the bytes then unanswered.
     std::function<void(char direction, std::string_view line, std::size_t in_flight)> on_line{};
-    /// What the printer asks of the host: "pause", "resume", "cancel".
+    /// What the printer asks of the host: "pause", "paused", "resume", "resumed", "cancel", "disconnect".
     std::function<void(const std::string& action)> on_action{};
+};
+
+/// What a printer waits for a person to do.
+struct UserWait {
+    std::string text;                    ///< in the printer's words, or the command that waits
+    std::vector<std::string> buttons{};  ///< to choose from, in the order of their numbers; may be none
 };
 
 /// Driven by bytes that came, by the time (s, any origin), and by taking the bytes to send. Lines are given
@@ -90,7 +98,7 @@ class LineSender {
     /// While held, no line of the job is sent; the host's own are.
     void hold(bool held) { held_ = held; }
     /// Stops or goes on with the motion itself, where the machine can.
-    virtual void hold_motion(bool) {}
+    virtual void hold_motion(bool /*held*/) {}
     /// Forgets what was not sent yet.
     void drop_pending() { pending_.clear(), urgent_.clear(); }
     /// Nothing to send and nothing unanswered.
@@ -98,21 +106,25 @@ class LineSender {
     /// Nothing of the host's own to send, nothing unanswered.
     bool quiet() const { return urgent_.empty() && unanswered() == 0; }
     /// Lines of the job that are answered, from its first one on.
-    virtual std::int64_t answered() const = 0;
+    std::int64_t answered() const { return answered_job_; }
     /// Bytes that are sent and unanswered.
     virtual std::size_t unanswered() const = 0;
     /// The printer is known and lines are taken.
     virtual bool connected() const = 0;
     /// Makes sure of the last answers: sends what waits for the end of all motion.
-    virtual void finish() = 0;
+    void finish() { finishing_ = true; }
     virtual bool finished() const = 0;
 
     /// Stops at once, as far as the printer can: Marlin halts until it is reset, GRBL holds.
     virtual void halt(double now) = 0;
     /// Whether `halt` works past lines that wait.
     virtual bool halts_at_once() const = 0;
-    /// Ends a heat-up that the printer waits in.
-    virtual void end_waiting() {}
+    /// Ends a heat-up that the printer waits in, and its waiting for a person.
+    virtual void end_waiting() = 0;
+    /// What the printer waits for a person to do; empty while it waits for none. `end_waiting` says that it
+    /// is done, `choose` which button was pressed.
+    virtual std::optional<UserWait> user_wait() const = 0;
+    virtual void choose(std::size_t) {}
 
     const std::optional<SenderStop>& stopped() const { return stop_; }
     /// The bytes to send now; `wrote` says how many of them are gone.
@@ -143,6 +155,8 @@ class LineSender {
     std::deque<std::string> pending_;
     std::deque<std::string> urgent_;
     bool held_ = false;
+    bool finishing_ = false;
+    std::int64_t answered_job_ = 0;
     std::optional<SenderStop> stop_;
     SenderStatistics statistics_;
     MachineState machine_;

@@ -27,6 +27,7 @@ void MarlinSender::handle(const Reply& reply, double now) {
         case ReplyKind::busy:
         case ReplyKind::heating:
             busy_seen_ = true;
+            paused_for_user_ = reply.text.find("paused for") != std::string::npos;
             sign_of_work_ = now;
             tickles_ = 0;
             break;
@@ -71,9 +72,25 @@ void MarlinSender::on_firmware(const std::string& text) {
 }
 
 void MarlinSender::on_action(const std::string& text) {
-    // Prompts are answered by the host's own choice: go on.
-    if (text == "prompt_show") urgent_.emplace_back("M876 S0");
+    if (text.starts_with("prompt_")) return on_prompt(text);
     if (listener_.on_action) listener_.on_action(text);
+}
+
+/// A dialog, told line by line: prompt_begin TEXT, prompt_button LABEL for each button, prompt_show. Nobody
+/// but the person knows the answer: Marlin asks whether filament was loaded, or whether to purge more of it.
+void MarlinSender::on_prompt(std::string_view text) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    const std::string rest(text.substr(std::min(text.size(), word.size() + 1)));
+    if (word == "prompt_begin") {
+        dialog_ = UserWait{rest};
+        dialog_shown_ = false;
+    } else if (word == "prompt_end") {
+        dialog_.reset();
+    } else if (dialog_ && (word == "prompt_button" || word == "prompt_choice")) {
+        dialog_->buttons.push_back(rest);
+    } else if (dialog_ && word == "prompt_show") {
+        dialog_shown_ = true;
+    }
 }
 
 void MarlinSender::note_planner(const Reply& reply) {
@@ -114,6 +131,7 @@ void MarlinSender::on_ok(const Reply& reply, double now) {
     }
     sign_of_work_ = now;
     tickles_ = 0;
+    paused_for_user_ = false;
     if (reply.number && *reply.number < next_) {
         numbers_oks_ = true;
         if (*reply.number > acked_ && *reply.number < cursor_) {

@@ -22,11 +22,20 @@ constexpr int silent_tickles = 5;
 constexpr double careful_pause = 0.1;  // s between lines while the link has faults, unless all are answered
 constexpr double relink_patience = 3;  // s in which a board that was reset says so
 
-bool takes_long(const std::string& command) {
-    constexpr std::array<const char*, 13> slow{"G28", "G29",  "G30",  "G32",  "G34",  "G4",  "M0",
-                                               "M1",  "M109", "M190", "M400", "M600", "M303"};
+bool is_any(const std::string& command, std::initializer_list<const char*> names) {
     const std::string word = command_word(command);
-    return std::any_of(slow.begin(), slow.end(), [&](const char* name) { return word == name; });
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return word == name; });
+}
+
+bool waits_for_person(const std::string& command) {
+    return is_any(command, {"M0", "M1", "M226", "M600", "M701", "M702"});
+}
+
+bool waits_for_heat(const std::string& command) { return is_any(command, {"M109", "M190", "M191", "M303"}); }
+
+bool takes_long(const std::string& command) {
+    return waits_for_person(command) || waits_for_heat(command) ||
+           is_any(command, {"G28", "G29", "G30", "G32", "G33", "G34", "G4", "M48", "M400"});
 }
 
 std::size_t wire_size(std::int64_t number, const std::string& command) {
@@ -95,6 +104,8 @@ bool MarlinSender::fits(std::size_t bytes, double now) const {
     const std::size_t before = unanswered();
     if (before == 0) return true;
     if (settings_.ping_pong || state_ != State::running) return false;
+    // Firmware without an emergency parser reads the M108 that ends a wait only when no line is before it.
+    if (waits_unanswered()) return false;
     if (cursor_ < careful_until_ && now < last_start_ + careful_pause) return false;
     // No more lines than there are slots for, where the printer tells their number and the one that runs.
     if (settings_.within_slots && most_slots_free_ >= 0 && cursor_ - 1 - acked_ > most_slots_free_)
@@ -121,7 +132,8 @@ bool MarlinSender::send_command(const std::string& command, bool of_job, double 
     const bool marker = command == "M105";
     if (marker) last_marker_ = next_, marker_due_ = false;
     machine_.apply(command);
-    sent_.push_back({command, job_lines_, marker, takes_long(command), size});
+    const bool waits = waits_for_heat(command) || waits_for_person(command);
+    sent_.push_back({command, job_lines_, marker, takes_long(command), waits, size});
     send(next_++, now);
     drop_history();
     return true;
@@ -181,11 +193,23 @@ bool MarlinSender::has_more() const {
 
 double MarlinSender::wire_gap() const { return 10 * settings_.byte_time + 0.0001; }
 
+bool MarlinSender::slow_unanswered() const {
+    for (std::int64_t n = acked_ + 1; n < cursor_; ++n) {
+        if (sent(n).slow) return true;
+    }
+    return false;
+}
+
+bool MarlinSender::waits_unanswered() const {
+    for (std::int64_t n = acked_ + 1; n < cursor_; ++n) {
+        if (sent(n).waits) return true;
+    }
+    return false;
+}
+
 double MarlinSender::patience() const {
     if (unanswered() == 0) return never;
-    bool slow = false;
-    for (std::int64_t n = acked_ + 1; n < cursor_; ++n) slow = slow || sent(n).slow;
-    if (slow) return busy_seen_ ? slow_impatient : slow_patient;
+    if (slow_unanswered()) return busy_seen_ ? slow_impatient : slow_patient;
     const bool busy_known = busy_seen_ || known_firmware_ || state_ == State::asking;
     // Firmware that is only believed to say when it is busy gets more time before it is asked again.
     return busy_seen_ || (busy_known && tickles_ == 0) ? impatient : patient;
@@ -233,6 +257,13 @@ void MarlinSender::check_time(double now) {
 }
 
 void MarlinSender::tickle(double now) {
+    // Firmware that never says when it is busy may be silent for as long as homing, levelling or a person
+    // take. It is asked again while there is room, in case an answer was lost, but not given up.
+    const bool may_be_silent = !busy_seen_ && slow_unanswered();
+    if (may_be_silent && tickles_ > 0 && heard_ < first_tickle_) {
+        sign_of_work_ = now;
+        return;
+    }
     ++statistics_.timeouts;
     if (++tickles_ == 1) first_tickle_ = now;
     sign_of_work_ = now;
@@ -256,8 +287,6 @@ void MarlinSender::tickle(double now) {
     }
 }
 
-void MarlinSender::finish() { finishing_ = true; }
-
 bool MarlinSender::finished() const {
     return finishing_ && finish_step_ == 3 && idle() && cursor_ == next_ && !going_back_;
 }
@@ -269,6 +298,26 @@ void MarlinSender::halt(double now) {
     transmit_raw("M108\nM112\n", true);
 }
 
-void MarlinSender::end_waiting() { transmit_raw("M108\n", true), marker_due_ = true; }
+// Both go plain, past the lines that wait. Their oks answer no numbered line, so the count is put right then.
+void MarlinSender::end_waiting() {
+    transmit_raw("M108\n", true);
+    marker_due_ = true;
+    dialog_.reset();
+}
+
+void MarlinSender::choose(std::size_t button) {
+    if (!dialog_ || button >= dialog_->buttons.size()) return;
+    transmit_raw("M876 S" + std::to_string(button) + "\n", true);
+    marker_due_ = true;
+    dialog_.reset();
+}
+
+std::optional<UserWait> MarlinSender::user_wait() const {
+    if (dialog_ && dialog_shown_) return dialog_;
+    const bool has_line = unanswered() > 0 && acked_ + 1 >= base_;
+    const std::string command = has_line ? sent(acked_ + 1).command : std::string();
+    if (!paused_for_user_ && !waits_for_person(command)) return std::nullopt;
+    return UserWait{command.empty() ? "the printer is paused for a person" : command};
+}
 
 }  // namespace lamella

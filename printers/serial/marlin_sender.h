@@ -20,14 +20,14 @@ class MarlinSender : public LineSender {
     void connect(double now) override;
     void reconnect(double now) override;
     double wake_at() const override;
-    std::int64_t answered() const override { return answered_job_; }
     std::size_t unanswered() const override;
     bool connected() const override { return state_ == State::running; }
-    void finish() override;
     bool finished() const override;
     void halt(double now) override;
     bool halts_at_once() const override { return emergency_parser_; }
     void end_waiting() override;
+    std::optional<UserWait> user_wait() const override;
+    void choose(std::size_t button) override;
 
     /// Number of the next line that was never sent.
     std::int64_t next_number() const { return next_; }
@@ -45,6 +45,7 @@ class MarlinSender : public LineSender {
         std::int64_t job = 0;  ///< lines of the job up to and including it
         bool marker = false;   ///< an M105, whose ok tells temperatures
         bool slow = false;     ///< may take minutes
+        bool waits = false;    ///< for heat or for a person: nothing is sent behind it until it is answered
         std::size_t size = 0;  ///< bytes on the wire
     };
 
@@ -55,6 +56,7 @@ class MarlinSender : public LineSender {
     void on_capability(const std::string& text);
     void on_firmware(const std::string& text);
     void on_action(const std::string& text);
+    void on_prompt(std::string_view text);
     void acknowledge(std::int64_t number);
     void note_planner(const Reply& reply);
     void sync(double now);
@@ -69,6 +71,8 @@ class MarlinSender : public LineSender {
     double wire_gap() const;
     bool paced() const { return real_wire_ && settings_.byte_time > 0; }
     double patience() const;
+    bool slow_unanswered() const;
+    bool waits_unanswered() const;
     std::optional<std::int64_t> marker_answered() const;
     void drop_history();
     Sent& sent(std::int64_t number) { return sent_[static_cast<std::size_t>(number - base_)]; }
@@ -85,7 +89,6 @@ class MarlinSender : public LineSender {
     std::int64_t cursor_ = 1;
     std::int64_t next_ = 1;
     std::int64_t job_lines_ = 0;
-    std::int64_t answered_job_ = 0;
     std::int64_t dropped_job_ = 0;  // Sent::job of line base_ - 1
 
     // The oks of resends, which answer nothing.
@@ -111,6 +114,10 @@ class MarlinSender : public LineSender {
     double last_fed_ = 0;
     bool real_wire_ = true;  // answers never come sooner than bytes could go over a wire of this speed
 
+    bool paused_for_user_ = false;  // the last busy line said so
+    std::optional<UserWait> dialog_;
+    bool dialog_shown_ = false;
+
     bool busy_seen_ = false;
     double sign_of_work_ = 0;  // last ok, busy or heating line, or the first line after a pause
     int tickles_ = 0;          // in a row without an ok
@@ -129,7 +136,6 @@ class MarlinSender : public LineSender {
     int most_slots_free_ = -1;
 
     // The end: reports off, all motion done, and an answer that can only be that of the last line.
-    bool finishing_ = false;
     std::size_t finish_step_ = 0;
     int barriers_ = 0;
 };

@@ -4,7 +4,31 @@
 
 namespace lamella {
 
-void PrintLink::abort(double now, bool at_once) {
+void PrintLink::halt_at_once(double now) {
+    if (phase_ == Phase::halting) return;
+    write_journal(now);
+    if (sender_->connected() && sender_->halts_at_once()) {
+        sender_->halt(now);
+        phase_ = Phase::halting;
+        phase_until_ = now + (settings_.grbl ? 6.0 : 0.5);
+        abort_words_ =
+            "the printer was halted at once (M112): heaters and motors are off, and it has to be reset "
+            "before "
+            "it prints again";
+        return;
+    }
+    if (!port_.is_open() || !port_.reset_board()) {
+        return end(
+            std::make_exception_ptr(FaultError("this port cannot reset the board; switch the printer off")));
+    }
+    end(std::make_exception_ptr(Interrupted(
+        "the board was told to reset (DTR), which switches heaters and motors off on most; look whether "
+        "it did")));
+}
+
+void PrintLink::abort(double now) {
+    // A laser or a spindle goes off with the reset that ends every stop of GRBL.
+    if (settings_.grbl && sender_->connected()) return halt_at_once(now);
     sender_->drop_pending();
     current_ = {};
     current_at_ = 0;
@@ -13,18 +37,9 @@ void PrintLink::abort(double now, bool at_once) {
         return end(std::make_exception_ptr(
             Interrupted("interrupted before the printer was known; nothing was printed")));
     }
-    if (at_once && sender_->halts_at_once()) {
-        sender_->halt(now);
-        abort_words_ = settings_.grbl
-                           ? "the machine was held, then reset: its position is kept"
-                           : "the printer was halted at once (M112): heaters and motors are off, and it has "
-                             "to be reset before it prints again";
-        phase_ = Phase::halting;
-        phase_until_ = now + (settings_.grbl ? 6.0 : 0.5);
-        return;
-    }
     const Temperatures& t = sender_->temperatures();
-    if (t.nozzle < t.nozzle_target - 3 || t.bed < t.bed_target - 3) sender_->end_waiting();
+    const bool heats = t.nozzle < t.nozzle_target - 3 || t.bed < t.bed_target - 3;
+    if (heats || sender_->user_wait()) sender_->end_waiting();
     sender_->hold(true);
     phase_ = Phase::aborting;
     phase_until_ = now + 60;
@@ -39,8 +54,9 @@ void PrintLink::go_on_aborting(double now) {
     if (phase_ == Phase::halting) {
         // GRBL stands still before it is reset; Marlin is given the time to say so.
         const bool gone = sender_->output().empty() && (!settings_.grbl || sender_->stopped());
-        if (late || (settings_.grbl && gone)) end(std::make_exception_ptr(Interrupted(abort_words_)));
-        return;
+        if (!late && !(settings_.grbl && gone)) return;
+        if (settings_.grbl) abort_words_ = sender_->stopped() ? sender_->stopped()->why : "GRBL is silent";
+        return end(std::make_exception_ptr(Interrupted(abort_words_)));
     }
     if (sender_->stopped() || late) {
         const std::string why = sender_->stopped() ? sender_->stopped()->why : "the printer does not answer";

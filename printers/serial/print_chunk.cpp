@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "printers/serial/gcode_line.h"
-
 namespace lamella {
 
 std::string ChunkMaker::clean(std::string_view text) {
@@ -13,10 +11,10 @@ std::string ChunkMaker::clean(std::string_view text) {
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
-        const std::string command = clean_command(line, longest_);
+        const std::string command = clean_command(line, grbl_ ? longest_grbl_line : longest_command);
         if (command.empty()) continue;
         (clean_lines += command) += '\n';
-        const double time = machine_.apply(command);
+        const double time = grbl_ ? modes_.apply(command) : machine_.apply(command);
         const auto size = static_cast<std::int64_t>(command.size()) + frame;
         ++lines_;
         bytes_ += size;
@@ -31,6 +29,14 @@ std::string ChunkMaker::clean(std::string_view text) {
         stretch_lines_ = stretch_bytes_ = 0;
     }
     return clean_lines;
+}
+
+void ChunkMaker::restore_machine(const nlohmann::ordered_json& json) {
+    if (grbl_) {
+        modes_ = GrblModes::from_json(json);
+    } else {
+        machine_ = MachineState::from_json(json);
+    }
 }
 
 }  // namespace lamella

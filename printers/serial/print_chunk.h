@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "printers/serial/gcode_line.h"
+#include "printers/serial/grbl_modes.h"
 #include "printers/serial/machine_state.h"
 
 namespace lamella {
@@ -18,7 +20,7 @@ struct LinkNeed {
 /// Strips a job's text, layer by layer, and follows the machine through it.
 class ChunkMaker {
   public:
-    explicit ChunkMaker(std::size_t longest) : longest_(longest) {}
+    explicit ChunkMaker(bool grbl) : grbl_(grbl) {}
 
     /// Clean lines of a text, each with its end. Throws InputError for a line that cannot be sent.
     std::string clean(std::string_view text);
@@ -29,13 +31,17 @@ class ChunkMaker {
     double seconds() const { return seconds_; }
     /// The densest stretch of at least a second so far.
     const LinkNeed& need() const { return need_; }
-    /// What the machine does behind all lines so far.
+    /// What the machine does behind all lines so far: of these, the one that is followed.
     const MachineState& machine() const { return machine_; }
-    void set_machine(const MachineState& machine) { machine_ = machine; }
+    const GrblModes& grbl_modes() const { return modes_; }
+    nlohmann::ordered_json machine_to_json() const { return grbl_ ? modes_.to_json() : machine_.to_json(); }
+    /// Throws nlohmann::json::exception when something is missing.
+    void restore_machine(const nlohmann::ordered_json& json);
 
   private:
-    std::size_t longest_;
+    bool grbl_;
     MachineState machine_;
+    GrblModes modes_;
     std::int64_t lines_ = 0, bytes_ = 0;
     double seconds_ = 0;
     double stretch_ = 0;

@@ -40,11 +40,7 @@ PrintLink::PrintLink(LinkSettings settings)
             log_ << format_number(now(), 6) << ' ' << direction << ' ' << in_flight << ' ' << line << '\n';
         };
     }
-    listener.on_action = [this](const std::string& action) {
-        if (action == "pause" || action == "paused") pausing_ = true;
-        if (action == "resume") resuming_ = true;
-        if (action == "cancel") stopping_ = true;
-    };
+    listener.on_action = [this](const std::string& action) { heed(action); };
     if (settings_.grbl) {
         sender_ = std::make_unique<GrblSender>(settings_.sender, std::move(listener));
     } else {
@@ -77,7 +73,8 @@ void PrintLink::request(std::atomic<bool>& flag) {
 void PrintLink::connect() {
     lasting_name_ = lasting_name(settings_.port);
     port_ = SerialPort::open(settings_.port, settings_.baud);
-    if (settings_.reset_board) port_.reset_board();
+    if (settings_.reset_board && !port_.reset_board())
+        throw InputError("--reset: " + settings_.port + " has no DTR line that could reset a board");
     if (!settings_.journal.empty()) journal_ = std::make_unique<PrintJournal>(settings_.journal);
     thread_ = std::thread([this] { work(); });
     std::unique_lock lock(mutex_);
@@ -122,9 +119,10 @@ LinkStatus PrintLink::status() const {
 }
 
 std::string PrintLink::end_words() {
-    if (!thread_.joinable()) return {};
-    stop();
-    thread_.join();
+    if (thread_.joinable()) {
+        stop();
+        thread_.join();
+    }
     try {
         if (failure_) std::rethrow_exception(failure_);
     } catch (const std::exception& error) {
@@ -163,33 +161,67 @@ void PrintLink::round() {
     if (phase_ != Phase::done) wait(time);
 }
 
+void PrintLink::choose(std::size_t button) {
+    choice_ = static_cast<int>(button);
+    wake();
+}
+
 void PrintLink::take_requests(double now) {
     const bool cancelled = settings_.cancel != nullptr && settings_.cancel->cancelled();
+    if (halting_.exchange(false) ||
+        (phase_ == Phase::printing && cancelled && sender_->connected() && sender_->halts_at_once()))
+        return halt_at_once(now);
     if (phase_ != Phase::printing) return;
-    if (cancelled || stopping_) return abort(now, cancelled);
-    if (pausing_.exchange(false) && !paused_ && sender_->connected()) {
-        paused_ = true;
-        sender_->hold(true);
-        sender_->hold_motion(true);
-        if (!parked_) leave();
-    }
-    if (resuming_.exchange(false) && paused_) {
-        paused_ = false;
-        if (!parked_) come_back();
-        sender_->hold_motion(false);
-        sender_->hold(false);
+    if (cancelled || stopping_) return abort(now);
+    if (!sender_->connected()) return;
+    if (pausing_.exchange(false)) begin_pause(false);
+    if (const int button = choice_.exchange(-1); button >= 0)
+        sender_->choose(static_cast<std::size_t>(button));
+    if (!resuming_.exchange(false)) return;
+    if (sender_->user_wait()) {
+        sender_->end_waiting();
+    } else {
+        end_pause();
     }
 }
 
+/// What the printer asks of its host.
+void PrintLink::heed(const std::string& action) {
+    if (action == "pause") begin_pause(false);
+    if (action == "paused") begin_pause(true);
+    if (action == "resume" || action == "resumed") end_pause();
+    if (action == "cancel") stopping_ = true;
+    if (action == "disconnect")
+        end(std::make_exception_ptr(FaultError("the printer has asked to be disconnected" + where())));
+}
+
+/// A printer that has paused by itself has parked its nozzle by itself.
+void PrintLink::begin_pause(bool by_printer) {
+    if (paused_ || phase_ != Phase::printing || !sender_->connected()) return;
+    paused_ = true;
+    sender_->hold(true);
+    if (by_printer) return;
+    sender_->hold_motion(true);
+    leave();
+}
+
+void PrintLink::end_pause() {
+    if (!paused_ || phase_ != Phase::printing) return;
+    paused_ = false;
+    if (!parked_) come_back();
+    sender_->hold_motion(false);
+    sender_->hold(false);
+}
+
 void PrintLink::leave() {
+    if (settings_.grbl || std::exchange(away_, true)) return;
     left_ = sender_->machine();
-    if (settings_.grbl) return;
     for (std::string& line : left_.leave(settings_.park_x, settings_.park_y, settings_.highest))
         sender_->interject(std::move(line));
 }
 
 void PrintLink::come_back() {
-    if (settings_.grbl) return;
+    if (!std::exchange(away_, false)) return;
     for (std::string& line : left_.come_back(settings_.highest)) sender_->interject(std::move(line));
 }
 
@@ -210,7 +242,7 @@ void PrintLink::take_lines(double now) {
             changed_.notify_all();
             current_at_ = 0;
             pushed_ += current_.count;
-            answering_.push_back({pushed_, current_.resume});
+            answering_.push_back({pushed_, current_.layer, current_.resume});
             if (dry_since_ >= 0) underrun_seconds_ += now - dry_since_;
             dry_since_ = -1;
             started_ = true;
@@ -244,6 +276,7 @@ void PrintLink::move_bytes(double now) {
     std::string came;
     PortOutcome outcome = port_.read(came);
     sender_->receive(came, now);
+    if (phase_ == Phase::done) return;
     const std::string_view out = sender_->output();
     if (!outcome.lost && !out.empty()) {
         outcome = port_.write(out);
@@ -256,7 +289,10 @@ void PrintLink::move_bytes(double now) {
 }
 
 void PrintLink::reopen(double now) {
-    if (phase_ != Phase::printing) return end(std::make_exception_ptr(Interrupted("the port is gone")));
+    if (phase_ != Phase::printing)
+        return end(
+            std::make_exception_ptr(FaultError("the print was to be stopped, but the port is gone; look "
+                                               "after the machine: its heaters may be on")));
     if (now < next_try_) return;
     next_try_ = now + retry_interval;
     try {
@@ -272,6 +308,7 @@ void PrintLink::reopen(double now) {
 }
 
 std::string PrintLink::where() const {
+    if (settings_.grbl) return fmt::format("; {} lines were answered", sender_->answered());
     return fmt::format("; {} lines were answered, the nozzle was sent to Z {}", sender_->answered(),
                        format_number(sender_->machine().z(), 3));
 }
@@ -284,6 +321,7 @@ void PrintLink::watch_answers(double now) {
         answering_.pop_front();
         layer_done = true;
     }
+    if (!answering_.empty()) layer_ = answering_.front().layer;
     const double z = sender_->machine().z();
     if (layer_done || z != journaled_z_ || now - journaled_at_ >= journal_interval) write_journal(now);
     if (sender_->connected() && !connected_) {
@@ -340,8 +378,11 @@ void PrintLink::note_status(double now, bool at_once) {
     status_.connected = connected_;
     status_.paused = paused_;
     status_.parked = parked_;
+    status_.stopping = phase_ != Phase::printing;
+    status_.waits = sender_->user_wait();
+    if (journal_) status_.journal_trouble = journal_->trouble();
     status_.lost = !port_.is_open();
-    status_.layer = current_.layer;
+    status_.layer = layer_;
     status_.lines_queued = queued_lines_;
     status_.lines_answered = sender_->answered();
     status_.layers_ready = queue_.size();

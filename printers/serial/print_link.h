@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -50,8 +51,11 @@ struct LinkStatus {
     bool connected = false;
     bool paused = false;
     bool parked = false;
-    bool lost = false;  ///< the port is gone for now
-    int layer = -1;     ///< that lines are sent of
+    bool stopping = false;            ///< the print is being ended
+    std::optional<UserWait> waits{};  ///< what the printer waits for a person to do
+    std::string journal_trouble;      ///< why the journal cannot be written; empty when it can
+    bool lost = false;                ///< the port is gone for now
+    int layer = -1;                   ///< that lines are answered of
     std::int64_t lines_queued = 0, lines_answered = 0;
     std::size_t layers_ready = 0;
     double z = 0;
@@ -81,9 +85,15 @@ class PrintLink {
     void finish();
 
     void pause() { request(pausing_); }
+    /// Ends a pause, or tells a printer that waits for a person to go on.
     void resume() { request(resuming_); }
+    /// Presses a button of what the printer asks, by its index.
+    void choose(std::size_t button);
     /// Ends the print cleanly, when what the printer has already got is done.
     void stop() { request(stopping_); }
+    /// Halts the machine at once, in the midst of its moves: by M112 where it has an emergency parser, by `!`
+    /// and a reset on GRBL, else by resetting the board over DTR.
+    void halt() { request(halting_); }
     LinkStatus status() const;
     /// Waits until the print has ended, cleanly where it was cancelled, and tells what became of the machine;
     /// empty when it was never reached.
@@ -94,6 +104,9 @@ class PrintLink {
     void work();
     void round();
     void take_requests(double now);
+    void begin_pause(bool by_printer);
+    void end_pause();
+    void heed(const std::string& action);
     void take_lines(double now);
     void watch_queue(double now);
     void watch_answers(double now);
@@ -103,7 +116,8 @@ class PrintLink {
     void reopen(double now);
     void leave();
     void come_back();
-    void abort(double now, bool at_once);
+    void abort(double now);
+    void halt_at_once(double now);
     void go_on_aborting(double now);
     void end(std::exception_ptr failure);
     void note_status(double now, bool at_once);
@@ -130,13 +144,16 @@ class PrintLink {
     std::size_t current_at_ = 0;
     struct Answering {
         std::int64_t last = 0;  ///< lines up to its end
+        int layer = -1;
         nlohmann::ordered_json resume;
     };
     std::deque<Answering> answering_;
     nlohmann::ordered_json resume_;
     std::int64_t pushed_ = 0;
+    int layer_ = -1;  // of the line that is to be answered next
     bool paused_ = false, parked_ = false, started_ = false;
-    MachineState left_;
+    bool away_ = false;  // the nozzle was taken off the part
+    MachineState left_;  // where it was
     double dry_since_ = -1;
     int underruns_ = 0;
     double underrun_seconds_ = 0;
@@ -157,7 +174,8 @@ class PrintLink {
     bool done_ = false;
     std::exception_ptr failure_;
     LinkStatus status_;
-    std::atomic<bool> pausing_{false}, resuming_{false}, stopping_{false};
+    std::atomic<bool> pausing_{false}, resuming_{false}, stopping_{false}, halting_{false};
+    std::atomic<int> choice_{-1};
 };
 
 }  // namespace lamella

@@ -8,7 +8,6 @@
 #include "engine/error.h"
 #include "engine/number_format.h"
 #include "printers/output_file.h"
-#include "printers/serial/gcode_line.h"
 
 namespace lamella {
 namespace {
@@ -16,10 +15,7 @@ namespace {
 class SerialOutput : public GcodeOutput {
   public:
     SerialOutput(std::shared_ptr<PrintLink> link, const LinkSettings& settings, SerialOutputOptions options)
-        : link_(std::move(link)),
-          settings_(settings),
-          options_(std::move(options)),
-          maker_(settings.grbl ? longest_grbl_line : longest_command) {}
+        : link_(std::move(link)), settings_(settings), options_(std::move(options)), maker_(settings.grbl) {}
 
     int begin(const JobStamp& stamp, bool resume) override {
         link_->set_stamp(lamella::to_json(stamp));
@@ -43,15 +39,13 @@ class SerialOutput : public GcodeOutput {
             const nlohmann::ordered_json& last = record.at("resume");
             next = last.at("next").get<int>();
             state_ = last.at("state");
-            maker_.set_machine(MachineState::from_json(last.at("machine")));
+            maker_.restore_machine(last.at("machine"));
             const double z = options_.z ? *options_.z : record.at("z").get<double>();
             if (next < stamp.range.first || next > stamp.range.last) throw damaged_state();
-            if (settings_.grbl)
-                throw InputError("a print on GRBL cannot be taken up; discard it with --force");
+            const std::vector<std::string> way = way_back(z);
             link_->connect();
             PrintChunk chunk{"", 0, next, last};
-            for (const std::string& line :
-                 maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest)) {
+            for (const std::string& line : way) {
                 (chunk.lines += line) += '\n';
                 ++chunk.count;
             }
@@ -81,6 +75,22 @@ class SerialOutput : public GcodeOutput {
         check_same_job(record["stamp"], stamp, settings_.journal);
         return record;
     }
+    /// Lines that bring the machine to where the first missing layer begins.
+    std::vector<std::string> way_back(double z) const {
+        if (!settings_.grbl)
+            return maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest);
+        const GrblModes& modes = maker_.grbl_modes();
+        if (!modes.obstacle().empty())
+            throw InputError("this job cannot be taken up: " + modes.obstacle() +
+                             "; discard it with --force");
+        if (options_.warn) {
+            options_.warn(
+                "the machine goes on from the origin it has now: it has to be where it was when the job "
+                "began "
+                "(GRBL forgets G92 in a reset, and where it is when it is switched off)");
+        }
+        return modes.take_up();
+    }
     void send(std::string_view text, int next, const nlohmann::ordered_json& state) {
         const std::int64_t before = maker_.lines();
         PrintChunk chunk;
@@ -88,7 +98,7 @@ class SerialOutput : public GcodeOutput {
         chunk.count = maker_.lines() - before;
         chunk.layer = next - 1;
         if (next >= 0)
-            chunk.resume = {{"next", next}, {"state", state}, {"machine", maker_.machine().to_json()}};
+            chunk.resume = {{"next", next}, {"state", state}, {"machine", maker_.machine_to_json()}};
         if (!warned_ && options_.warn) {
             const std::string warning = link_warning(maker_.need(), settings_.baud);
             warned_ = !warning.empty();

@@ -134,11 +134,11 @@ PortOutcome SerialPort::write(std::string_view bytes) {
     }
 }
 
-void SerialPort::reset_board() {
+bool SerialPort::reset_board() {
     const int dtr = TIOCM_DTR;
-    ioctl(descriptor_, TIOCMBIC, &dtr);
+    if (ioctl(descriptor_, TIOCMBIC, &dtr) != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ioctl(descriptor_, TIOCMBIS, &dtr);
+    return ioctl(descriptor_, TIOCMBIS, &dtr) == 0;
 }
 
 std::string lasting_name(const std::string& path) {

@@ -31,8 +31,8 @@ class SerialPort {
     PortOutcome read(std::string& bytes);
     /// Writes as much as there is room for.
     PortOutcome write(std::string_view bytes);
-    /// Pulls DTR for a moment, which resets most boards.
-    void reset_board();
+    /// Pulls DTR for a moment, which resets most boards. False where the port has no such line.
+    bool reset_board();
     void close();
 
   private:

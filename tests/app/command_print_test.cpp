@@ -202,3 +202,114 @@ TEST_CASE("a dry run counts what a print would send") {
     CHECK(run_lamella("print " + folder / "ready.gcode" + " --port /dev/nothing_there").code == 2);
     CHECK(run_lamella("print --shape sphere --shape-radius 3 --printer png --dry-run").code == 2);
 }
+
+TEST_CASE("on a terminal p parks, r goes on and s stops, and the terminal is given back") {
+    const Folder folder;
+    PtyMachine machine({}, 4);
+    OnTerminal run("print " + part + "--port " + machine.path() + " --journal " + folder / "journal", folder);
+    REQUIRE(wait_for(60, [&] { return run.shows("layer "); }));
+    CHECK(run.shows("printer: Marlin 2.1.2.1"));
+    CHECK(run.shows("p pause, r resume"));
+    run.press('p');
+    REQUIRE(wait_for(20, [&] { return run.shows("paused"); }));
+    const auto parked = [&] { return machine.executed().back() == "G0 X0 Y220 F6000"; };
+    REQUIRE(wait_for(20, parked));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK(parked());
+    run.press('r');
+    REQUIRE(wait_for(20, [&] { return count_of(machine.executed(), "M73 P50") > 0; }));
+    run.press('s');
+    CHECK(run.exit_code() == 130);
+    CHECK(run.is_as_it_was());
+    CHECK(run.shows("heaters and motors were switched off"));
+    CHECK(run.shows("--resume"));
+    CHECK(machine.executed().back() == "M84");
+    CHECK(fs::exists(folder / "journal"));
+    // A line that is drawn again never breaks.
+    const std::string& screen = run.screen();
+    for (std::size_t at = screen.find("\rlayer"); at != std::string::npos;
+         at = screen.find("\rlayer", at + 1))
+        CHECK(screen.find('\x1b', at) - at <= 80);
+}
+
+TEST_CASE("on a terminal a printer's question is shown, and answered by its key") {
+    FirmwareOptions firmware;
+    firmware.emergency_parser = firmware.host_prompts = true;
+    const Folder folder;
+    write(folder / "ready.gcode", "G28\nG90\nM83\nM0\nG1 X5 F6000\n");
+    PtyMachine machine(firmware, 10);
+    OnTerminal run("print " + folder / "ready.gcode" + " --greeting 0.2 --port " + machine.path() +
+                       " --journal " + folder / "journal",
+                   folder);
+    REQUIRE(wait_for(30, [&] { return run.shows("waits for you: M0 Stop (r: done, 1: Continue)"); }));
+    CHECK(count_of(machine.executed(), "M876 S0") == 0);
+    run.press('1');
+    CHECK(run.exit_code() == 0);
+    CHECK(count_of(machine.executed(), "M876 S0") == 1);
+    CHECK(job_lines(machine.executed()) == clean_lines(folder / "ready.gcode"));
+}
+
+TEST_CASE("a laser's layers are cut over a line, taken up at a layer, and not by a Marlin") {
+    const Folder folder;
+    const std::string laser =
+        "--shape box --shape-size 20,20,24 --layer-height 3 --printer marlin --printer-flavour grbl ";
+    REQUIRE(run_lamella("slice " + laser + "-o " + folder / "box.gcode").code == 0);
+    const auto file = clean_lines(folder / "box.gcode");
+    PtyGrbl machine({}, 1);
+    const std::string command =
+        "print " + laser + "--greeting 0.2 --port " + machine.path() + " --journal " + folder / "journal";
+    CHECK(mentions(run_lamella(command + " --firmware marlin").err, "flavour"));
+    const auto start_cycle = [&] {
+        machine.with([](SimulatedGrbl& grbl, double) { grbl.held() ? grbl.cycle_start() : void(); });
+    };
+    const pid_t child = start_lamella(command, folder);
+    // The person at the machine lays the next board and presses its button, until the third pause.
+    REQUIRE(wait_for(60, [&] {
+        if (count_of(machine.executed(), "M0") < 3) start_cycle();
+        return count_of(machine.executed(), "M0") == 3 &&
+               mentions(contents(folder / "err"), "waits for you: M0");
+    }));
+    kill(child, SIGINT);
+    CHECK(exit_code(child) == 130);
+    CHECK(mentions(contents(folder / "err"), "position is kept"));
+    const auto first = machine.executed();
+    REQUIRE(std::equal(first.begin(), first.end(), file.begin()));
+
+    const pid_t again = start_lamella(command + " --resume", folder);
+    int status = 0;
+    REQUIRE(wait_for(60, [&] { return start_cycle(), waitpid(again, &status, WNOHANG) == again; }));
+    INFO(contents(folder / "err"));
+    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(mentions(contents(folder / "err"), "origin"));
+    auto rest = machine.executed();
+    rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(first.size()));
+    CHECK(rest.back() == "G4 P0.01");
+    rest.pop_back();
+    // The beam is off first; then the job goes on with the pause before the layer that was not done.
+    CHECK(rest.front() == "M5");
+    const auto pause = std::find(rest.begin(), rest.end(), "M0");
+    REQUIRE(pause != rest.end());
+    CHECK(std::find_if(rest.begin(), pause, [](const auto& line) { return line.starts_with("G1 X"); }) ==
+          pause);
+    REQUIRE(rest.end() - pause <= std::ssize(file));
+    CHECK(first_difference({pause, rest.end()}, {file.end() - (rest.end() - pause), file.end()}) == "");
+    CHECK(count_of({pause, rest.end()}, "M0") == count_of(file, "M0") - 2);
+}
+
+TEST_CASE("a GRBL job that moves in z is not taken up in the midst of it") {
+    const Folder folder;
+    std::string text = "G21\nG90\nG0 Z5\n";
+    for (int i = 0; i < 1500; ++i) text += "G1 X" + std::to_string(i % 9) + " Z-1 F600\n";
+    write(folder / "mill.nc", text);
+    PtyGrbl machine({}, 1);
+    const std::string command = "print " + folder / "mill.nc" + " --firmware grbl --greeting 0.2 --port " +
+                                machine.path() + " --journal " + folder / "journal";
+    const pid_t child = start_lamella(command, folder);
+    const bool there = wait_for(30, [&] { return machine.executed().size() > 900; });
+    kill(child, SIGINT);
+    CHECK(exit_code(child) == 130);
+    REQUIRE(there);
+    const Outcome again = run_lamella(command + " --resume");
+    CHECK(again.code == 2);
+    CHECK(mentions(again.err, "in z"));
+}

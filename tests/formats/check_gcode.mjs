@@ -1,7 +1,9 @@
-// G-code of real models, in every dialect, read by cncjs' gcode-toolpath and Printrun's gcoder.
+// G-code of real models, in every dialect, read by cncjs' gcode-toolpath, Printrun's gcoder and gcode-preview.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
+import ClipperLib from "clipper-lib";
+import {WebGLPreview} from "gcode-preview";
 import Toolpath from "gcode-toolpath";
 import {lamella, require, requireNear, shoelace, sources} from "./common.mjs";
 
@@ -33,6 +35,95 @@ json.dump({"lines": lines, "filament": code.filament_length}, sys.stdout)
 function readByGcoder(file) {
     const text = execFileSync("/usr/bin/python3", ["-c", gcoder, file], {encoding: "utf8", maxBuffer: 1 << 30});
     return JSON.parse(text);
+}
+
+/** Layers and their commands as gcode-preview's parser sees them: without its constructor, which wants WebGL. */
+function readByPreview(text) {
+    const preview = Object.create(WebGLPreview.prototype);
+    preview.clear();
+    preview.parser.parseGCode(text);
+    return preview.parser;
+}
+
+/** Boxes of what extrudes in the plane, layer by layer, as gcode-preview reads it: ends of moves alone. */
+function boxesByPreview(text) {
+    const {preamble, layers} = readByPreview(text);
+    const at = {x: 0, y: 0}, boxes = [];
+    for (const layer of [preamble, ...layers]) {
+        const box = emptyBox();
+        for (const {gcode, params} of layer.commands) {
+            if (!/^g[0123]$/.test(gcode)) continue;
+            const from = {...at};
+            for (const axis of ["x", "y"]) at[axis] = params[axis] ?? at[axis];
+            if (!(params.e > 0) || (params.x === undefined && params.y === undefined)) continue;
+            grow(box, from.x, from.y), grow(box, at.x, at.y);
+        }
+        if (layer !== preamble) boxes.push(box);
+    }
+    return boxes;
+}
+
+const emptyBox = () => ({low: [Infinity, Infinity], high: [-Infinity, -Infinity]});
+function grow(box, x, y, by = 0) {
+    [x, y].forEach((c, i) => {
+        box.low[i] = Math.min(box.low[i], c - by);
+        box.high[i] = Math.max(box.high[i], c + by);
+    });
+}
+/** How far two boxes are apart, side by side, at most. */
+function boxDistance(a, b) {
+    return Math.max(...[0, 1].flatMap(i => [Math.abs(a.low[i] - b.low[i]), Math.abs(a.high[i] - b.high[i])]));
+}
+
+/** Points of a move as gcode-toolpath sees it that a box has to hold: its ends, and where an arc is farthest out. */
+function* extremes({motion, v1, v2, v0}) {
+    yield v1;
+    yield v2;
+    if (motion !== "G2" && motion !== "G3") return;
+    const radius = Math.hypot(v1.x - v0.x, v1.y - v0.y);
+    const [from, to] = motion === "G3" ? [v1, v2] : [v2, v1];
+    const turn = v => Math.atan2(v.y - v0.y, v.x - v0.x);
+    const round = angle => (angle + 4 * Math.PI) % (2 * Math.PI);
+    const sweep = round(turn(to) - turn(from));
+    for (let quarter = 0; quarter < 4; ++quarter) {
+        const angle = quarter * Math.PI / 2;
+        if (round(angle - turn(from)) < sweep)
+            yield {x: v0.x + radius * Math.cos(angle), y: v0.y + radius * Math.sin(angle)};
+    }
+}
+
+/** Rings of the layers' sections in bed coordinates, mm, as the SVG of the same job draws them. */
+function sectionRings(model, options, bed) {
+    const file = "sections.svg";
+    lamella("slice", path.join(sources, model), "-q", "--force", "--printer", "svg", ...options, "-o", file);
+    const svg = fs.readFileSync(file, "latin1");
+    const [, width, height] = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(svg).map(Number);
+    const left = (bed[0] - width) / 2, bottom = (bed[1] - height) / 2;
+    return svg.split("<g id=").slice(1).map(group => {
+        const data = [...group.matchAll(/ d="([^"]*)"/g)].map(match => match[1]).join("");
+        return data.split("Z").map(ring => {
+            const numbers = (ring.match(/-?[\d.]+/g) ?? []).map(Number), points = [];
+            for (let k = 0; k < numbers.length; k += 2)
+                points.push([numbers[k] + left, height - numbers[k + 1] + bottom]);
+            return points;
+        }).filter(points => points.length > 2);
+    });
+}
+
+/** Box of what a round bead of this width can cover without leaving the rings: of their opening by its disc. */
+function reachableBox(rings, width) {
+    const unit = 1e4, offset = new ClipperLib.ClipperOffset(), inset = new ClipperLib.Paths();
+    offset.AddPaths(rings.map(ring => ring.map(([x, y]) => ({X: Math.round(x * unit), Y: Math.round(y * unit)}))),
+                    ClipperLib.JoinType.jtRound, ClipperLib.EndType.etClosedPolygon);
+    offset.Execute(inset, -width / 2 * unit);
+    const box = emptyBox();
+    for (const ring of inset) for (const {X, Y} of ring) grow(box, X / unit, Y / unit, width / 2);
+    return box;
+}
+
+/** How far the first box stands out of the second at most; negative when it lies within. */
+function outside(a, b) {
+    return Math.max(...[0, 1].flatMap(i => [b.low[i] - a.low[i], a.high[i] - b.high[i]]));
 }
 
 /** Straight moves and arcs as gcode-toolpath sees them. */
@@ -129,19 +220,28 @@ function slice(model, options) {
     return {file, code: fs.readFileSync(file, "latin1"), volume: facts.volume_mm3, layers: facts.layers, info};
 }
 
+/** Whether a word of the command line is an option of the printer. */
+const isPrinters = word => word !== undefined && word.startsWith("--printer-");
+
 /** `plastic`: share by which the plastic may differ from the solid's volume. */
 function checkPrint(model, flavour, options, {plastic, merged = false, wiped = false}) {
     const what = `${path.basename(model)}, ${flavour}`;
+    const modelOptions = options.filter((word, i) => !isPrinters(word) &&
+                                                     !(isPrinters(options[i - 1]) && !word.startsWith("--")));
     const text = slice(model, [...options, "--printer-flavour", flavour]);
     checkLines(text.code, flavour, what);
     const print = followPrint(text, what);
     const bed = [220, 220, 250];
-    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    const beadBoxes = [], endBoxes = new Map(), walled = new Set();
     let beads = 0, laid = 0, layers = new Set(), top = 0;
     for (const move of print.moves) {
         for (const v of [move.v1, move.v2])
             [v.x, v.y, v.z].forEach((c, i) => require(c >= 0 && c <= bed[i], `${what}: off the bed: "${move.raw}"`));
-        if (move.layer < 0 || move.e === undefined) continue;
+        if (move.e === undefined) continue;
+        const z = move.v2.z.toFixed(3), ends = endBoxes.get(z) ?? emptyBox();
+        endBoxes.set(z, ends);
+        for (const v of [move.v1, move.v2]) grow(ends, v.x, v.y);
+        if (move.layer < 0) continue;
         const volume = move.e * section, wanted = move.length * beadArea(move.width, move.height);
         beads += wanted;
         laid += volume;
@@ -150,20 +250,30 @@ function checkPrint(model, flavour, options, {plastic, merged = false, wiped = f
         // Widths are told to a micrometre, E to 10 nm: tiny moves have no more digits.
         if (!merged && move.length > 0.5)
             requireNear(volume, wanted, 0.01, `${what}: the bead's plastic in "${move.raw}"`);
-        for (const v of [move.v1, move.v2]) {
-            low[0] = Math.min(low[0], v.x), low[1] = Math.min(low[1], v.y);
-            high[0] = Math.max(high[0], v.x), high[1] = Math.max(high[1], v.y);
-        }
+        const bead = beadBoxes[move.layer] ??= emptyBox();
+        for (const v of extremes(move)) grow(bead, v.x, v.y, move.width / 2);
+        if (move.role === "External perimeter") walled.add(move.layer);
     }
     requireNear(laid, beads, 0.01, `${what}: plastic of all beads`);
     requireNear(laid, text.volume, plastic, `${what}: plastic against the solid's volume`);
-    const lines = 0.45;
-    [0, 1].forEach(i => {
-        const size = text.info.size_mm[i], extent = high[i] - low[i];
-        require(extent <= size + 0.05 && extent >= size - 2 * lines,
-                `${what}: lies over ${extent} mm where the part has ${size} mm`);
-        require(Math.abs((low[i] + high[i]) / 2 - bed[i] / 2) <= lines / 2, `${what}: not centred on the bed`);
-    });
+    const previewed = boxesByPreview(text.code), printed = [...endBoxes.values()];
+    require(previewed.length === printed.length,
+            `${what}: gcode-preview finds ${previewed.length} layers, the others ${printed.length}`);
+    printed.forEach((box, i) => require(boxDistance(box, previewed[i]) < 1e-4,
+                                        `${what}: gcode-preview has another box of printed layer ${i}`));
+    // Beads fill the section as far as a round one of the usual width reaches: not the tips of sharp corners and
+    // thin fins, where narrower ones may go on, and no more than half a line beyond.
+    const line = 0.45, rings = sectionRings(model, modelOptions, bed);
+    let over = 0, short = 0;
+    for (const layer of walled) {
+        const box = emptyBox();
+        for (const ring of rings[layer]) for (const [x, y] of ring) grow(box, x, y);
+        over = Math.max(over, outside(beadBoxes[layer], box));
+        short = Math.max(short, outside(reachableBox(rings[layer], line), beadBoxes[layer]));
+    }
+    require(walled.size >= text.layers / 2, `${what}: only ${walled.size} layers have walls`);
+    require(over <= line / 2, `${what}: beads stand ${over} mm out of their section`);
+    require(short <= 0.03, `${what}: beads end ${short} mm before what they could reach of their section`);
     require(layers.size >= text.layers - 1, `${what}: ${layers.size} layers of ${text.layers}`);
     const height = text.info.layer_height_mm;
     require(Math.abs(top - text.layers * height) <= height + 1e-6, `${what}: ends at ${top} mm`);
@@ -171,7 +281,8 @@ function checkPrint(model, flavour, options, {plastic, merged = false, wiped = f
     const arcs = print.moves.filter(m => m.motion === "G2" || m.motion === "G3").length;
     console.log(`gcode: ${what}: ${print.moves.length} moves${arcs ? `, ${arcs} of them arcs` : ""}; plastic ` +
                 `${(100 * (laid / text.volume - 1)).toFixed(2)} % off the solid's, ` +
-                `${(100 * (laid / beads - 1)).toFixed(3)} % off the beads'`);
+                `${(100 * (laid / beads - 1)).toFixed(3)} % off the beads'; ${walled.size} walled layers at most ` +
+                `${over.toFixed(3)} mm out of their sections and ${short.toFixed(3)} mm short of them`);
 }
 
 /** Rings under the beam enclose the layers' areas; the beam is off elsewhere. */

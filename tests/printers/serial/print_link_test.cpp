@@ -3,9 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "engine/error.h"
-#include "printers/serial/print_chunk.h"
+#include "printers/serial/serial_output.h"
 #include "tests/printers/serial/pty_machine.h"
 
 using namespace lamella;
@@ -140,8 +141,139 @@ TEST_CASE("a port that does not come back ends the print with its name") {
     CHECK_THROWS_AS(link.finish(), FaultError);
 }
 
+TEST_CASE("a printer that has paused by itself is left where it is, and goes on when it says so") {
+    PtyMachine machine({}, 10);
+    PrintLink link(settings_of(machine.path()));
+    link.connect();
+    link.submit(chunk_of(start, -1));
+    link.submit(chunk_of(layer(0, 1000), 0));
+    REQUIRE(wait_for(20, [&] { return machine.executed().size() > 200; }));
+    machine.with([](SimulatedMarlin& printer, double) { printer.say("//action:paused"); });
+    REQUIRE(wait_for(5, [&] { return link.status().paused; }));
+    machine.with([](SimulatedMarlin& printer, double) { printer.say("//action:resumed"); });
+    link.finish();
+    auto wanted = start;
+    for (const std::string& line : layer(0, 1000)) wanted.push_back(line);
+    CHECK(first_difference(job_lines(machine.executed()), wanted) == "");
+}
+
+TEST_CASE("what the printer waits for is told, and going on ends it") {
+    FirmwareOptions options;
+    options.emergency_parser = options.host_prompts = GENERATE(false, true);
+    PtyMachine machine(options, 10);
+    PrintLink link(settings_of(machine.path()));
+    link.connect();
+    auto lines = layer(0, 20);
+    lines.insert(lines.begin() + 5, "M0 NUT");
+    link.submit(chunk_of(start, -1));
+    link.submit(chunk_of(lines, 0));
+    REQUIRE(wait_for(20, [&] { return link.status().waits.has_value(); }));
+    if (options.host_prompts) {
+        REQUIRE(link.status().waits->buttons.size() == 1);
+        link.choose(0);
+    } else {
+        CHECK(link.status().waits->text == "M0 NUT");
+        link.resume();
+    }
+    link.finish();
+    CHECK(!link.status().waits);
+    auto wanted = start;
+    wanted.insert(wanted.end(), lines.begin(), lines.end());
+    CHECK(first_difference(job_lines(machine.executed()), wanted) == "");
+}
+
+TEST_CASE("a stop ends a wait for a person, then switches off; a printer that asks to be left is left") {
+    PtyMachine machine({}, 10);
+    PrintLink link(settings_of(machine.path()));
+    link.connect();
+    link.submit(chunk_of(start, -1));
+    SECTION("stop") {
+        link.submit(chunk_of({"M0", "G1 X50 E1"}, 0));
+        REQUIRE(wait_for(20, [&] { return link.status().waits.has_value(); }));
+        link.stop();
+        CHECK_THROWS_AS(link.finish(), Interrupted);
+        CHECK(machine.executed().back() == "M84");
+        CHECK(index_of(machine.executed(), "G1 X50 E1") == std::ssize(machine.executed()));
+    }
+    SECTION("disconnect") {
+        machine.with([](SimulatedMarlin& printer, double) { printer.say("//action:disconnect"); });
+        CHECK_THROWS_WITH(link.finish(), Catch::Contains("disconnected"));
+    }
+    SECTION("halt where neither the firmware nor the port can") {
+        link.halt();
+        CHECK_THROWS_WITH(link.finish(), Catch::Contains("switch the printer off"));
+    }
+}
+
+TEST_CASE("a journal that cannot be written is told while the print goes on") {
+    PtyMachine machine({}, 20);
+    LinkSettings settings = settings_of(machine.path());
+    settings.journal = "/dev/null/journal";
+    PrintLink link(settings);
+    link.connect();
+    PrintChunk chunk = chunk_of(start, -1);
+    chunk.resume = {{"next", 0}};
+    link.submit(chunk);
+    CHECK(wait_for(20, [&] { return !link.status().journal_trouble.empty(); }));
+    link.finish();
+}
+
+TEST_CASE("a port belongs to one program, and closing it does not hang up") {
+    PtyMachine machine({});
+    SerialPort port = SerialPort::open(machine.path(), 250000);
+    CHECK_THROWS_AS(SerialPort::open(machine.path(), 250000), InputError);
+    termios mode{};
+    REQUIRE(tcgetattr(port.descriptor(), &mode) == 0);
+    CHECK((mode.c_cflag & HUPCL) == 0);
+    CHECK((mode.c_lflag & (ICANON | ECHO)) == 0);
+    port.close();
+    CHECK_NOTHROW(SerialPort::open(machine.path(), 115200));
+}
+
+TEST_CASE("GRBL: a pause of the job is told and ended, a stop holds before it resets") {
+    PtyGrbl machine({}, 5);
+    LinkSettings settings = settings_of(machine.path());
+    settings.grbl = true;
+    PrintLink link(settings);
+    link.connect();
+    std::vector<std::string> lines{"M4 S0"};
+    for (int i = 0; i < 400; ++i) lines.push_back(i == 50 ? "M0" : "G1X" + std::to_string(i));
+    link.submit(chunk_of(lines, 0));
+    REQUIRE(wait_for(20, [&] { return link.status().waits.has_value(); }));
+    CHECK(machine.executed().back() == "M0");
+    SECTION("goes on") {
+        link.resume();
+        link.finish();
+        lines.emplace_back("G4 P0.01");
+        CHECK(machine.executed() == lines);
+    }
+    SECTION("stopped") {
+        link.resume();
+        REQUIRE(wait_for(20, [&] { return machine.executed().size() > 100; }));
+        link.stop();
+        CHECK_THROWS_WITH(link.finish(), Catch::Contains("position is kept"));
+        CHECK(machine.with(
+            [](SimulatedGrbl& grbl, double) { return grbl.resets == 1 && grbl.reset_while_held; }));
+        CHECK(machine.executed().size() < 300);
+    }
+    SECTION("reset by itself") {
+        link.resume();
+        REQUIRE(wait_for(20, [&] { return machine.executed().size() > 100; }));
+        machine.with([](SimulatedGrbl& grbl, double) { grbl.boot(); });
+        CHECK_THROWS_WITH(link.finish(), Catch::Contains("Grbl 1.1h"));
+        const auto ran = machine.executed().size();
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        CHECK(machine.executed().size() <= ran + 1);
+    }
+}
+
+TEST_CASE("a link that is too slow for a job is told beforehand") {
+    CHECK(link_warning({500, 14000}, 250000).empty());
+    CHECK(link_warning({500, 14000}, 115200).find("14000 bytes/s") != std::string::npos);
+}
+
 TEST_CASE("the densest stretch of a job tells what the link has to carry") {
-    ChunkMaker maker(81);
+    ChunkMaker maker(false);
     std::string text = "G28\nG90\nM83\nG1 X0 Y0 F6000\n";
     for (int i = 1; i <= 100; ++i) text += "G1 X" + std::to_string(i) + " E1\n";           // 10 ms each
     for (int i = 1; i <= 10; ++i) text += "G1 X" + std::to_string(i % 2 * 100) + " E1\n";  // 1 s each

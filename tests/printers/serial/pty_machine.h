@@ -14,16 +14,21 @@
 #include <thread>
 
 #include "tests/printers/serial/simulated_firmware.h"
+#include "tests/printers/serial/simulated_grbl.h"
 
 namespace lamella::test {
 
-class PtyMachine {
+template <class Printer>
+class MachineOnPty {
   public:
     /// `pace` seconds of the machine pass in each second.
-    explicit PtyMachine(FirmwareOptions options, double pace = 1) : printer_(options), pace_(pace) { plug(); }
-    ~PtyMachine() { unplug(); }
-    PtyMachine(const PtyMachine&) = delete;
-    PtyMachine& operator=(const PtyMachine&) = delete;
+    explicit MachineOnPty(typename Printer::Options options, double pace = 1)
+        : printer_(options), pace_(pace) {
+        plug();
+    }
+    ~MachineOnPty() { unplug(); }
+    MachineOnPty(const MachineOnPty&) = delete;
+    MachineOnPty& operator=(const MachineOnPty&) = delete;
 
     /// Pulls the plug: the port is gone, the printer stays on.
     void unplug() {
@@ -90,7 +95,7 @@ class PtyMachine {
         }
     }
 
-    SimulatedMarlin printer_;
+    Printer printer_;
     double pace_;
     int master_ = -1;
     int slave_ = -1;
@@ -100,5 +105,8 @@ class PtyMachine {
     std::atomic<bool> ending_{false};
     std::thread thread_;
 };
+
+using PtyMachine = MachineOnPty<SimulatedMarlin>;
+using PtyGrbl = MachineOnPty<SimulatedGrbl>;
 
 }  // namespace lamella::test

@@ -58,7 +58,13 @@ TEST_CASE("errors are about a line, or the end of the print, or neither") {
           ReplyKind::line_error);
     CHECK(parse_reply("Error:Printer halted. kill() called!").kind == ReplyKind::fatal);
     CHECK(parse_reply("Error:Thermal Runaway, system stopped! Heater_ID: 0").kind == ReplyKind::fatal);
-    CHECK(parse_reply("!! Shutdown").kind == ReplyKind::fatal);
+    for (const char* text :
+         {"!! Shutdown", "fatal: heater", "Error:Heating failed, system stopped! Heater_ID: bed",
+          "Error:MINTEMP triggered, system stopped! Heater_ID: 0", "Error:MAXTEMP triggered",
+          "Error:EMERGENCY SHUTDOWN", "echo:kill() called"}) {
+        INFO(text);
+        CHECK(parse_reply(text).kind == ReplyKind::fatal);
+    }
     CHECK(parse_reply("Error:volume.init failed").kind == ReplyKind::error);
     CHECK(parse_reply("error:20").kind == ReplyKind::grbl_error);
     CHECK(parse_reply("ALARM:3").kind == ReplyKind::grbl_alarm);

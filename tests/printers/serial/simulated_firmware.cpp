@@ -33,7 +33,7 @@ void SimulatedMarlin::boot(double now) {
     early_.clear();
     slots_.clear();
     planner_.clear();
-    running_ = reports_ = killed_ = wait_for_heat_ = false;
+    running_ = reports_ = killed_ = wait_for_heat_ = wait_for_user_ = false;
     last_number_ = 0;
     nozzle_target_ = bed_target_ = 0;
     ready_at_ = now + 0.3;
@@ -48,9 +48,12 @@ void SimulatedMarlin::emergency(char c, double now) {
         return;
     }
     if (early_ == "M112") kill(now);
-    if (early_ == "M108") wait_for_heat_ = false;
+    if (early_ == "M108") end_wait();
+    if (early_.starts_with("M876 S")) wait_for_user_ = false;
     early_.clear();
 }
+
+void SimulatedMarlin::end_wait() { wait_for_heat_ = wait_for_user_ = false; }
 
 void SimulatedMarlin::receive(std::string_view bytes, double now) {
     for (const char c : bytes) {
@@ -116,7 +119,7 @@ void SimulatedMarlin::read_line(double now) {
     }
     command.text = command.text.substr(0, command.text.find('*'));
     if (command.number < 0 && is(command.text, "M112")) return kill(now);
-    if (command.number < 0 && is(command.text, "M108")) wait_for_heat_ = false;
+    if (command.number < 0 && is(command.text, "M108")) end_wait();
     slots_.push_back(command);
 }
 
@@ -153,6 +156,12 @@ void SimulatedMarlin::start_command(double now) {
         x_ = y_ = 0;
     } else if (is(text, "G4")) {
         run_until_ = now + value(text, 'S', value(text, 'P', 0) / 1000);
+    } else if (is(text, "M0")) {
+        wait_for_user_ = true;
+        if (options_.host_prompts) {
+            said_ += "//action:prompt_end\n//action:prompt_begin M0 Stop\n//action:prompt_button Continue\n";
+            said_ += "//action:prompt_show\n";
+        }
     } else if (is(text, "M400") && !planner_.empty()) {
         run_until_ = std::max(run_until_, planner_.back());
     } else if (is(text, "M104") || is(text, "M109")) {
@@ -167,8 +176,8 @@ void SimulatedMarlin::start_command(double now) {
         reports_ = value(text, 'S', 0) > 0;
         next_report_ = now + 1;
     } else if (is(text, "M115")) {
-        said_ += std::string("FIRMWARE_NAME:Marlin ") + (options_.old ? "1.1.9.1" : "2.1.2.1") +
-                 " (Github) SOURCE_CODE_URL:github.com/MarlinFirmware/Marlin PROTOCOL_VERSION:1.0\n";
+        said_ += "FIRMWARE_NAME:" + options_.name + " " + (options_.old ? "1.1.9.1" : "2.1.2.1") +
+                 " (Github) SOURCE_CODE_URL:github.com/" + options_.name + " PROTOCOL_VERSION:1.0\n";
         said_ += "Cap:SERIAL_XON_XOFF:0\nCap:EEPROM:0\nCap:AUTOREPORT_TEMP:1\n";
         said_ += std::string("Cap:EMERGENCY_PARSER:") + (options_.emergency_parser ? "1\n" : "0\n");
     }
@@ -208,11 +217,12 @@ std::string SimulatedMarlin::run(double now) {
         if (running_ && wait_for_heat_) {
             if (now >= next_report_) said_ += " " + temperatures() + " W:?\n", next_report_ += 1;
         } else if (running_ && options_.keepalive && now >= next_busy_) {
-            said_ += "echo:busy: processing\n";
+            said_ += wait_for_user_ ? "echo:busy: paused for user\n" : "echo:busy: processing\n";
             next_busy_ += 2;
         }
-        if (running_ && (now >= run_until_ || (is(slots_.front().text, "M109") && !wait_for_heat_))) {
-            at = std::min(now, run_until_);
+        if (running_ && !wait_for_user_ &&
+            (now >= run_until_ || (is(slots_.front().text, "M109") && !wait_for_heat_))) {
+            at = is(slots_.front().text, "M0") ? now : std::min(now, run_until_);
             if (is(slots_.front().text, "M109") && wait_for_heat_) nozzle_ = nozzle_target_;
             wait_for_heat_ = running_ = false;
             const Command done = slots_.front();

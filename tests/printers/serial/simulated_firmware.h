@@ -19,12 +19,15 @@ struct FirmwareOptions {
     bool resend_has_ok = true;      ///< some builds leave it out
     bool keepalive = true;          ///< "busy: processing" every 2 s
     double line_time = 0.0005;      ///< s to read and run a line, without its motion
+    bool host_prompts = false;      ///< M0 opens a dialog, which M876 answers
+    std::string name = "Marlin";    ///< told by M115
     double spurious = 0;            ///< share of good lines that it errs about by itself
     unsigned seed = 1;
 };
 
 class SimulatedMarlin {
   public:
+    using Options = FirmwareOptions;
     explicit SimulatedMarlin(FirmwareOptions options) : options_(options), random_(options.seed) {}
 
     /// Turned on, or reset: says its greeting.
@@ -38,6 +41,7 @@ class SimulatedMarlin {
     const std::vector<std::string>& executed() const { return executed_; }
     bool killed() const { return killed_; }
     double killed_at() const { return killed_at_; }
+    bool waits_for_user() const { return wait_for_user_; }
     bool heating() const { return nozzle_target_ > 0 || bed_target_ > 0; }
     std::int64_t errors() const { return errors_; }
     std::int64_t lost_bytes() const { return lost_bytes_; }
@@ -57,6 +61,7 @@ class SimulatedMarlin {
     void answer(const Command& command);
     std::string temperatures() const;
     void emergency(char c, double now);
+    void end_wait();
 
     FirmwareOptions options_;
     std::mt19937 random_;
@@ -71,6 +76,7 @@ class SimulatedMarlin {
     double next_report_ = 0;
     double ready_at_ = 0;
     bool wait_for_heat_ = false;
+    bool wait_for_user_ = false;
     bool reports_ = false;
     std::int64_t last_number_ = 0;
     double nozzle_ = 25, nozzle_target_ = 0, bed_target_ = 0;
