@@ -12,9 +12,14 @@ bool is_digit(char c) { return '0' <= c && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 char upper(char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+/// Text for a display, which may be cut.
 bool shows_text(const std::string& word) {
-    return word == "M117" || word == "M118" || word == "M23" || word == "M28" || word == "M30" ||
-           word == "M32";
+    return word == "M117" || word == "M118" || word == "M0" || word == "M1";
+}
+
+/// The name of a file, of which every letter counts.
+bool names_file(const std::string& word) {
+    return word == "M23" || word == "M28" || word == "M30" || word == "M32";
 }
 
 /// Without "N12" at the front and "*34" at the end.
@@ -96,10 +101,10 @@ std::string clean_command(std::string_view line, std::size_t longest) {
     for (const char c : bare.substr(0, 6)) start += upper(c);
     const std::string word = command_word(start);
     std::string command;
-    if (shows_text(word)) {
+    if (shows_text(word) || names_file(word)) {
         for (const char c : bare.substr(0, bare.find(';'))) command += ' ' <= c && c <= '~' ? c : '?';
         for (std::size_t i = 0; i < word.size(); ++i) command[i] = upper(command[i]);
-        command = std::string(trimmed(std::string_view(command).substr(0, longest)));
+        command = trimmed(std::string_view(command).substr(0, shows_text(word) ? longest : command.size()));
     } else {
         command = tidy_words(without_comments(bare));
     }

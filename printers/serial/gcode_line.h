@@ -15,8 +15,9 @@ constexpr std::size_t longest_grbl_line = 80;
 constexpr std::size_t longest_command = longest_marlin_line - 14;
 
 /// A line of a job without comments, surplus blanks, line numbers, checksums and trailing zeros, in capitals;
-/// empty when nothing is left to send. Text that a command shows (M117, M118, M23) is kept but for its
-/// length. Throws InputError for a line longer than `longest` and for one that is no command.
+/// empty when nothing is left to send. Text that a command shows (M0, M1, M117, M118) is kept but for its
+/// length, the name of a file (M23, M28, M30, M32) as it is. Throws InputError for a line longer than
+/// `longest` and for one that is no command.
 std::string clean_command(std::string_view line, std::size_t longest = longest_command);
 
 /// XOR of all bytes.

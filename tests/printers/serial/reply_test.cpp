@@ -102,6 +102,10 @@ TEST_CASE("lines that are sent are short, clean and summed") {
     CHECK(clean_command("(all) G1 (here) X-.50") == "G1 X-.5");
     CHECK(clean_command("N12 G28 X*77") == "G28 X");
     CHECK(clean_command("M117 Hello (you)") == "M117 Hello (you)");
+    CHECK(clean_command("m0 Next board") == "M0 Next board");
+    CHECK(clean_command("M117 " + std::string(100, 'a')) == "M117 " + std::string(longest_command - 5, 'a'));
+    CHECK(clean_command("M23 part.gco") == "M23 part.gco");
+    CHECK_THROWS_AS(clean_command("M23 " + std::string(100, 'a')), InputError);
     for (const char* nothing : {"", "   ", "; only a comment", "%", "M110 N5", "(x)"})
         CHECK(clean_command(nothing).empty());
     CHECK_THROWS_AS(clean_command("G1 X" + std::string(100, '1')), InputError);
