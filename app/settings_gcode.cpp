@@ -98,7 +98,7 @@ void add_speeds(std::vector<Setting>& t) {
                                .help = "Speed of beads with nothing under them; 0: as if they were held."});
     add_row<&G::bridge_flow>(
         t, "bridge_flow", "--printer-bridge-flow",
-        {.limits = {0.1, 3},
+        {.limits = {0.1, 5},
          .help = "Plastic of beads with nothing under them, over what fills their volume."});
     add_row<&G::bridge_fan>(
         t, "bridge_fan", "--printer-bridge-fan",

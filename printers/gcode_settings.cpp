@@ -34,7 +34,7 @@ void check_gcode_profile(const GcodeProfile& profile) {
           std::pair("thin_speed", profile.thin_speed), std::pair("bridge_speed", profile.bridge_speed)}) {
         if (speed != 0) check(key, speed, slowest, fastest);
     }
-    check("bridge_flow", profile.bridge_flow, 0.1, 3);
+    check("bridge_flow", profile.bridge_flow, 0.1, 5);
     check("bridge_fan", profile.bridge_fan, 0, 1);
     check("retract_from", profile.retract_from, 0, 1e5);
     check("retract_inside_from", profile.retract_inside_from, 0, 1e5);

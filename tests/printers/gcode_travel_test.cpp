@@ -88,16 +88,19 @@ PrinterProfile plain() {
     PrinterProfile profile;
     profile.name = "marlin";
     profile.filament.infill_density = 0.3;
+    profile.toolpath.top_layers = profile.toolpath.bottom_layers = 0;
     profile.gcode.prime_line = false;
     return profile;
 }
 
-std::vector<Figure> u_shape() {
-    return {rectangle({-15, -15}, {15, -9}), rectangle({-15, -15}, {-9, 15}), rectangle({9, -15}, {15, 15})};
+/// Two arms of this length on a bar.
+std::vector<Figure> u_shape(double arm) {
+    return {rectangle({-15, -15}, {15, -9}), rectangle({-15, -15}, {-9, arm - 15}),
+            rectangle({9, -15}, {15, arm - 15})};
 }
-Job u_part() {
+Job u_part(double arm) {
     return make_job(
-        {{-15, -15, 0}, {15, 15, 1}}, [](double) { return u_shape(); }, 0.2);
+        {{-15, -15, 0}, {15, std::max(arm - 15, 15.0), 1}}, [arm](double) { return u_shape(arm); }, 0.2);
 }
 /// A plate with windows, whose beads lie far apart.
 std::vector<Figure> windows() {
@@ -142,8 +145,8 @@ double farthest_out(const Reading& reading, const FigureSlice& part) {
 
 TEST_CASE("travels between beads of an island stay inside it, off the outer wall", "[gcode][travel]") {
     const bool ring = GENERATE(false, true);
-    const Job job = ring ? windowed() : u_part();
-    const FigureSlice part(ring ? std::vector<Figure>{rectangle({-15, -15}, {15, 15})} : u_shape(),
+    const Job job = ring ? windowed() : u_part(12);
+    const FigureSlice part(ring ? std::vector<Figure>{rectangle({-15, -15}, {15, 15})} : u_shape(12),
                            ring ? windows() : std::vector<Figure>());
     PrinterProfile profile = plain();
     const std::string text = print(job, profile);
@@ -154,6 +157,21 @@ TEST_CASE("travels between beads of an island stay inside it, off the outer wall
     const std::string straight = print(job, profile);
     CHECK(farthest_out(read(straight), part) > 0.5);
     CHECK(read(straight).extruded == Approx(inside.extruded).epsilon(1e-9));
+}
+
+TEST_CASE("a detour of more than three times the straight way is not worth it", "[gcode][travel]") {
+    const PrinterProfile profile = plain();
+    const Reading reading = read(print(u_part(60), profile));
+    int across = 0;
+    for (const Way& way : reading.ways) {
+        if (way.changes_layer || way.points.empty()) continue;
+        const double straight = glm::distance(way.points.front(), way.points.back());
+        CHECK(way.length() <= 3 * straight + 0.5);
+        if (std::abs(way.points.front().x - way.points.back().x) < 18) continue;
+        ++across;
+        CHECK(way.drawn == Approx(0.8));
+    }
+    CHECK(across > 0);
 }
 
 TEST_CASE("filament is drawn back on ways as long as the profile says", "[gcode][travel]") {
