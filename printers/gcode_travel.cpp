@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace lamella {
+namespace {
+
+constexpr double shortest_search = 2;  // in line widths; shorter ways within an island are made straight
+
+}  // namespace
 
 double travel_height(const PrinterProfile& profile, double z, double length) {
     if (profile.filament.retraction <= 0 || length < profile.gcode.z_hop_from) return z;
@@ -16,7 +21,8 @@ void BeadTravel::go(dvec2 to, int from_island, int to_island, std::span<const dv
     const GcodeProfile& g = profile_.gcode;
     const bool same = from_island == to_island;
     std::optional<std::vector<dvec2>> corners;
-    if (same && g.travel_inside) corners = corners_inside(to, to_island);
+    const bool step = glm::distance(moves_.position(), to) <= shortest_search * profile_.filament.line_width;
+    if (same && g.travel_inside) corners = step ? std::vector<dvec2>() : corners_inside(to, to_island);
     const bool inside = g.travel_inside ? corners.has_value() : same;
     const double longest = inside ? g.retract_inside_from : g.retract_from;
     const bool retracted =
