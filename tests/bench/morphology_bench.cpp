@@ -1,0 +1,120 @@
+// A foam and a capsule of 40 mm grown by balls, as dexels of one core; by the sweeps and by brute force.
+#include <benchmark/benchmark.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/layer.h"
+#include "engine/layer_offset.h"
+#include "engine/primitives.h"
+#include "procedural/voronoi_foam.h"
+
+namespace {
+
+using namespace lamella;
+
+constexpr double edge = 40;  // mm
+
+FieldPtr solid(std::int64_t kind) {
+    if (kind == 1) return make_round_cone(Beam{{0, 0, -8}, 10, {0, 0, 8}, 10});
+    FoamSettings settings;
+    settings.cell = 4;
+    settings.beam_radius = 0.3;
+    settings.seed = 1;
+    settings.region = {dvec3(-edge / 2), dvec3(edge / 2)};
+    return make_voronoi_foam(settings);
+}
+
+/// n^3 dexels.
+std::vector<SpanRows> dexels(std::int64_t kind, int n) {
+    const FieldPtr field = solid(kind);
+    RowBand band;
+    band.along_pitch = band.across_pitch = edge / n;
+    band.along_origin = band.across_origin = -edge / 2;
+    band.count = band.hi = n;
+    std::vector<SpanRows> layers(static_cast<std::size_t>(n));
+    Scratch scratch;
+    for (int z = 0; z < n; ++z) {
+        SliceContext context;
+        const double height = -edge / 2 + (z + 0.5) * edge / n;
+        context.slice(*field, height).spans(band, scratch, layers[static_cast<std::size_t>(z)]);
+    }
+    return layers;
+}
+
+/// Arguments: 0 foam or 1 capsule, n, radius in tenths of a dexel.
+void grow_layers(benchmark::State& state) {
+    const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const int n = static_cast<int>(state.range(1));
+    const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
+    const std::vector<SpanRows> layers = dexels(state.range(0), n);
+    std::int64_t volume = 0, runs = 0;
+    for (auto _ : state) {
+        GrowingLayers growing({run_unit, run_unit, static_cast<std::size_t>(n)}, radius);
+        volume = 0;
+        SpanRows out;
+        const auto take = [&] {
+            while (growing.pop(out)) volume += out.total_length();
+        };
+        for (const SpanRows& layer : layers) {
+            growing.push(BallRows(layer, radius));
+            take();
+        }
+        growing.finish();
+        take();
+    }
+    for (const SpanRows& layer : layers) runs += static_cast<std::int64_t>(layer.runs().size());
+    state.counters["runs"] = static_cast<double>(runs);
+    state.counters["volume"] = static_cast<double>(volume) / run_unit;
+}
+void sizes(benchmark::internal::Benchmark* bench) {
+    for (const int kind : {0, 1}) {
+        for (const int n : {256, 512}) {
+            for (const int radius : {10, 25, 50, 100, 200, 400, 640}) bench->Args({kind, n, radius});
+        }
+    }
+    bench->Unit(benchmark::kMillisecond)->Iterations(1);
+}
+BENCHMARK(grow_layers)->Apply(sizes);
+
+/// The union over all rows within reach, for every 16th layer alone.
+void grow_layers_brute(benchmark::State& state) {
+    const int n = static_cast<int>(state.range(1));
+    const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
+    const std::vector<SpanRows> layers = dexels(state.range(0), n);
+    const int reach = static_cast<int>(radius / run_unit);
+    constexpr int stride = 16;
+    for (auto _ : state) {
+        std::vector<Run> runs;
+        std::int64_t volume = 0;
+        for (int z = 0; z < n; z += stride) {
+            for (int y = 0; y < n; ++y) {
+                runs.clear();
+                for (int dz = -reach; dz <= reach; ++dz) {
+                    for (int dy = -reach; dy <= reach; ++dy) {
+                        const double left =
+                            radius * radius - double(run_unit) * run_unit * (dy * dy + dz * dz);
+                        if (left < 0 || z + dz < 0 || z + dz >= n || y + dy < 0 || y + dy >= n) continue;
+                        const auto grow = static_cast<std::int32_t>(std::sqrt(left));
+                        for (const Run& run :
+                             layers[static_cast<std::size_t>(z + dz)].line(static_cast<std::size_t>(y + dy)))
+                            runs.push_back({run.begin - grow, run.end + grow});
+                    }
+                }
+                std::ranges::sort(runs, {}, &Run::begin);
+                SpanRows line;
+                for (const Run& run : runs) line.push(run.begin, run.end);
+                line.end_line();
+                volume += line.total_length();
+            }
+        }
+        benchmark::DoNotOptimize(volume);
+    }
+}
+BENCHMARK(grow_layers_brute)
+    ->ArgsProduct({{0, 1}, {256}, {10, 25, 50, 100, 200}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+
+}  // namespace
