@@ -1,0 +1,103 @@
+// One offset after the other.
+#include "engine/layer_opening.h"
+
+#include <cmath>
+
+#include "engine/error.h"
+
+namespace lamella {
+namespace {
+
+std::size_t steps_within(double reach, double pitch) { return static_cast<std::size_t>(reach / pitch); }
+
+LayerLattice widened(LayerLattice lattice, std::size_t margin) {
+    lattice.lines += 2 * margin;
+    return lattice;
+}
+
+/// Appends lines [first, first + count).
+void append_lines(const SpanRows& rows, std::size_t first, std::size_t count, SpanRows& out) {
+    for (std::size_t l = first; l < first + count; ++l) out.append_line(rows.line(l));
+}
+
+}  // namespace
+
+LayerLattice ball_lattice(const RowBand& band, double layer_height, double across, double up) {
+    if (!(across > 0 && up > 0)) throw InputError("a ball reaches farther than nothing in all directions");
+    const double unit = std::abs(band.along_pitch) / run_unit;
+    return {std::abs(band.across_pitch) / band.sub / unit, layer_height * (across / up) / unit,
+            static_cast<std::size_t>(band.lines())};
+}
+
+OpenedLayers::OpenedLayers(const LayerLattice& lattice, double radius)
+    : radius_(radius), shrunk_(lattice, radius), grown_(lattice, radius) {}
+
+void OpenedLayers::push(const SpanRows& layer) {
+    shrunk_.push(layer);
+    carry_on();
+}
+
+void OpenedLayers::finish() {
+    shrunk_.finish();
+    carry_on();
+    grown_.finish();
+}
+
+void OpenedLayers::carry_on() {
+    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(BallRows(rows, radius_));
+}
+
+ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius)
+    : radius_(radius),
+      lines_(lattice.lines),
+      margin_(steps_within(radius, lattice.row_pitch)),
+      beyond_(steps_within(radius, lattice.layer_pitch)),
+      to_drop_(beyond_),
+      grown_(widened(lattice, margin_), radius),
+      shrunk_(widened(lattice, margin_), radius) {
+    push_empty();
+}
+
+/// What grows out of the lattice has to be there when it shrinks back.
+void ClosedLayers::push_empty() {
+    SpanRows nothing;
+    for (std::size_t l = 0; l < lines_ + 2 * margin_; ++l) nothing.end_line();
+    for (std::size_t i = 0; i < beyond_; ++i) grown_.push(BallRows(nothing, radius_));
+    carry_on();
+}
+
+void ClosedLayers::push(const SpanRows& layer) {
+    if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
+    SpanRows wide;
+    for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
+    append_lines(layer, 0, lines_, wide);
+    for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
+    grown_.push(BallRows(wide, radius_));
+    ++to_come_;
+    carry_on();
+}
+
+void ClosedLayers::finish() {
+    push_empty();
+    grown_.finish();
+    carry_on();
+    shrunk_.finish();
+}
+
+void ClosedLayers::carry_on() {
+    for (SpanRows rows; grown_.pop(rows);) shrunk_.push(rows);
+}
+
+bool ClosedLayers::pop(SpanRows& out) {
+    SpanRows wide;
+    for (; to_drop_ > 0; --to_drop_) {
+        if (!shrunk_.pop(wide)) return false;
+    }
+    if (to_come_ == 0 || !shrunk_.pop(wide)) return false;
+    --to_come_;
+    out.clear();
+    append_lines(wide, margin_, lines_, out);
+    return true;
+}
+
+}  // namespace lamella
