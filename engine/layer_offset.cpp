@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::int32_t far_out = 1 << 29;  // run units; solids lie within, the void reaches up to it
 
-std::size_t steps_within(double reach, double pitch) {
-    return static_cast<std::size_t>(std::max(0.0, std::floor(reach / pitch)));
-}
-
 /// Appends a line that covers all of the intervals.
 void push_united(std::vector<Run>& runs, SpanRows& out) {
     std::ranges::sort(runs, {}, &Run::begin);
@@ -123,7 +119,7 @@ void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
 }
 
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
-    const std::size_t margin = steps_within(radius, row_pitch);
+    const auto margin = static_cast<std::size_t>(radius / row_pitch);
     SpanRows voids;
     grow_rows(void_of(rows, margin, radius), row_pitch, voids);
     out.clear();
@@ -131,7 +127,7 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
 }
 
 GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
-    : lattice_(lattice), reach_(steps_within(most_reach, lattice.layer_pitch)) {}
+    : lattice_(lattice), reach_(lattice.layers_within(most_reach)) {}
 
 void GrowingLayers::push(BallRows layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
@@ -203,8 +199,8 @@ Run GrowingLayers::extent(std::size_t layers) const {
 ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)
     : lattice_(lattice),
       radius_(radius),
-      margin_(steps_within(radius, lattice.row_pitch)),
-      void_layers_(steps_within(radius, lattice.layer_pitch)),
+      margin_(lattice.lines_within(radius)),
+      void_layers_(lattice.layers_within(radius)),
       to_drop_(void_layers_),
       voids_({lattice.row_pitch, lattice.layer_pitch, lattice.lines + 2 * margin_}, radius) {
     push_void();

@@ -34,6 +34,10 @@ struct LayerLattice {
     double row_pitch = run_unit;    ///< from line to line
     double layer_pitch = run_unit;  ///< from layer to layer
     std::size_t lines = 0;          ///< of each layer
+
+    /// How many lines, or layers, a ball reaches to either side.
+    std::size_t lines_within(double reach) const { return static_cast<std::size_t>(reach / row_pitch); }
+    std::size_t layers_within(double reach) const { return static_cast<std::size_t>(reach / layer_pitch); }
 };
 
 /// The rows of one layer, grown by a disc about each of their points. Ends are rounded to the nearest unit;

@@ -8,8 +8,6 @@
 namespace lamella {
 namespace {
 
-std::size_t steps_within(double reach, double pitch) { return static_cast<std::size_t>(reach / pitch); }
-
 LayerLattice widened(LayerLattice lattice, std::size_t margin) {
     lattice.lines += 2 * margin;
     return lattice;
@@ -50,8 +48,8 @@ void OpenedLayers::carry_on() {
 ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius)
     : radius_(radius),
       lines_(lattice.lines),
-      margin_(steps_within(radius, lattice.row_pitch)),
-      beyond_(steps_within(radius, lattice.layer_pitch)),
+      margin_(lattice.lines_within(radius)),
+      beyond_(lattice.layers_within(radius)),
       to_drop_(beyond_),
       grown_(widened(lattice, margin_), radius),
       shrunk_(widened(lattice, margin_), radius) {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "tests/printers/bead_length.h"
 #include "tests/printers/hand_made_contours.h"
 
 using namespace lamella;
@@ -13,14 +14,6 @@ using namespace lamella::test;
 namespace {
 
 constexpr double height = 0.2;
-
-double length_of(const Bead& bead) {
-    double sum = 0;
-    for (std::size_t i = 1; i < bead.points.size(); ++i)
-        sum += glm::distance(bead.points[i - 1], bead.points[i]);
-    if (bead.closed) sum += glm::distance(bead.points.back(), bead.points.front());
-    return sum;
-}
 
 Polygons discs() {
     Polygons polygons;

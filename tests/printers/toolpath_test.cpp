@@ -7,6 +7,7 @@
 #include <random>
 
 #include "printers/polygons.h"
+#include "tests/printers/bead_length.h"
 #include "tests/printers/hand_made_contours.h"
 
 using namespace lamella;
@@ -15,14 +16,6 @@ using namespace lamella::test;
 namespace {
 
 constexpr double height = 0.2;
-
-double length_of(const Bead& bead) {
-    double sum = 0;
-    for (std::size_t i = 1; i < bead.points.size(); ++i)
-        sum += glm::distance(bead.points[i - 1], bead.points[i]);
-    if (bead.closed) sum += glm::distance(bead.points.back(), bead.points.front());
-    return sum;
-}
 
 double volume_of(const Toolpaths& paths) {
     double sum = 0;
