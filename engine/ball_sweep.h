@@ -21,7 +21,7 @@ struct BallRun {
 /// By how many units a reach moves ends of runs when these are rounded to the nearest unit, halves upward.
 struct BallReach {
     std::int32_t back, ahead;
-    explicit BallReach(double reach) : back(static_cast<std::int32_t>(reach + 0.5)), ahead(back) {
+    explicit BallReach(double reach) : back(static_cast<std::int32_t>(2 * reach + 1) / 2), ahead(back) {
         if (back - reach == 0.5) --back;
     }
 };
