@@ -63,7 +63,6 @@ Polygons hanging_part(const Polygons& region, const Footing& footing, double wid
 std::vector<InnerRegion> bridges_over(const Polygons& hanging, const Polygons& solid, const Footing& footing,
                                       double width) {
     std::vector<InnerRegion> bridges;
-    if (hanging.empty()) return bridges;
     for (Polygons& piece :
          split_pieces(intersect_polygons(offset_polygons(hanging, anchor * width), solid))) {
         const Polygons spanned = intersect_polygons(hanging, piece);
@@ -92,7 +91,8 @@ std::vector<InnerRegion> divide_inside(const Polygons& region, const Surrounding
     const Polygons hanging =
         around.footing && !solid.empty() ? hanging_part(solid, *around.footing, line.width) : Polygons();
     if (all_solid && hanging.empty()) return {{region}};
-    std::vector<InnerRegion> regions = bridges_over(hanging, solid, *around.footing, line.width);
+    std::vector<InnerRegion> regions;
+    if (!hanging.empty()) regions = bridges_over(hanging, solid, *around.footing, line.width);
     Polygons other = solid;
     for (const InnerRegion& bridge : regions) other = subtract_polygons(other, bridge.region);
     const double least = line.least_area();
