@@ -50,7 +50,7 @@ class BallSweep {
 
     /// The covered intervals, ends rounded to the nearest unit, in no order; they may overlap.
     void append_covered(std::vector<Run>& out) const;
-    /// The runs in reach with what is left of their weights, in no order.
+    /// The runs in reach with what is left of their weights, sorted by begin.
     void append_runs(std::vector<BallRun>& out) const;
 
   private:

@@ -1,6 +1,7 @@
 // RunUnion: the union of many overlapping runs of one line, without sorting them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 

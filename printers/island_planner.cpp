@@ -70,9 +70,10 @@ void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls
     const Role role = walls_laid == 0 ? Role::external_perimeter : Role::gap_fill;
     std::vector<Bead> lines = tapered_beads(thin, area, line_, role);
     constexpr double enough = 0.9;
+    // A piece hardly longer than thick has a line too short for its plastic.
     if (thin.whole && lines.size() == 1 &&
         bead_volume(lines.front(), line_.height) < enough * area * line_.height) {
-        return fill_thick(exact, piece, walls_laid);  // a stub, whose line is too short
+        return fill_thick(exact, piece, walls_laid);
     }
     add(std::move(lines));
 }

@@ -15,7 +15,7 @@ Polygons to_polygons(const std::vector<Contour>& contours) {
 
 }  // namespace
 
-std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const {
+std::shared_ptr<NeighbourLayers::Entry> NeighbourLayers::entry(int index) const {
     std::shared_ptr<Entry> entry;
     {
         const std::lock_guard lock(mutex_);
@@ -27,6 +27,11 @@ std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const 
         const Layer layer(*job_, index);
         entry->outlines = {layer.contours(tolerance_), layer.support_contours(tolerance_)};
     });
+    return entry;
+}
+
+std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const {
+    const std::shared_ptr<Entry> entry = this->entry(index);
     return {entry, &entry->outlines};
 }
 
@@ -43,9 +48,10 @@ PlacedPolygons NeighbourLayers::core(int index, int below, int above) const {
     bool first = true;
     for (int i = index - below; i <= index + above; ++i) {
         if (i == index) continue;
-        // Coarser by what no bead can follow anyway.
-        Polygons section = simplified(to_polygons(outlines(i)->part), tolerance_);
-        common = std::exchange(first, false) ? std::move(section) : intersect_polygons(common, section);
+        const std::shared_ptr<Entry> layer = entry(i);
+        std::call_once(layer->simplified,
+                       [&] { layer->coarse = simplified(to_polygons(layer->outlines.part), tolerance_); });
+        common = std::exchange(first, false) ? layer->coarse : intersect_polygons(common, layer->coarse);
         if (common.empty()) break;
     }
     return PlacedPolygons(std::move(common));

@@ -35,9 +35,11 @@ class NeighbourLayers {
 
   private:
     struct Entry {
-        std::once_flag traced;
+        std::once_flag traced, simplified;
         LayerOutlines outlines;
+        Polygons coarse;  // the part's, as coarse as no bead can follow anyway
     };
+    std::shared_ptr<Entry> entry(int index) const;
 
     const Job* job_;
     double tolerance_;

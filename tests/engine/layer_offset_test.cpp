@@ -5,7 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "tests/engine/through_layers.h"
+
 using namespace lamella;
+using namespace lamella::test;
 
 namespace {
 
@@ -94,13 +97,6 @@ void check_equal(std::span<const Run> line, const std::vector<Run>& expected) {
     REQUIRE(std::vector<Run>(line.begin(), line.end()) == expected);
 }
 
-template <typename Layers>
-std::vector<SpanRows> all_of(Layers& layers) {
-    std::vector<SpanRows> result;
-    for (SpanRows rows; layers.pop(rows);) result.push_back(rows);
-    return result;
-}
-
 /// What the void of a stack, in all directions, leaves of it.
 Stack voids_of(const Stack& stack, int margin_layers, int margin_lines, double radius) {
     const double weight = radius * radius;
@@ -182,14 +178,7 @@ TEST_CASE("grown layers equal brute force", "[morphology]") {
         const Stack stack =
             random_stack(random, layers, 18, [&](double unit) { return varying ? unit * radius : radius; });
         CAPTURE(round, radius);
-        GrowingLayers growing(lattice, radius);
-        std::vector<SpanRows> out;
-        for (const Lines& layer : stack) {
-            growing.push(rows_of(layer));
-            for (SpanRows& rows : all_of(growing)) out.push_back(std::move(rows));
-        }
-        growing.finish();
-        for (SpanRows& rows : all_of(growing)) out.push_back(std::move(rows));
+        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < layers; z += 3) {
             for (int l = 0; l < 18; ++l) {
@@ -209,14 +198,7 @@ TEST_CASE("shrunk layers equal brute force", "[morphology]") {
         const int margin_lines = static_cast<int>(radius / lattice.row_pitch);
         const int margin_layers = static_cast<int>(radius / lattice.layer_pitch);
         const Stack voids = voids_of(stack, margin_layers, margin_lines, radius);
-        ShrinkingLayers shrinking(lattice, radius);
-        std::vector<SpanRows> out;
-        for (const Lines& layer : stack) {
-            shrinking.push(spans_of(layer));
-            for (SpanRows& rows : all_of(shrinking)) out.push_back(std::move(rows));
-        }
-        shrinking.finish();
-        for (SpanRows& rows : all_of(shrinking)) out.push_back(std::move(rows));
+        const auto out = through(ShrinkingLayers(lattice, radius), stack, spans_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < 30; z += 2) {
             for (int l = 0; l < 24; ++l) {
@@ -230,17 +212,16 @@ TEST_CASE("shrunk layers equal brute force", "[morphology]") {
 TEST_CASE("a point grows into a ball, and a ball shrinks to a point", "[morphology]") {
     const double radius = 10 * run_unit;
     const LayerLattice lattice{run_unit, run_unit, 41};
-    GrowingLayers growing(lattice, radius);
-    for (int z = 0; z < 41; ++z) {
-        SpanRows rows;
-        for (int l = 0; l < 41; ++l) {
-            if (z == 20 && l == 20) rows.push(0, 1);
-            rows.end_line();
+    std::vector<SpanRows> stack(41);
+    for (std::size_t z = 0; z < 41; ++z) {
+        for (std::size_t l = 0; l < 41; ++l) {
+            if (z == 20 && l == 20) stack[z].push(0, 1);
+            stack[z].end_line();
         }
-        growing.push(BallRows(rows, radius));
     }
-    growing.finish();
+    const auto as_rows = [&](const SpanRows& rows) { return BallRows(rows, radius); };
     double volume = 0;
-    for (const SpanRows& rows : all_of(growing)) volume += static_cast<double>(rows.total_length());
+    for (const SpanRows& rows : through(GrowingLayers(lattice, radius), stack, as_rows))
+        volume += static_cast<double>(rows.total_length());
     CHECK(volume / run_unit == Approx(4.0 / 3 * 3.14159265 * 1000).epsilon(0.01));
 }

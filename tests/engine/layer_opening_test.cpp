@@ -5,7 +5,10 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/engine/through_layers.h"
+
 using namespace lamella;
+using namespace lamella::test;
 
 namespace {
 
@@ -27,19 +30,6 @@ std::vector<SpanRows> dexels(const Solid& solid) {
         stack.push_back(rows);
     }
     return stack;
-}
-
-template <typename Layers>
-std::vector<SpanRows> through(Layers&& process, const std::vector<SpanRows>& stack) {
-    std::vector<SpanRows> result;
-    SpanRows rows;
-    for (const SpanRows& layer : stack) {
-        process.push(layer);
-        while (process.pop(rows)) result.push_back(rows);
-    }
-    process.finish();
-    while (process.pop(rows)) result.push_back(rows);
-    return result;
 }
 
 double volume(const std::vector<SpanRows>& stack) {
