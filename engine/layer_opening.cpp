@@ -27,8 +27,19 @@ LayerLattice ball_lattice(const RowBand& band, double layer_height, double acros
             static_cast<std::size_t>(band.lines())};
 }
 
-OpenedLayers::OpenedLayers(const LayerLattice& lattice, double radius)
-    : radius_(radius), shrunk_(lattice, radius), grown_(lattice, radius) {}
+SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up) {
+    const double pitch = std::abs(band.along_pitch), across = thickness - pitch,
+                 up = thickness_up - layer_height;
+    if (!(across > 0)) throw InputError("rows as far apart as a thickness cannot tell it");
+    const double radius = 0.5 * across / pitch * run_unit;
+    if (up > 0) return {ball_lattice(band, layer_height, across, up), radius};
+    LayerLattice flat = ball_lattice(band, layer_height, across, across);
+    flat.layer_pitch = infinity;
+    return {flat, radius};
+}
+
+OpenedLayers::OpenedLayers(const LayerLattice& lattice, double radius, double slack)
+    : reach_(radius + slack), shrunk_(lattice, radius), grown_(lattice, radius + slack) {}
 
 void OpenedLayers::push(const SpanRows& layer) {
     shrunk_.push(layer);
@@ -42,17 +53,17 @@ void OpenedLayers::finish() {
 }
 
 void OpenedLayers::carry_on() {
-    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(BallRows(rows, radius_));
+    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(BallRows(rows, reach_));
 }
 
-ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius)
+ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius, double slack)
     : radius_(radius),
       lines_(lattice.lines),
       margin_(lattice.lines_within(radius)),
       beyond_(lattice.layers_within(radius)),
       to_drop_(beyond_),
       grown_(widened(lattice, margin_), radius),
-      shrunk_(widened(lattice, margin_), radius) {
+      shrunk_(widened(lattice, margin_), radius + slack) {
     push_empty();
 }
 

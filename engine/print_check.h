@@ -40,13 +40,13 @@ struct PrintLimits {
     double neck = 1;                              ///< least thickness of what joins large parts
     double large_part = 1000;                     ///< volume from which a part is large, mm^3
     double overhang = 0.2;                        ///< by which a layer may stand out over the one below
+    double free_stretch = 1;                      ///< what hangs and is smaller across needs no hold
     double bridge = 10;                           ///< longest stretch between two holds
     double support_spacing = 3;                   ///< a support holds what lies within this distance
     double support_gap = 0;                       ///< height that may lie between a support and what it holds
     double cavity = 1;                            ///< volume from which a closed void matters, mm^3
     double cup = 10;                              ///< volume from which a suction cup matters, mm^3
     dvec3 build_volume{infinity};                 ///< width, depth and height that the machine reaches
-    bool on_bed = true;  ///< whether the first layer lies on a bed, which holds it and closes it
 
     Verdict verdict(Check check) const { return verdicts[static_cast<std::size_t>(check)]; }
 };

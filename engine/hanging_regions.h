@@ -1,0 +1,24 @@
+// The parts of a layer that hang in the air, and whether beads laid straight can bridge them.
+#pragma once
+
+#include <optional>
+
+#include "engine/fault_list.h"
+
+namespace lamella {
+
+/// A connected region of a layer that nothing below holds.
+struct HangingRegion {
+    std::vector<PlacedRun> runs;   ///< by row
+    double diagonal = 0;           ///< of its bounds, mm
+    std::optional<double> bridge;  ///< longest way from hold to hold, laid in the direction where that is
+                                   ///< least, mm; empty: in no direction every way ends in holds
+};
+
+/// The regions of `hanging`, rows of a layer whose other parts, `held`, something below holds. Directions are
+/// sixteen of the half circle and each region's own axis; ways are known to a pitch, and void next to what
+/// hangs counts as on the way, for outlines slant.
+std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, int layer,
+                                                const CheckGrid& grid);
+
+}  // namespace lamella

@@ -1,0 +1,218 @@
+// Layers against grown layers below them.
+#include "engine/hold_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/layer_offset.h"
+
+namespace lamella {
+namespace {
+
+constexpr double rows_of_slope = 4;  // by which an outline may move over what a slope is followed over
+constexpr std::size_t most_slope_layers = 64;
+
+SpanRows united(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    unite(a, b, out);
+    return out;
+}
+
+SpanRows without(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    subtract(a, b, out);
+    return out;
+}
+
+bool touches(const SpanRows& rows, int r, const Run& run) {
+    if (r < 0 || r >= static_cast<int>(rows.lines())) return false;
+    bool any = false;
+    for_touching(std::span(&run, 1), rows.line(static_cast<std::size_t>(r)),
+                 [&](const Run&, const Run&) { any = true; });
+    return any;
+}
+
+SpanRows grown(const SpanRows& rows, double pitches) {
+    SpanRows out;
+    grow_rows(BallRows(rows, pitches * run_unit), run_unit, out);
+    return out;
+}
+
+/// The runs of those components of a layer that are chosen.
+SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
+                 const std::vector<std::uint8_t>& chosen) {
+    SpanRows out;
+    std::size_t i = 0;
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        for (const Run& run : rows.line(l)) {
+            if (chosen[labelled.owners[i++]] != 0) out.push(run.begin, run.end);
+        }
+        out.end_line();
+    }
+    return out;
+}
+
+std::size_t layers_in(double height, double layer_height) {
+    return static_cast<std::size_t>(std::max(std::ceil(height / layer_height - 1e-6), 0.0));
+}
+
+}  // namespace
+
+HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
+    : grid_(grid),
+      limits_(limits),
+      slope_layers_(std::clamp<std::size_t>(layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang),
+                                            1, most_slope_layers)),
+      support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
+      islands_(most),
+      overhangs_(most),
+      bridges_(most) {}
+
+HoldingRows HoldCheck::prepare(SpanRows part, SpanRows supports) const {
+    // Rows see a border up to a pitch late.
+    const double step = limits_.overhang / grid_.band.along_pitch;
+    HoldingRows layer;
+    layer.reach = grown(part, step + 1);
+    layer.far_reach = grown(part, static_cast<double>(slope_layers_) * step + 1);
+    layer.held_by_support = grown(supports, limits_.support_spacing / grid_.band.along_pitch);
+    layer.printed = united(part, supports);
+    layer.part = std::move(part);
+    layer.supports = std::move(supports);
+    return layer;
+}
+
+void HoldCheck::add(HoldingRows layer, int index) {
+    Below next;
+    if (below_.empty()) {
+        for (std::size_t l = 0; l < layer.part.lines(); ++l) next.hung.end_line();
+        add_overhang(next.hung, index);
+    } else {
+        const SpanRows islands = find_islands(layer, index);
+        const SpanRows hanging = without(hanging_over(layer), islands);
+        const SpanRows bad = judge_regions(layer, hanging, index);
+        next.hung = united(hanging, islands);
+        below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
+        const SpanRows steep = too_steep(layer);
+        below_.pop_back();
+        add_overhang(united(bad, steep), index);
+    }
+    next.rows = std::move(layer);
+    below_.push_back(std::move(next));
+    if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
+}
+
+/// The pieces of the part that nothing holds.
+SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
+    const LabelledLayer labelled = label_layer(layer.printed, index, Growth{});
+    std::vector<std::uint8_t> floats(labelled.components.size(), 1);
+    const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
+    std::size_t i = 0;
+    for (int r = 0; r < static_cast<int>(layer.printed.lines()); ++r) {
+        for (const Run& run : layer.printed.line(static_cast<std::size_t>(r))) {
+            std::uint8_t& component = floats[labelled.owners[i++]];
+            for (int near = r - 1; near <= r + 1 && component != 0; ++near) {
+                if (touches(below_.back().rows.printed, near, run)) component = 0;
+                for (std::size_t k = oldest; k < below_.size(); ++k) {
+                    if (touches(below_[k].rows.supports, near, run)) component = 0;
+                }
+            }
+        }
+    }
+    const SpanRows floating = rows_of(layer.printed, labelled, floats);
+    if (floating.runs().empty()) return floating;
+    PassingComponents one_layer;
+    one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
+    one_layer.finish(ended_);
+    for (const EndedComponent& ended : ended_) {
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.extent.length);
+        islands_.add(std::move(fault));
+    }
+    ended_.clear();
+    return floating;
+}
+
+/// What stands out over the layer below and no support holds.
+SpanRows HoldCheck::hanging_over(const HoldingRows& layer) const {
+    SpanRows hanging = without(layer.part, below_.back().rows.reach);
+    const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
+    for (std::size_t k = oldest; k < below_.size() && !hanging.runs().empty(); ++k)
+        hanging = without(hanging, below_[k].rows.held_by_support);
+    return hanging;
+}
+
+/// What went out further over several layers than it may, but for what lies above things that hang: those
+/// have been judged by themselves.
+SpanRows HoldCheck::too_steep(const HoldingRows& layer) const {
+    SpanRows steep;
+    for (std::size_t l = 0; l < layer.part.lines(); ++l) steep.end_line();
+    if (below_.size() <= slope_layers_) return steep;
+    const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
+    steep = without(layer.part, below_[first].rows.far_reach);
+    const double step = limits_.overhang / grid_.band.along_pitch;
+    for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
+        const Below& below = below_[k];
+        const auto above = static_cast<double>(below_.size() - 1 - k);
+        if (!below.hung.runs().empty()) steep = without(steep, grown(below.hung, above * step + 1));
+        if (k + 1 < below_.size() && !below.rows.held_by_support.runs().empty())
+            steep = without(steep, below.rows.held_by_support);
+    }
+    const LabelledLayer labelled = label_layer(steep, 0, Growth{});
+    std::vector<std::uint8_t> large;
+    for (const ComponentExtent& extent : labelled.components) {
+        const dvec3 size = grid_.box(extent).size();
+        large.push_back(size.x * size.x + size.y * size.y >= limits_.free_stretch * limits_.free_stretch);
+    }
+    return rows_of(steep, labelled, large);
+}
+
+/// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
+SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index) {
+    std::vector<std::vector<Run>> bad(hanging.lines());
+    if (!hanging.runs().empty()) {
+        const SpanRows held = without(layer.printed, hanging);
+        for (const HangingRegion& region : find_hanging_regions(hanging, held, index, grid_)) {
+            if (region.diagonal < limits_.free_stretch) continue;
+            if (!region.bridge) {
+                for (const PlacedRun& run : region.runs)
+                    bad[static_cast<std::size_t>(run.row)].push_back({run.begin, run.end});
+            } else if (*region.bridge > limits_.bridge) {
+                LayerPatch patch{.layer = index};
+                for (const PlacedRun& run : region.runs) patch.include(run);
+                Fault fault = grid_.fault(patch);
+                fault.size = *region.bridge;
+                bridges_.add(std::move(fault));
+            }
+        }
+    }
+    SpanRows out;
+    for (std::vector<Run>& line : bad) {
+        std::ranges::sort(line, {}, &Run::begin);
+        for (const Run& run : line) out.push(run.begin, run.end);
+        out.end_line();
+    }
+    return out;
+}
+
+void HoldCheck::add_overhang(const SpanRows& rows, int index) {
+    hanging_.add(label_layer(rows, index, Growth{}), index, {}, ended_);
+    for (const EndedComponent& ended : ended_) {
+        if (ended.joined) continue;
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.largest.length);
+        overhangs_.add(std::move(fault));
+    }
+    ended_.clear();
+}
+
+void HoldCheck::finish() {
+    hanging_.finish(ended_);
+    for (const EndedComponent& ended : ended_) {
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.largest.length);
+        overhangs_.add(std::move(fault));
+    }
+    ended_.clear();
+}
+
+}  // namespace lamella

@@ -1,0 +1,62 @@
+// What of each layer the layers below hold: islands, overhangs, and bridges that are too long.
+#pragma once
+
+#include <deque>
+
+#include "engine/hanging_regions.h"
+
+namespace lamella {
+
+/// The rows of a layer, as far as the next ones are compared with them.
+struct HoldingRows {
+    SpanRows part;
+    SpanRows supports;         ///< empty rows where there are none
+    SpanRows printed;          ///< both
+    SpanRows reach;            ///< the part grown by what a layer may stand out, and a pitch
+    SpanRows far_reach;        ///< the same for as many layers as a slope is followed over
+    SpanRows held_by_support;  ///< the supports, grown by what they hold
+};
+
+/// Compares each layer with those below it; the first one lies on the bed.
+///
+/// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
+/// supports keep. A region hangs where it stands out by more than `overhang` and a pitch over the layer
+/// below; slopes are followed over several layers, so that one is found that is steeper by a quarter than
+/// what is allowed (its tangent). What hangs is excused where it is smaller than `free_stretch`, or where one
+/// direction leads everywhere from hold to hold within the length of a bridge.
+class HoldCheck {
+  public:
+    HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
+
+    /// What the check needs of a layer. Pure.
+    HoldingRows prepare(SpanRows part, SpanRows supports) const;
+    void add(HoldingRows layer, int index);
+    void finish();
+
+    const FaultList& islands() const { return islands_; }
+    const FaultList& overhangs() const { return overhangs_; }
+    const FaultList& bridges() const { return bridges_; }
+
+  private:
+    /// A layer below and what hung in it, its islands included.
+    struct Below {
+        HoldingRows rows;
+        SpanRows hung;
+    };
+    SpanRows find_islands(const HoldingRows& layer, int index);
+    SpanRows hanging_over(const HoldingRows& layer) const;
+    SpanRows too_steep(const HoldingRows& layer) const;
+    SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
+    void add_overhang(const SpanRows& rows, int index);
+
+    CheckGrid grid_;
+    PrintLimits limits_;
+    std::size_t slope_layers_;    // over which a slope is followed
+    std::size_t support_layers_;  // back, whose supports hold
+    std::deque<Below> below_;     // newest last
+    PassingComponents hanging_;
+    std::vector<EndedComponent> ended_;
+    FaultList islands_, overhangs_, bridges_;
+};
+
+}  // namespace lamella

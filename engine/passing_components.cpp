@@ -1,0 +1,148 @@
+// Union-find between the components that go through one layer and those of the next.
+#include "engine/passing_components.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+namespace lamella {
+namespace {
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
+    while (parents[i] != i) {
+        parents[i] = parents[parents[i]];
+        i = parents[i];
+    }
+    return i;
+}
+
+/// The components of a layer by themselves.
+std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, const ComponentTags& tags) {
+    std::vector<PassingComponent> components(layer.components.size());
+    for (std::size_t c = 0; c < components.size(); ++c) {
+        components[c].extent = layer.components[c];
+        components[c].largest.layer = index;
+        if (!tags.flags.empty()) components[c].flags = tags.flags[c];
+        if (!tags.marks.empty()) components[c].marks = tags.marks[c];
+    }
+    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+        for (const LabelledRun& run : layer.row(r)) {
+            components[run.component].largest.include(PlacedRun{index, r, run.begin, run.end});
+        }
+    }
+    return components;
+}
+
+}  // namespace
+
+void LayerPatch::include(const PlacedRun& run) {
+    const auto width = std::int64_t{run.end} - run.begin;
+    length += width;
+    along += static_cast<double>(width) * 0.5 * (static_cast<double>(run.begin) + run.end);
+    across += static_cast<double>(width) * run.row;
+    if (runs.size() < most_kept) runs.push_back(run);
+}
+
+void LayerPatch::include(const LayerPatch& other) {
+    length += other.length;
+    along += other.along;
+    across += other.across;
+    const std::size_t room = most_kept - std::min(most_kept, runs.size());
+    const auto taken = static_cast<std::ptrdiff_t>(std::min(room, other.runs.size()));
+    runs.insert(runs.end(), other.runs.begin(), other.runs.begin() + taken);
+}
+
+LayerPatch::Point LayerPatch::middle() const {
+    const auto whole = static_cast<double>(std::max<std::int64_t>(length, 1));
+    const double u = along / whole, v = across / whole;
+    Point best{u, 0};
+    double nearest = infinity;
+    for (const PlacedRun& run : runs) {
+        const double inset = std::min(0.5 * run_unit, 0.5 * (static_cast<double>(run.end) - run.begin));
+        const double place = std::min(std::max(u, run.begin + inset), run.end - inset);
+        const double du = (place - u) / run_unit, dv = run.row - v, d = du * du + dv * dv;
+        if (d < nearest) {
+            nearest = d;
+            best = {place, run.row};
+        }
+    }
+    return best;
+}
+
+void PassingComponent::include(const PassingComponent& other) {
+    extent.include(other.extent);
+    flags |= other.flags;
+    if (!other.marks.empty()) {
+        std::vector<std::uint32_t> all;
+        std::ranges::set_union(marks, other.marks, std::back_inserter(all));
+        marks.swap(all);
+    }
+    if (other.largest.layer == largest.layer) {
+        largest.include(other.largest);
+    } else if (other.largest.length > largest.length ||
+               (other.largest.length == largest.length && other.largest.layer < largest.layer)) {
+        largest = other.largest;
+    }
+}
+
+void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags& tags,
+                            std::vector<EndedComponent>& ended) {
+    std::vector<PassingComponent> fresh = of_layer(layer, index, tags);
+    const auto old_count = static_cast<std::uint32_t>(live_.size());
+    std::vector<std::uint32_t> parents(live_.size() + fresh.size());
+    std::iota(parents.begin(), parents.end(), 0U);
+    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+        for (int near = r - 1; near <= r + 1; ++near) {
+            for_touching(layer.row(r), last_.row(near),
+                         [&](const LabelledRun& run, const LabelledRun& older) {
+                             const std::uint32_t a = root_of(parents, old_count + run.component),
+                                                 b = root_of(parents, older.component);
+                             parents[std::max(a, b)] = std::min(a, b);
+                         });
+        }
+    }
+    // The layer's own components first: the runs of one layer belong together before layers are compared.
+    std::vector<PassingComponent> joined(parents.size());
+    std::vector<std::uint8_t> goes_on(parents.size(), 0);
+    for (std::uint32_t c = 0; c < fresh.size(); ++c) {
+        const std::uint32_t root = root_of(parents, old_count + c);
+        if (goes_on[root] == 0) {
+            joined[root] = std::move(fresh[c]);
+            goes_on[root] = 1;
+        } else {
+            joined[root].include(fresh[c]);
+        }
+    }
+    std::vector<std::uint32_t> group_flags(parents.size());
+    for (std::uint32_t c = 0; c < parents.size(); ++c) {
+        const std::uint32_t root = root_of(parents, c);
+        group_flags[root] |= c < old_count ? live_[c].flags : joined[root].flags;
+    }
+    for (std::uint32_t c = 0; c < old_count; ++c) {
+        const std::uint32_t root = root_of(parents, c);
+        if (goes_on[root] == 0) {
+            ended.push_back({std::move(live_[c]), false, 0});
+            continue;
+        }
+        joined[root].include(live_[c]);
+        if (group_flags[root] != live_[c].flags)
+            ended.push_back({std::move(live_[c]), true, group_flags[root]});
+    }
+    std::vector<std::uint32_t> places(parents.size());
+    live_.clear();
+    for (std::uint32_t c = 0; c < parents.size(); ++c) {
+        if (goes_on[c] == 0) continue;
+        places[c] = static_cast<std::uint32_t>(live_.size());
+        live_.push_back(std::move(joined[c]));
+    }
+    for (LabelledRun& run : layer.runs) run.component = places[root_of(parents, old_count + run.component)];
+    last_ = std::move(layer);
+}
+
+void PassingComponents::finish(std::vector<EndedComponent>& ended) {
+    for (PassingComponent& component : live_) ended.push_back({std::move(component), false, 0});
+    live_.clear();
+    last_ = {};
+}
+
+}  // namespace lamella

@@ -1,0 +1,321 @@
+// The checks side by side: layers are prepared in parallel and compared in order.
+#include "engine/print_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/error.h"
+#include "engine/fault_list.h"
+#include "engine/hold_check.h"
+#include "engine/layer_checks.h"
+#include "engine/layer_thinness.h"
+#include "engine/neck_check.h"
+#include "engine/number_format.h"
+#include "engine/void_check.h"
+
+namespace lamella {
+namespace {
+
+constexpr int band_rows = 64;          // a band's runs stay in the cache
+constexpr double most_rows = 1 << 15;  // along a side
+constexpr double pitches_in_a_thickness = 5;
+constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
+
+CheckGrid check_grid(const Job& job, double pitch) {
+    const dvec3 size = job.bounds.size();
+    CheckGrid grid;
+    // A row and a pixel of void all round.
+    grid.band.along_origin = job.bounds.lo.x - pitch;
+    grid.band.across_origin = job.bounds.lo.y - pitch;
+    grid.band.along_pitch = grid.band.across_pitch = pitch;
+    grid.band.count = static_cast<int>(size.y / pitch) + 4;
+    grid.band.hi = static_cast<int>(size.x / pitch) + 4;
+    grid.z0 = job.z0();
+    grid.layer_height = job.layer_height;
+    return grid;
+}
+
+SpanRows all_rows(const SliceField* slice, const RowBand& whole, Scratch& scratch) {
+    SpanRows all;
+    const auto some = scratch.rows();
+    RowBand band = whole;
+    for (band.first = 0; band.first < whole.count; band.first += band_rows) {
+        band.count = std::min(band_rows, whole.count - band.first);
+        if (slice != nullptr) {
+            slice->spans(band, scratch, *some);
+            for (std::size_t l = 0; l < some->lines(); ++l) all.append_line(some->line(l));
+        } else {
+            for (int l = 0; l < band.count; ++l) all.end_line();
+        }
+    }
+    return all;
+}
+
+/// What the checks need of one layer.
+struct CheckedLayer : LayerProduct {
+    HoldingRows rows;  ///< of part and supports; the rest only where it is asked for
+    LabelledLayer part;
+    LabelledLayer voids;
+    SpanRows thin, narrow;
+};
+
+/// Faults that reach over several layers, from the rows that come of each.
+class PassingFaults {
+  public:
+    PassingFaults(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
+    void add(LabelledLayer layer, int index) {
+        components_.add(std::move(layer), index, {}, ended_);
+        take();
+    }
+    void add(const SpanRows& rows, int index) { add(label_layer(rows, index, Growth{}), index); }
+    void finish() {
+        components_.finish(ended_);
+        take();
+    }
+    void excuse_greatest() { faults_.excuse_greatest(); }
+    const FaultList& faults() const { return faults_; }
+
+  private:
+    void take() {
+        for (const EndedComponent& ended : ended_) {
+            Fault fault = grid_.fault(ended.component);
+            fault.size = grid_.volume(ended.component.extent.length);
+            faults_.add(std::move(fault));
+        }
+        ended_.clear();
+    }
+    CheckGrid grid_;
+    PassingComponents components_;
+    std::vector<EndedComponent> ended_;
+    FaultList faults_;
+};
+
+void check_number(const char* name, double value, double above) {
+    if (value > above && value < 1e9) return;
+    const bool printable = std::abs(value) < 1e9;
+    throw InputError(std::string("print check: the ") + name +
+                     (printable ? " of " + format_number(value, 9) : std::string()) +
+                     " makes no sense; accepted: numbers greater than " + format_number(above, 9) +
+                     " and below 1e9");
+}
+
+void check_options(const Job& job, const PrintCheckOptions& options) {
+    const PrintLimits& limits = options.limits;
+    const dvec3 size = job.bounds.size();
+    if (!job.part || job.bounds.empty() || !std::isfinite(size.x + size.y + size.z))
+        throw InputError("print check: there is no part, or its bounds are infinite");
+    const auto wanted = [&](Check check) { return limits.verdict(check) != Verdict::off; };
+    check_number("pitch", options.pitch, std::max(size.x, size.y) / most_rows * (1 - 1e-9));
+    // A ball that fits must reach a row at least.
+    const double least = 2 * options.pitch;
+    if (wanted(Check::thickness)) check_number("least thickness", limits.thickness, least);
+    if (wanted(Check::gaps)) check_number("least gap", limits.gap, least);
+    if (wanted(Check::necks)) check_number("least neck", limits.neck, least);
+    check_number("overhang", limits.overhang, 0);
+    check_number("support spacing", limits.support_spacing, 0);
+}
+
+/// Thicknesses of solid or void: layers one by one in parallel, or with their neighbours in order.
+template <typename Layers>
+class ThicknessCheck {
+  public:
+    using OneLayer = void (*)(const SpanRows&, const Thinness&, double, SpanRows&);
+
+    ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, OneLayer one_layer,
+                   std::size_t most)
+        : one_layer_(one_layer), found_(grid, most) {
+        const SampledBall ball = sampled_ball(grid.band, grid.layer_height, thickness, thickness_up);
+        // A pitch besides, by which rows see late what is opened.
+        measure_ = {ball.radius, slack_share * ball.radius + run_unit};
+        row_pitch_ = ball.lattice.row_pitch;
+        if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)
+            neighbours_.emplace(ball.lattice, measure_);
+    }
+
+    /// What of a layer can be told without its neighbours. Pure.
+    SpanRows prepare(const SpanRows& rows) const {
+        SpanRows found;
+        if (!neighbours_) one_layer_(rows, measure_, row_pitch_, found);
+        return found;
+    }
+    void add(const SpanRows& rows, const SpanRows& prepared) {
+        if (!neighbours_) return found_.add(prepared, next_++);
+        neighbours_->push(rows);
+        take();
+    }
+    void finish() {
+        if (neighbours_) {
+            neighbours_->finish();
+            take();
+        }
+        found_.finish();
+    }
+    const FaultList& faults() const { return found_.faults(); }
+
+  private:
+    void take() {
+        for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
+    }
+    OneLayer one_layer_;
+    Thinness measure_;
+    double row_pitch_ = 0;
+    std::optional<Layers> neighbours_;
+    int next_ = 0;  // layer to be told of
+    PassingFaults found_;
+};
+
+}  // namespace
+
+struct PrintCheck::State {
+    State(const Job& job, const PrintCheckOptions& given)
+        : options(given),
+          grid(check_grid(job, given.pitch)),
+          layer_count(job.layer_count),
+          sheets(grid, given.most_places),
+          empty(grid, given.most_places),
+          reach(grid, given.limits.build_volume, given.most_places) {
+        const PrintLimits& limits = given.limits;
+        const std::size_t most = given.most_places;
+        if (wants(Check::connectivity)) pieces.emplace(grid, most);
+        if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
+            hold.emplace(grid, limits, most);
+        if (wants(Check::thickness))
+            thickness.emplace(grid, limits.thickness, limits.thickness_up, thin_rows, most);
+        if (wants(Check::gaps)) gaps.emplace(grid, limits.gap, limits.gap_up, narrow_rows, most);
+        if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
+        if (wants(Check::cavities) || wants(Check::cups))
+            voids.emplace(grid, limits.cavity, limits.cup, most);
+    }
+
+    bool wants(Check check) const { return options.limits.verdict(check) != Verdict::off; }
+    void finish();
+    void report_all();
+    void report_one(Check check, double limit, const FaultList* faults);
+
+    PrintCheckOptions options;
+    CheckGrid grid;
+    int layer_count;
+    std::optional<PassingFaults> pieces;
+    std::optional<HoldCheck> hold;
+    std::optional<ThicknessCheck<ThinLayers>> thickness;
+    std::optional<ThicknessCheck<NarrowLayers>> gaps;
+    std::optional<NeckCheck> necks;
+    std::optional<VoidCheck> voids;
+    SheetCheck sheets;
+    EmptyCheck empty;
+    ReachCheck reach;
+    CheckReport report;
+};
+
+bool CheckReport::passed() const {
+    return std::ranges::all_of(results, [](const CheckResult& result) {
+        return result.passed() || result.verdict != Verdict::fail;
+    });
+}
+
+double check_pitch(const Job& job, const PrintLimits& limits) {
+    const dvec3 size = job.bounds.size();
+    double least = std::min(limits.thickness, limits.gap);
+    if (limits.verdict(Check::necks) != Verdict::off) least = std::min(least, limits.neck);
+    return std::max(least / pitches_in_a_thickness, std::max(size.x, size.y) / most_rows);
+}
+
+PrintCheck::PrintCheck(const Job& job, const PrintCheckOptions& options) {
+    check_options(job, options);
+    state_ = std::make_unique<State>(job, options);
+}
+PrintCheck::~PrintCheck() = default;
+
+int PrintCheck::begin(const Job& /*job*/, LayerRange range, bool /*resume*/) {
+    if (range.first != 0 || range.last != state_->layer_count)
+        throw InputError("a check looks at all layers of a job; a range of them cannot be checked");
+    return 0;
+}
+
+std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
+    const State& state = *state_;
+    auto product = std::make_unique<CheckedLayer>();
+    Scratch scratch;
+    SpanRows part = all_rows(&layer.part(), state.grid.band, scratch);
+    product->area = state.grid.area(part.total_length());
+    if (state.pieces || state.wants(Check::sheets))
+        product->part = label_layer(part, layer.index(), Growth{});
+    if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
+    if (state.thickness) product->thin = state.thickness->prepare(part);
+    if (state.gaps) product->narrow = state.gaps->prepare(part);
+    SpanRows supports = all_rows(layer.supports(), state.grid.band, scratch);
+    product->support_area = state.grid.area(supports.total_length());
+    if (state.hold) {
+        product->rows = state.hold->prepare(std::move(part), std::move(supports));
+    } else {
+        unite(part, supports, product->rows.printed);
+        product->rows.part = std::move(part);
+    }
+    return product;
+}
+
+void PrintCheck::write(const Layer& layer, LayerProduct& product) {
+    State& state = *state_;
+    auto& checked = static_cast<CheckedLayer&>(product);
+    const int index = layer.index();
+    const SpanRows& part = checked.rows.part;
+    state.report.volume += checked.area * state.grid.layer_height;
+    if (state.wants(Check::sheets)) state.sheets.add(checked.part, index);
+    if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed, index);
+    if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed, index);
+    if (state.pieces) state.pieces->add(std::move(checked.part), index);
+    if (state.voids) state.voids->add(std::move(checked.voids), index);
+    if (state.thickness) state.thickness->add(part, checked.thin);
+    if (state.gaps) state.gaps->add(part, checked.narrow);
+    if (state.necks) state.necks->push(part);
+    if (state.hold) state.hold->add(std::move(checked.rows), index);
+}
+
+void PrintCheck::end() { state_->finish(); }
+
+const CheckReport& PrintCheck::report() const { return state_->report; }
+
+void PrintCheck::State::finish() {
+    if (pieces) {
+        pieces->finish();
+        pieces->excuse_greatest();  // the part itself
+    }
+    if (hold) hold->finish();
+    if (thickness) thickness->finish();
+    if (gaps) gaps->finish();
+    if (necks) necks->finish();
+    if (voids) voids->finish();
+    empty.finish(layer_count);
+    reach.finish();
+    report_all();
+}
+
+void PrintCheck::State::report_all() {
+    const PrintLimits& limits = options.limits;
+    report.band = grid.band;
+    report_one(Check::connectivity, 0, pieces ? &pieces->faults() : nullptr);
+    report_one(Check::sheets, 0, &sheets.faults());
+    report_one(Check::islands, 0, hold ? &hold->islands() : nullptr);
+    report_one(Check::overhangs, limits.overhang, hold ? &hold->overhangs() : nullptr);
+    report_one(Check::bridges, limits.bridge, hold ? &hold->bridges() : nullptr);
+    report_one(Check::thickness, limits.thickness, thickness ? &thickness->faults() : nullptr);
+    report_one(Check::necks, limits.neck, necks ? &necks->necks() : nullptr);
+    report_one(Check::gaps, limits.gap, gaps ? &gaps->faults() : nullptr);
+    report_one(Check::cavities, limits.cavity, voids ? &voids->cavities() : nullptr);
+    report_one(Check::cups, limits.cup, voids ? &voids->cups() : nullptr);
+    report_one(Check::build_volume, 0, &reach.faults());
+    report_one(Check::empty_layers, 0, &empty.faults());
+}
+
+void PrintCheck::State::report_one(Check check, double limit, const FaultList* faults) {
+    if (!wants(check) || faults == nullptr) return;
+    CheckResult result;
+    result.check = check;
+    result.verdict = options.limits.verdict(check);
+    result.limit = limit;
+    faults->report(result);
+    report.results.push_back(std::move(result));
+}
+
+}  // namespace lamella
