@@ -94,7 +94,7 @@ void HoldCheck::add(HoldingRows layer, int index) {
         below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
         const SpanRows steep = too_steep(layer);
         below_.pop_back();
-        add_overhang(united(bad, steep), index);
+        add_overhang(standing_out(layer, united(bad, steep)), index);
     }
     next.rows = std::move(layer);
     below_.push_back(std::move(next));
@@ -192,6 +192,15 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
         out.end_line();
     }
     return out;
+}
+
+/// What stands out over the layer below about what was found: from layer to layer that hangs together.
+SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found) const {
+    if (found.runs().empty()) return found;
+    const double step = limits_.overhang / grid_.band.along_pitch;
+    SpanRows near;
+    intersect(without(layer.part, below_.back().rows.printed), grown(found, 2 * step + 2), near);
+    return near;
 }
 
 void HoldCheck::add_overhang(const SpanRows& rows, int index) {

@@ -47,6 +47,7 @@ class HoldCheck {
     SpanRows hanging_over(const HoldingRows& layer) const;
     SpanRows too_steep(const HoldingRows& layer) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
+    SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);
 
     CheckGrid grid_;

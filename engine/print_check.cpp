@@ -60,10 +60,12 @@ struct CheckedLayer : LayerProduct {
     SpanRows thin, narrow;
 };
 
-/// Faults that reach over several layers, from the rows that come of each.
+/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
+/// diagonal than `least`, mm, are none.
 class PassingFaults {
   public:
-    PassingFaults(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
+    PassingFaults(const CheckGrid& grid, double least, std::size_t most)
+        : grid_(grid), least_(least), faults_(most) {}
     void add(LabelledLayer layer, int index) {
         components_.add(std::move(layer), index, {}, ended_);
         take();
@@ -80,12 +82,15 @@ class PassingFaults {
     void take() {
         for (const EndedComponent& ended : ended_) {
             Fault fault = grid_.fault(ended.component);
+            const dvec3 size = fault.box.size();
+            if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
             faults_.add(std::move(fault));
         }
         ended_.clear();
     }
     CheckGrid grid_;
+    double least_;
     PassingComponents components_;
     std::vector<EndedComponent> ended_;
     FaultList faults_;
@@ -124,7 +129,7 @@ class ThicknessCheck {
 
     ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, OneLayer one_layer,
                    std::size_t most)
-        : one_layer_(one_layer), found_(grid, most) {
+        : one_layer_(one_layer), found_(grid, thickness, most) {
         const SampledBall ball = sampled_ball(grid.band, grid.layer_height, thickness, thickness_up);
         // A pitch besides, by which rows see late what is opened.
         measure_ = {ball.radius, slack_share * ball.radius + run_unit};
@@ -177,7 +182,7 @@ struct PrintCheck::State {
           reach(grid, given.limits.build_volume, given.most_places) {
         const PrintLimits& limits = given.limits;
         const std::size_t most = given.most_places;
-        if (wants(Check::connectivity)) pieces.emplace(grid, most);
+        if (wants(Check::connectivity)) pieces.emplace(grid, 0, most);
         if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
             hold.emplace(grid, limits, most);
         if (wants(Check::thickness))
