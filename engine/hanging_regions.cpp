@@ -7,10 +7,10 @@
 namespace lamella {
 namespace {
 
-/// Of a pixel: void, void next to what hangs, held, hanging.
+/// Of a pixel: void, on the way along an outline, held, hanging.
 enum : std::uint8_t { none, beside, hold, hangs };
 
-constexpr int room = 2;  // pixels round about a region, for what holds it
+constexpr int room = 3;  // pixels round about a region, for what holds it
 
 std::int32_t pixel_of(std::int32_t u) { return u >= 0 ? u / run_unit : -((run_unit - 1 - u) / run_unit); }
 
@@ -55,17 +55,31 @@ class RegionRaster {
             if (state != hold) state = hangs;
         }
     }
+    /// Outlines slant, and digital lines along them step out and in again: void next to what hangs counts as
+    /// on the way, and what hangs next to void as well, where more of it lies further in.
     void mark_beside() {
-        for (int y = 1; y + 1 < height_; ++y) {
-            for (int x = 1; x + 1 < width_; ++x) {
-                if (states_[place(x, y)] == none && touches_hanging(x, y)) states_[place(x, y)] = beside;
+        const std::vector<std::uint8_t> states = states_;
+        bool inner = false;
+        const auto each = [&](std::uint8_t state, std::uint8_t neighbour, const auto& act) {
+            for (int y = 1; y + 1 < height_; ++y) {
+                for (int x = 1; x + 1 < width_; ++x) {
+                    if (states[place(x, y)] == state) act(x, y, touches(states, neighbour, x, y));
+                }
             }
-        }
+        };
+        each(none, hangs, [&](int x, int y, bool touching) {
+            if (touching) states_[place(x, y)] = beside;
+        });
+        each(hangs, none, [&](int, int, bool touching) { inner = inner || !touching; });
+        if (!inner) return;
+        each(hangs, none, [&](int x, int y, bool touching) {
+            if (touching) states_[place(x, y)] = beside;
+        });
     }
-    bool touches_hanging(int x, int y) const {
+    bool touches(const std::vector<std::uint8_t>& states, std::uint8_t wanted, int x, int y) const {
         for (int j = y - 1; j <= y + 1; ++j) {
             for (int i = x - 1; i <= x + 1; ++i) {
-                if (states_[place(i, j)] == hangs) return true;
+                if (states[place(i, j)] == wanted) return true;
             }
         }
         return false;
@@ -137,7 +151,8 @@ Way axis_of(const std::vector<PlacedRun>& region) {
 }
 
 std::optional<double> bridge_of(const RegionRaster& raster, const std::vector<PlacedRun>& region) {
-    std::vector<Way> ways{axis_of(region)};
+    const Way axis = axis_of(region);
+    std::vector<Way> ways{axis, {-axis.slope, !axis.steep}};  // and at right angles to it
     for (const double slope : {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0}) {
         ways.push_back({slope, false});
         ways.push_back({slope == 1 ? -1 : slope, slope < 1});

@@ -16,8 +16,8 @@ struct HangingRegion {
 };
 
 /// The regions of `hanging`, rows of a layer whose other parts, `held`, something below holds. Directions are
-/// sixteen of the half circle and each region's own axis; ways are known to a pitch, and void next to what
-/// hangs counts as on the way, for outlines slant.
+/// sixteen of the half circle and each region's own two axes; ways are known to a pitch
+/// or two.
 std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, int layer,
                                                 const CheckGrid& grid);
 

@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {
 
-constexpr double rows_of_slope = 4;  // by which an outline may move over what a slope is followed over
+constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
 
 SpanRows united(const SpanRows& a, const SpanRows& b) {
@@ -90,7 +90,7 @@ void HoldCheck::add(HoldingRows layer, int index) {
         const SpanRows islands = find_islands(layer, index);
         const SpanRows hanging = without(hanging_over(layer), islands);
         const SpanRows bad = judge_regions(layer, hanging, index);
-        next.hung = united(hanging, islands);
+        next.hung = united(without(hanging, bad), islands);
         below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
         const SpanRows steep = too_steep(layer);
         below_.pop_back();
@@ -141,8 +141,7 @@ SpanRows HoldCheck::hanging_over(const HoldingRows& layer) const {
     return hanging;
 }
 
-/// What went out further over several layers than it may, but for what lies above things that hang: those
-/// have been judged by themselves.
+/// What went out further over several layers than it may, but for what lies above things that may hang.
 SpanRows HoldCheck::too_steep(const HoldingRows& layer) const {
     SpanRows steep;
     for (std::size_t l = 0; l < layer.part.lines(); ++l) steep.end_line();

@@ -38,7 +38,7 @@ class HoldCheck {
     const FaultList& bridges() const { return bridges_; }
 
   private:
-    /// A layer below and what hung in it, its islands included.
+    /// A layer below and what hung in it and may, or is told of as an island.
     struct Below {
         HoldingRows rows;
         SpanRows hung;

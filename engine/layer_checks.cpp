@@ -25,7 +25,11 @@ void EmptyCheck::add(const SpanRows& rows, int index) {
     if (begin_ < 0) begin_ = index;
 }
 
-void EmptyCheck::finish(int layer_count) { end_gap(layer_count); }
+void EmptyCheck::finish(int layer_count) {
+    // The last layer's plane may lie above a part whose height is no multiple of a layer's.
+    if (begin_ == layer_count - 1 && layer_count > 1) begin_ = -1;
+    end_gap(layer_count);
+}
 
 void EmptyCheck::end_gap(int end) {
     if (begin_ < 0) return;

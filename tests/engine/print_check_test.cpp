@@ -1,0 +1,375 @@
+// The print check on a real model: nothing is found in it, and every fault that is planted is, where it was
+// put.
+#include "engine/print_check.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/csg.h"
+#include "engine/error.h"
+#include "engine/mesh_field.h"
+#include "engine/mesh_reader.h"
+#include "engine/mesh_repair.h"
+#include "engine/primitives.h"
+#include "tests/engine/island_scenes.h"
+
+using namespace lamella;
+
+namespace {
+
+constexpr double h = 0.2, pitch = 0.08, pi = 3.14159265358979;
+
+FieldPtr model(const std::string& file) {
+    MeshFile read = read_mesh(std::string(LAMELLA_SOURCE_DIR) + "/tests/models/good/" + file, {});
+    return make_mesh_field(close_mesh(std::move(read.mesh)));
+}
+
+/// A toy brick, 32 x 64 x 28 mm with its lower corner in the origin, open below: walls of three millimetres
+/// stand on the bed.
+FieldPtr brick() {
+    static const FieldPtr field = [] {
+        const FieldPtr read = model("toybrick.stl");
+        return make_transform(read, glm::dmat3(1), -read->bounds().lo);
+    }();
+    return field;
+}
+
+FieldPtr box(dvec3 lo, dvec3 hi) { return make_box({lo, hi}); }
+FieldPtr with(const FieldPtr& a, const FieldPtr& b) { return make_union({a, b}); }
+
+/// A filament printer that bridges the brick's roof, with all checks that matter for it and more.
+PrintCheckOptions filament() {
+    PrintCheckOptions options;
+    options.limits.verdicts.fill(Verdict::fail);
+    for (const Check off : {Check::sheets, Check::cups})
+        options.limits.verdicts[static_cast<std::size_t>(off)] = Verdict::off;
+    options.limits.bridge = 24;
+    options.limits.overhang = h;
+    options.pitch = pitch;
+    return options;
+}
+
+PrintCheckOptions only(Check check) {
+    PrintCheckOptions options = filament();
+    options.limits.verdicts.fill(Verdict::off);
+    options.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    return options;
+}
+
+CheckReport check(const FieldPtr& part, const PrintCheckOptions& options, int threads = 0,
+                  const FieldPtr& supports = nullptr) {
+    Job job = scenes::job_of(part, part->bounds(), h);
+    job.supports = supports;
+    PrintCheck checks(job, options);
+    survey_layers(job, checks, threads, {}, nullptr);
+    return checks.report();
+}
+
+const CheckResult& result(const CheckReport& report, Check check) {
+    for (const CheckResult& result : report.results) {
+        if (result.check == check) return result;
+    }
+    throw std::logic_error("not looked for");
+}
+
+/// The one fault of this kind.
+Fault the_fault(const FieldPtr& part, const PrintCheckOptions& options, Check kind) {
+    const CheckReport report = check(part, options);
+    CHECK(!report.passed());
+    const CheckResult& found = result(report, kind);
+    REQUIRE(found.count == 1);
+    CHECK(found.total == Approx(found.worst.front().size));
+    return found.worst.front();
+}
+
+void check_near(dvec3 a, dvec3 b) {
+    CHECK(std::abs(a.x - b.x) <= pitch);
+    CHECK(std::abs(a.y - b.y) <= pitch);
+    CHECK(std::abs(a.z - b.z) <= h);
+}
+
+/// Whether all but these kinds pass.
+void check_others_pass(const CheckReport& report, std::vector<Check> but) {
+    for (const CheckResult& result : report.results) {
+        INFO("check " << static_cast<int>(result.check));
+        if (std::find(but.begin(), but.end(), result.check) == but.end()) CHECK(result.count == 0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a brick without faults passes every check", "[check]") {
+    const CheckReport report = check(brick(), filament());
+    CHECK(report.results.size() == 10);
+    check_others_pass(report, {});
+    CHECK(report.passed());
+    // Upside down, as a vat would print it: no cups, but what was the inner roof stands on its studs.
+    CHECK(report.volume == Approx(28000).epsilon(0.4));
+}
+
+TEST_CASE("a ball beside the part is a second piece", "[check]") {
+    const dvec3 at(40, 20, 10.1);
+    const FieldPtr part = with(brick(), make_sphere(at, 2));
+    const Fault fault = the_fault(part, only(Check::connectivity), Check::connectivity);
+    check_near(fault.at, at);
+    CHECK(fault.size == Approx(4.0 / 3 * pi * 8).epsilon(0.02));
+    CHECK(fault.first_layer == 41);
+    CHECK(fault.end_layer == 60);
+    check_others_pass(check(part, filament()), {Check::connectivity, Check::islands, Check::overhangs});
+}
+
+TEST_CASE("a pin that hangs down begins as an island", "[check]") {
+    // An arm out of the wall, and a pin below its end.
+    const FieldPtr arm = box({30, 30, 18}, {38, 32, 20}), pin = box({36, 30, 12}, {38, 32, 19});
+    const Fault fault = the_fault(with(brick(), with(arm, pin)), only(Check::islands), Check::islands);
+    check_near(fault.at, {37, 31, 12.1});
+    CHECK(fault.layer == 60);
+    CHECK(fault.end_layer == 61);
+    CHECK(fault.size == Approx(4).epsilon(0.05));
+    CHECK(fault.box.size().x == Approx(2).margin(pitch));
+    CHECK(fault.box.size().y == Approx(2).margin(2 * pitch));
+}
+
+TEST_CASE("a shelf hangs, and one on a gusset does not", "[check]") {
+    const FieldPtr shelf = box({31, 30, 15}, {36, 40, 17});
+    const Fault fault = the_fault(with(brick(), shelf), only(Check::overhangs), Check::overhangs);
+    check_near(fault.at, {34, 35, 15.1});
+    CHECK(fault.layer == 75);
+    CHECK(fault.end_layer == 76);
+    CHECK(fault.size == Approx(40).epsilon(0.02));
+    const FieldPtr gusset = make_intersection(
+        {box({31, 30, 8}, {36, 40, 17}), make_half_space({1, 0, -1}, 19.5 / std::sqrt(2.0))});
+    check_others_pass(check(with(brick(), gusset), filament()), {});
+}
+
+TEST_CASE("slopes steeper than allowed by a quarter are found, and others are not", "[check]") {
+    // A wall that leans over by `lean` for each unit of height.
+    const auto leaning = [](double lean) {
+        const double norm = std::sqrt(1 + lean * lean);
+        return make_intersection({box({0, 0, 0}, {40, 10, 10}), make_half_space({1, 0, -lean}, 10 / norm),
+                                  make_half_space({-1, 0, lean}, -2 / norm)});
+    };
+    for (const double turn : {0.0, 30.0, 45.0, 90.0}) {
+        const double c = std::cos(turn * pi / 180), s = std::sin(turn * pi / 180);
+        const glm::dmat3 about_z(c, s, 0, -s, c, 0, 0, 0, 1);
+        const auto count = [&](double lean) {
+            const FieldPtr part = make_transform(leaning(lean), about_z, dvec3(0));
+            return result(check(part, only(Check::overhangs)), Check::overhangs).count;
+        };
+        INFO("turned by " << turn);
+        CHECK(count(0.9) == 0);
+        CHECK(count(1) == 0);
+        CHECK(count(1.35) == 1);
+    }
+}
+
+TEST_CASE("a bar between two towers is too long a bridge", "[check]") {
+    const FieldPtr towers = with(box({-3, 5, 0}, {0.1, 8, 34}), box({31.9, 5, 0}, {35, 8, 34})),
+                   bar = box({-3, 5, 32}, {35, 8, 34});
+    const FieldPtr part = with(brick(), with(towers, bar));
+    const Fault fault = the_fault(part, only(Check::bridges), Check::bridges);
+    check_near(fault.at, {16, 6.5, 32.1});
+    CHECK(fault.layer == 160);
+    CHECK(fault.size == Approx(31.8).margin(3 * h));
+    check_others_pass(check(part, filament()), {Check::bridges});
+}
+
+TEST_CASE("a bridge is as long as it is in the best direction", "[check]") {
+    for (const double turn : {0.0, 17.0, 45.0, 80.0}) {
+        const double c = std::cos(turn * pi / 180), s = std::sin(turn * pi / 180);
+        const glm::dmat3 about_z(c, s, 0, -s, c, 0, 0, 0, 1);
+        // Two walls 12 apart and 40 long under a roof.
+        const FieldPtr house = make_transform(
+            with(with(box({0, 0, 0}, {2, 40, 6}), box({14, 0, 0}, {16, 40, 6})), box({0, 0, 5}, {16, 40, 6})),
+            about_z, dvec3(0));
+        PrintCheckOptions options = only(Check::bridges);
+        options.limits.bridge = 10;
+        INFO("turned by " << turn);
+        const Fault fault = the_fault(house, options, Check::bridges);
+        // Directions are 14 degrees apart at most; on either side a step is held.
+        CHECK(fault.size > 12 - 2 * h - 4 * pitch);
+        CHECK(fault.size < 12 / std::cos(7.2 * pi / 180) + 2 * pitch);
+    }
+}
+
+TEST_CASE("a fin thinner than a bead is too thin, and one as thick is not, whichever way it stands",
+          "[check]") {
+    const auto fin = [](double thickness, double turn) {
+        const double c = std::cos(turn * pi / 180), s = std::sin(turn * pi / 180);
+        const glm::dmat3 about_z(c, s, 0, -s, c, 0, 0, 0, 1);
+        const double half = thickness / 2;
+        return make_transform(box({0, -half, 0}, {8, half, 6}), about_z, dvec3(31, 30, 0));
+    };
+    const Fault fault = the_fault(with(brick(), fin(0.2, 0)), only(Check::thickness), Check::thickness);
+    CHECK(std::abs(fault.at.y - 30) <= pitch);
+    CHECK(fault.at.x > 32);
+    CHECK(fault.at.x < 39);
+    CHECK(fault.first_layer == 0);
+    CHECK(fault.end_layer == 30);
+    // Of the seven millimetres that stand out, the slack of half a radius and a pitch is not counted.
+    CHECK(fault.size == Approx(0.2 * 6 * (7 - 0.4)).epsilon(0.25));
+    check_others_pass(check(with(brick(), fin(0.2, 0)), filament()), {Check::thickness});
+    for (const double turn : {-60.0, -45.0, -13.0, 0.0, 5.0, 30.0, 45.0, 71.0}) {
+        INFO("turned by " << turn);
+        CHECK(result(check(fin(0.2, turn), only(Check::thickness)), Check::thickness).count == 1);
+        CHECK(result(check(fin(0.4, turn), only(Check::thickness)), Check::thickness).count == 0);
+    }
+}
+
+TEST_CASE("a floor is too thin upright only where the process asks", "[check]") {
+    const FieldPtr part = with(brick(), box({31, 10, 0}, {45, 24, 0.6}));
+    CHECK(result(check(part, only(Check::thickness)), Check::thickness).count == 0);
+    PrintCheckOptions upright = only(Check::thickness);
+    upright.limits.thickness = upright.limits.thickness_up = 1.2;
+    const Fault fault = the_fault(part, upright, Check::thickness);
+    CHECK(fault.at.x > 33);
+    CHECK(fault.at.x < 45);
+    CHECK(fault.first_layer == 0);
+    CHECK(fault.end_layer == 3);
+}
+
+TEST_CASE("a slot that is too narrow is a gap, a wide one is not", "[check]") {
+    const FieldPtr block = box({31, 10, 0}, {45, 24, 10});
+    const auto slotted = [&](double width) {
+        const double half = width / 2;
+        return with(brick(), make_difference(block, box({38 - half, 5, 4}, {38 + half, 20, 11})));
+    };
+    const Fault fault = the_fault(slotted(0.2), only(Check::gaps), Check::gaps);
+    CHECK(std::abs(fault.at.x - 38) <= pitch);
+    CHECK(fault.at.y > 10);
+    CHECK(fault.at.y < 20);
+    CHECK(fault.first_layer == 20);
+    CHECK(fault.end_layer == 50);
+    CHECK(fault.size == Approx(0.2 * 6 * (10 - 0.4)).epsilon(0.15));
+    check_others_pass(check(slotted(0.45), filament()), {});
+}
+
+TEST_CASE("a stalk under a heavy head is a neck, a stout one is not", "[check]") {
+    const auto headed = [&](double radius) {
+        const FieldPtr stalk = make_cylinder({8, 8, 26}, {8, 8, 36}, radius);
+        return with(brick(), with(stalk, make_sphere({8, 8, 40}, 7)));
+    };
+    const Fault fault = the_fault(headed(0.35), only(Check::necks), Check::necks);
+    CHECK(std::abs(fault.at.x - 8) <= pitch);
+    CHECK(std::abs(fault.at.y - 8) <= pitch);
+    CHECK(fault.at.z > 28);
+    CHECK(fault.at.z < 34);
+    CHECK(result(check(headed(0.8), only(Check::necks)), Check::necks).count == 0);
+}
+
+TEST_CASE("a bubble is a cavity, and one with a hole is not", "[check]") {
+    const FieldPtr block = with(brick(), box({31, 10, 0}, {45, 24, 14})),
+                   bubble = make_sphere({38, 17, 7.1}, 4);
+    const Fault fault = the_fault(make_difference(block, bubble), only(Check::cavities), Check::cavities);
+    check_near(fault.at, {38, 17, 7.1});
+    CHECK(fault.size == Approx(4.0 / 3 * pi * 64).epsilon(0.01));
+    CHECK(fault.box.size().x == Approx(8).margin(pitch));
+    const FieldPtr drained =
+        make_difference(block, with(bubble, make_cylinder({38, 17, 7}, {50, 17, 7}, 0.5)));
+    check_others_pass(check(drained, only(Check::cavities)), {});
+}
+
+TEST_CASE("a cup is what the vat's film closes off", "[check]") {
+    const FieldPtr block = box({0, 0, 0}, {14, 14, 10});
+    // A blind hole from above is one, with the volume below its rim; a slit in its wall lets air in.
+    const FieldPtr pot = make_difference(block, make_cylinder({7, 7, 2}, {7, 7, 11}, 4));
+    const Fault fault = the_fault(pot, only(Check::cups), Check::cups);
+    check_near(fault.at, {7, 7, 2.1});
+    CHECK(fault.size == Approx(pi * 16 * 8).epsilon(0.01));
+    const FieldPtr vented = make_difference(pot, box({7, 6.5, 2}, {15, 7.5, 3}));
+    CHECK(result(check(vented, only(Check::cups)), Check::cups).count == 0);
+    // From below the bed closes it.
+    const FieldPtr hood = make_difference(block, make_cylinder({7, 7, -1}, {7, 7, 8}, 4));
+    CHECK(the_fault(hood, only(Check::cups), Check::cups).size == Approx(pi * 16 * 8).epsilon(0.01));
+    check_others_pass(check(make_difference(hood, box({7, 6.5, 0}, {15, 7.5, 1})), only(Check::cups)), {});
+    // A closed bubble is a cavity, not a cup.
+    check_others_pass(check(make_difference(block, make_sphere({7, 7, 5}, 4)), only(Check::cups)), {});
+}
+
+TEST_CASE("what the machine does not reach is told", "[check]") {
+    PrintCheckOptions options = only(Check::build_volume);
+    options.limits.build_volume = {30, 70, 40};
+    const Fault fault = the_fault(brick(), options, Check::build_volume);
+    CHECK(fault.size == Approx(2).margin(pitch));
+    CHECK(fault.at.x == Approx(32).margin(pitch));
+    options.limits.build_volume = {40, 70, 20};
+    CHECK(the_fault(brick(), options, Check::build_volume).size == Approx(8).margin(h));
+    options.limits.build_volume = {32.01, 64.01, 28.01};
+    check_others_pass(check(brick(), options), {});
+}
+
+TEST_CASE("layers without anything are told", "[check]") {
+    const FieldPtr part = with(brick(), box({10, 10, 30}, {20, 20, 32}));
+    const Fault fault = the_fault(part, only(Check::empty_layers), Check::empty_layers);
+    CHECK(fault.first_layer == 140);
+    CHECK(fault.end_layer == 150);
+    CHECK(fault.size == Approx(10 * h));
+    CHECK(fault.at.z == Approx(28.1));
+}
+
+TEST_CASE("a sheet in pieces is told of layer by layer", "[check]") {
+    const FieldPtr part = with(brick(), box({40, 10, 0}, {45, 20, 3}));
+    const CheckReport report = check(part, only(Check::sheets));
+    const CheckResult& sheets = result(report, Check::sheets);
+    // The brick has loose rings under its roof, too: those of the brick alone are what the box adds to.
+    const CheckReport alone = check(brick(), only(Check::sheets));
+    const CheckResult& of_brick = result(alone, Check::sheets);
+    CHECK(sheets.total - of_brick.total == Approx(50 * 15).epsilon(0.01));
+    CHECK(sheets.worst.size() == 10);
+}
+
+TEST_CASE("supports hold what hangs", "[check]") {
+    const FieldPtr shelf = with(brick(), box({31, 30, 15}, {36, 40, 17})),
+                   ball = make_sphere({40, 20, 10}, 2);
+    const FieldPtr post = make_cylinder({35, 35, 0}, {35, 35, 15}, 1),
+                   row = with(make_cylinder({34.5, 32, 0}, {34.5, 32, 15}, 0.5),
+                              make_cylinder({34.5, 38, 0}, {34.5, 38, 15}, 0.5));
+    PrintCheckOptions options = only(Check::overhangs);
+    options.limits.support_spacing = 4;
+    CHECK(check(shelf, options, 0, row).passed());
+    options.limits.support_spacing = 1.5;
+    CHECK(!check(shelf, options, 0, row).passed());
+    // A tip may end below what it holds by the gap that supports keep.
+    const FieldPtr short_post = make_cylinder({40, 20, 0}, {40, 20, 7.6}, 0.5);
+    PrintCheckOptions islands = only(Check::islands);
+    CHECK(!check(with(brick(), ball), islands, 0, short_post).passed());
+    islands.limits.support_gap = 0.4;
+    CHECK(check(with(brick(), ball), islands, 0, short_post).passed());
+}
+
+TEST_CASE("the report is the same by any number of threads", "[check]") {
+    PrintCheckOptions options = filament();
+    options.limits.verdicts.fill(Verdict::fail);
+    options.limits.thickness_up = options.limits.gap_up = 0.8;
+    options.limits.thickness = 3.4;
+    const FieldPtr part = with(brick(), make_sphere({36, 20, 10}, 6));
+    const CheckReport one = check(part, options, 1), four = check(part, options, 4);
+    REQUIRE(one.results.size() == check_count);
+    REQUIRE(four.results.size() == check_count);
+    for (std::size_t k = 0; k < check_count; ++k) {
+        const CheckResult &a = one.results[k], &b = four.results[k];
+        CHECK(a.count == b.count);
+        CHECK(a.total == b.total);
+        REQUIRE(a.worst.size() == b.worst.size());
+        for (std::size_t i = 0; i < a.worst.size(); ++i) {
+            CHECK(a.worst[i].at == b.worst[i].at);
+            CHECK(a.worst[i].size == b.worst[i].size);
+            CHECK(a.worst[i].runs == b.worst[i].runs);
+        }
+    }
+}
+
+TEST_CASE("limits that make no sense are refused", "[check]") {
+    PrintCheckOptions options = only(Check::thickness);
+    options.limits.thickness = pitch;
+    CHECK_THROWS_WITH(check(brick(), options), Catch::Contains("least thickness of 0.08"));
+    options = only(Check::overhangs);
+    options.limits.overhang = 0;
+    CHECK_THROWS_WITH(check(brick(), options), Catch::Contains("overhang of 0"));
+    options = filament();
+    options.pitch = 1e-5;
+    CHECK_THROWS_AS(check(brick(), options), InputError);
+    Job job = scenes::job_of(brick(), brick()->bounds(), h);
+    PrintCheck checks(job, filament());
+    CHECK_THROWS_AS(checks.begin(job, {3, 10}, false), InputError);
+}
