@@ -118,7 +118,7 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
             }
         }
     }
-    const SpanRows floating = rows_of(layer.printed, labelled, floats);
+    SpanRows floating = rows_of(layer.printed, labelled, floats);
     if (floating.runs().empty()) return floating;
     PassingComponents one_layer;
     one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
