@@ -100,6 +100,7 @@ std::optional<double> longest_way(const RegionRaster& raster, const Way& way) {
     const int length = way.steep ? raster.height() : raster.width(),
               breadth = way.steep ? raster.width() : raster.height();
     std::vector<int> shifts;
+    shifts.reserve(static_cast<std::size_t>(length));
     for (int i = 0; i < length; ++i) shifts.push_back(static_cast<int>(std::floor(way.slope * i + 0.5)));
     const int lowest = std::min(shifts.front(), shifts.back()),
               highest = std::max(shifts.front(), shifts.back());

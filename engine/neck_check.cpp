@@ -37,10 +37,10 @@ void NeckCheck::push(const SpanRows& layer) {
 }
 
 void NeckCheck::carry_on() {
-    for (SpanRows opened; opened_.pop(opened);) split(std::move(opened));
+    for (SpanRows opened; opened_.pop(opened);) split(opened);
 }
 
-void NeckCheck::split(SpanRows opened) {
+void NeckCheck::split(const SpanRows& opened) {
     const SpanRows solid = std::move(solid_.front());
     solid_.pop_front();
     SpanRows part;

@@ -28,7 +28,7 @@ class NeckCheck {
     };
     NeckCheck(const CheckGrid& grid, const SampledBall& ball, double large_part, std::size_t most);
     void carry_on();
-    void split(SpanRows opened);
+    void split(const SpanRows& opened);
     void join_rest(std::size_t of);
 
     CheckGrid grid_;
