@@ -186,7 +186,7 @@ IslandSurvey Surveyor::result() {
     std::stable_sort(report.largest.begin(), report.largest.end(),
                      [](const Island& a, const Island& b) { return a.volume > b.volume; });
     if (report.largest.size() > options_.report_largest) report.largest.resize(options_.report_largest);
-    survey.dropped = std::make_shared<DroppedIslands>(grid_, std::move(runs));
+    survey.dropped = std::make_shared<RunBoxes>(grid_, std::move(runs));
     return survey;
 }
 
