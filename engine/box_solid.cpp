@@ -23,7 +23,8 @@ LineRange owned_lines(const RowBand& band, const Interval& across) {
     return lines;
 }
 
-/// The runs of the boxes at height z on the lines of the band. False, and no lines, where there are none.
+/// The runs of the boxes at height z on the lines of the band. False, and `out` as it was, where there are
+/// none.
 bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector& boxes, SpanRows& out) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     const Rect rect = band.rect();
@@ -151,6 +152,7 @@ class BoxSolidSlice : public SampledSlice {
     BoxSolidSlice(const BoxSolid& field, double z) : SampledSlice(field, z), field_(field), z_(z) {}
     void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
         if (box_spans(field_.boxes(), z_, band, scratch.collector, out)) return;
+        out.clear();
         for (int l = 0; l < band.lines(); ++l) out.end_line();
     }
 
