@@ -7,8 +7,8 @@
 
 #include "app/build_process.h"
 #include "app/identity.h"
+#include "engine/box_solid.h"
 #include "engine/csg.h"
-#include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/shell.h"
 
@@ -163,7 +163,7 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
     IslandSurvey survey = survey_islands(built.designed, built.outside, options);
     built.islands = std::move(survey.report);
     if (survey.dropped->empty()) return;
-    built.designed.part = make_without_islands(built.designed.part, survey.dropped);
+    built.designed.part = make_without_boxes(built.designed.part, survey.dropped);
     built.job = make_processed(recipe, built.designed);
 }
 

@@ -6,43 +6,19 @@
 
 #include "engine/error.h"
 #include "engine/number_format.h"
+#include "engine/survey_rows.h"
 
 namespace lamella {
 namespace {
 
 constexpr int most_layers_in_a_pitch = 16;
 constexpr double most_pitches = 1 << 20;  // along a side of the job
-constexpr int band_rows = 64;             // a band's runs stay in the cache
 constexpr std::uint32_t outside = UINT32_MAX;
 
 struct LabelledProduct : LayerProduct {
     LabelledLayer part, body;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts;  ///< (part's component, body's component)
 };
-
-RowBand survey_band(const Job& job, double pitch) {
-    const dvec3 size = job.bounds.size();
-    RowBand band;
-    band.along_origin = job.bounds.lo.x;
-    band.across_origin = job.bounds.lo.y;
-    band.along_pitch = band.across_pitch = pitch;
-    band.count = static_cast<int>(size.y / pitch) + 1;
-    band.hi = static_cast<int>(size.x / pitch) + 1;
-    return band;
-}
-
-/// All rows of a slice, band by band.
-SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch) {
-    SpanRows all;
-    const auto some = scratch.rows();
-    RowBand band = whole;
-    for (band.first = 0; band.first < whole.count; band.first += band_rows) {
-        band.count = std::min(band_rows, whole.count - band.first);
-        slice.spans(band, scratch, *some);
-        for (std::size_t l = 0; l < some->lines(); ++l) all.append_line(some->line(l));
-    }
-    return all;
-}
 
 void find_contacts(const SpanRows& part, LabelledProduct& product) {
     for (std::size_t l = 0; l < part.lines(); ++l) {
@@ -63,7 +39,7 @@ class Surveyor : public Backend {
         : body_(std::move(body)),
           options_(options),
           growth_{run_unit, 1, static_cast<int>(std::ceil(options.pitch / job.layer_height))},
-          band_(survey_band(job, options.pitch)),
+          band_(rows_over(job.bounds.rect(), options.pitch)),
           grid_{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), job.layer_height},
           part_components_(growth_, options.most_runs),
           body_components_(Growth{}, 0) {}
@@ -186,7 +162,7 @@ IslandSurvey Surveyor::result() {
     std::stable_sort(report.largest.begin(), report.largest.end(),
                      [](const Island& a, const Island& b) { return a.volume > b.volume; });
     if (report.largest.size() > options_.report_largest) report.largest.resize(options_.report_largest);
-    survey.dropped = std::make_shared<DroppedIslands>(grid_, std::move(runs));
+    survey.dropped = std::make_shared<RunBoxes>(grid_, std::move(runs));
     return survey;
 }
 

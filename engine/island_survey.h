@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/dropped_islands.h"
 #include "engine/layer_stream.h"
+#include "engine/run_boxes.h"
 
 namespace lamella {
 
@@ -45,7 +45,7 @@ Interval island_pitches(const Job& job);
 
 struct IslandSurvey {
     IslandReport report;
-    std::shared_ptr<const DroppedIslands> dropped;  ///< never null
+    std::shared_ptr<const RunBoxes> dropped;  ///< never null
 };
 
 /// Surveys all layers of a job at their cutting planes: exact along x, a row each `pitch` across.

@@ -2,6 +2,7 @@
 // islands.
 #include <benchmark/benchmark.h>
 
+#include "engine/box_solid.h"
 #include "engine/csg.h"
 #include "engine/island_survey.h"
 #include "engine/mesh_field.h"
@@ -58,7 +59,7 @@ void layers_without_islands(benchmark::State& state) {
     IslandSurveyOptions options;
     options.pitch = 0.2;
     if (state.range(0) == 1)
-        job.part = make_without_islands(job.part, survey_islands(job, body, options).dropped);
+        job.part = make_without_boxes(job.part, survey_islands(job, body, options).dropped);
     const dvec3 size = job.bounds.size();
     RowBand band;
     band.along_origin = job.bounds.lo.x;

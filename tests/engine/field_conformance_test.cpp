@@ -3,8 +3,8 @@
 #include <random>
 #include <string>
 
+#include "engine/box_solid.h"
 #include "engine/csg.h"
-#include "engine/dropped_islands.h"
 #include "engine/error.h"
 #include "engine/formula_field.h"
 #include "engine/formula_parser.h"
@@ -29,8 +29,9 @@ using namespace lamella;
 
 namespace {
 
-/// A box less some boxes of a plan: one inside, one across its border, one beside it.
-FieldPtr with_islands_dropped(FieldPtr box) {
+/// Boxes of a plan: towers of several rows and thin bars; of a box from -2 to 2, some inside, some across its
+/// border, one beside it.
+std::shared_ptr<const RunBoxes> plan_of_boxes() {
     const SurveyGrid grid{{-2.5, -2.5}, 0.3, -2.0, 0.4};
     std::vector<PlacedRun> runs;
     for (int layer = 1; layer < 8; ++layer) {
@@ -38,7 +39,7 @@ FieldPtr with_islands_dropped(FieldPtr box) {
         runs.push_back({layer, 2, -200, 700});
         runs.push_back({layer, 18, 100, 1200});
     }
-    return make_without_islands(std::move(box), std::make_shared<DroppedIslands>(grid, std::move(runs)));
+    return std::make_shared<RunBoxes>(grid, std::move(runs));
 }
 
 /// Moved in three steps, the first of which is none.
@@ -202,7 +203,8 @@ std::vector<Named> all_fields() {
         {"mesh with Voronoi windows", windowed(mesh, false)},
         {"filled mesh", make_filled_body(mesh, make_union({cone, torus}), 0.3)},
         {"filled box without a skin", make_filled_body(box, make_union({cone, torus}), 0)},
-        {"box without islands", with_islands_dropped(box)},
+        {"box without boxes", make_without_boxes(box, plan_of_boxes())},
+        {"boxes", make_box_solid(plan_of_boxes())},
         {"outline that grows with height", with_moved_outline(torus, 0.2)},
         {"outline that shrinks with height", with_moved_outline(make_difference(box, cone), -0.15)},
         {"box under an outer skin", make_filled_body(box, torus, 0.3, SkinSide::outside)},

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "engine/box_solid.h"
 #include "engine/csg.h"
 #include "engine/error.h"
 #include "engine/primitives.h"
@@ -27,7 +28,7 @@ IslandSurvey surveyed(const Job& job, const FieldPtr& body = nullptr, double pit
 }
 
 Job without(Job job, const IslandSurvey& survey) {
-    job.part = make_without_islands(job.part, survey.dropped);
+    job.part = make_without_boxes(job.part, survey.dropped);
     return job;
 }
 

@@ -1,5 +1,5 @@
 // The plan's look-ups against a search of all boxes, and the solid without them.
-#include "engine/dropped_islands.h"
+#include "engine/box_solid.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -39,8 +39,7 @@ TEST_CASE("a box is as long as its run, as wide as its row and as high as its la
 }
 
 TEST_CASE("runs that overlap or touch in a row become one") {
-    const DroppedIslands plan(grid,
-                              {{0, 0, 10, 20}, {0, 1, 0, 5}, {0, 0, 0, 10}, {0, 0, 15, 18}, {1, 0, 0, 5}});
+    const RunBoxes plan(grid, {{0, 0, 10, 20}, {0, 1, 0, 5}, {0, 0, 0, 10}, {0, 0, 15, 18}, {1, 0, 0, 5}});
     const std::vector<PlacedRun> expected{{0, 0, 0, 20}, {0, 1, 0, 5}, {1, 0, 0, 5}};
     REQUIRE(std::vector<PlacedRun>(plan.runs().begin(), plan.runs().end()) == expected);
     REQUIRE(plan.at(0.51).size() == 2);
@@ -60,7 +59,7 @@ TEST_CASE("look-ups agree with a search of all boxes") {
     int inside = 0, met = 0;
     for (const int count : {0, 1, 40, 600}) {
         const auto runs = random_runs(random, count);
-        const DroppedIslands plan(grid, runs);
+        const RunBoxes plan(grid, runs);
         REQUIRE(plan.empty() == (count == 0));
         for (int k = 0; k < 2000; ++k) {
             const dvec3 p(x(random), y(random), z(random));
@@ -84,7 +83,7 @@ TEST_CASE("look-ups agree with a search of all boxes") {
     }
     REQUIRE(inside > 20);
     REQUIRE(met > 500);
-    const DroppedIslands plan(grid, random_runs(random, 40));
+    const RunBoxes plan(grid, random_runs(random, 40));
     REQUIRE(std::isfinite(plan.distance_within({0, 0, 0}, infinity)));
     REQUIRE(plan.find({NAN, 0, 1}) == nullptr);
     REQUIRE_FALSE(plan.meets({}));
@@ -94,9 +93,9 @@ TEST_CASE("rows and columns lose exactly the boxes, in either direction") {
     const unsigned seed = 7;
     INFO("seed " << seed);
     std::mt19937 random(seed);
-    const auto plan = std::make_shared<DroppedIslands>(grid, random_runs(random, 900));
+    const auto plan = std::make_shared<RunBoxes>(grid, random_runs(random, 900));
     const FieldPtr solid = make_box({{-0.9, -1.9, 0.4}, {2.9, 1.9, 3.1}});
-    const FieldPtr rest = make_without_islands(solid, plan);
+    const FieldPtr rest = make_without_boxes(solid, plan);
     REQUIRE(rest->bounds().lo == solid->bounds().lo);
     for (const double z : {0.53, 1.2, 2.41, 3.05}) {
         for (const Axis axis : {Axis::x, Axis::y}) {
@@ -136,9 +135,9 @@ TEST_CASE("the value never exceeds the distance to the surface that is left") {
     const unsigned seed = 8;
     INFO("seed " << seed);
     std::mt19937 random(seed);
-    const auto plan = std::make_shared<DroppedIslands>(grid, random_runs(random, 500));
+    const auto plan = std::make_shared<RunBoxes>(grid, random_runs(random, 500));
     const FieldPtr solid = make_sphere({0.5, 0, 1.5}, 1.3);
-    const FieldPtr rest = make_without_islands(solid, plan);
+    const FieldPtr rest = make_without_boxes(solid, plan);
     REQUIRE(rest->metric() == Metric::bound);
     std::uniform_real_distribution<double> at(-1.5, 1.5), step(-1, 1);
     for (int k = 0; k < 3000; ++k) {
@@ -153,14 +152,51 @@ TEST_CASE("the value never exceeds the distance to the surface that is left") {
     }
 }
 
-TEST_CASE("without islands to drop, the solid is itself") {
+TEST_CASE("a solid of boxes is solid exactly in them, and is no nearer than it says") {
+    const unsigned seed = 9;
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto runs = random_runs(random, 300);
+    const auto plan = std::make_shared<RunBoxes>(grid, runs);
+    const FieldPtr solid = make_box_solid(plan);
+    std::uniform_real_distribution<double> x(-1.3, 3.2), y(-2.2, 2), z(0.2, 3.2), size(0.01, 0.5);
+    int inside = 0;
+    Box all;
+    for (const PlacedRun& run : runs) all = unite(all, grid.box(run));
+    REQUIRE(solid->bounds().lo == all.lo);
+    REQUIRE(solid->bounds().hi == all.hi);
+    for (int k = 0; k < 3000; ++k) {
+        const dvec3 p(x(random), y(random), z(random));
+        bool held = false;
+        double nearest = infinity;
+        for (const PlacedRun& run : runs) {
+            held = held || holds(grid.box(run), p);
+            nearest = std::min(nearest, distance(grid.box(run), p));
+        }
+        const double v = solid->value(p);
+        REQUIRE((v < 0) == held);
+        if (!held) REQUIRE(v == Approx(nearest).margin(1e-12));
+        inside += held ? 1 : 0;
+        const Box probe{p, p + dvec3(size(random), size(random), size(random))};
+        const Interval range = solid->range(probe);
+        REQUIRE(range.contains(v));
+        REQUIRE(range.contains(solid->value(probe.center())));
+    }
+    REQUIRE(inside > 20);
+    const FieldPtr none = make_box_solid(std::make_shared<RunBoxes>(grid, std::vector<PlacedRun>{}));
+    REQUIRE(none->bounds().empty());
+    REQUIRE(none->value({0, 0, 1}) > 0);
+    REQUIRE_THROWS_AS(make_box_solid(nullptr), InputError);
+}
+
+TEST_CASE("without boxes to take, the solid is itself") {
     const FieldPtr sphere = make_sphere({0, 0, 0}, 1);
-    const auto plan = std::make_shared<DroppedIslands>(grid, std::vector<PlacedRun>{});
-    const FieldPtr same = make_without_islands(sphere, plan);
+    const auto plan = std::make_shared<RunBoxes>(grid, std::vector<PlacedRun>{});
+    const FieldPtr same = make_without_boxes(sphere, plan);
     SliceContext context;
     REQUIRE(&context.slice(*same, 0.2) == &context.slice(*sphere, 0.2));
     REQUIRE(same->value({0.3, 0, 0}) == sphere->value({0.3, 0, 0}));
     REQUIRE(same->range({{-2, -2, -2}, {2, 2, 2}}).hi == sphere->range({{-2, -2, -2}, {2, 2, 2}}).hi);
-    REQUIRE_THROWS_AS(make_without_islands(nullptr, plan), InputError);
-    REQUIRE_THROWS_AS(make_without_islands(sphere, nullptr), InputError);
+    REQUIRE_THROWS_AS(make_without_boxes(nullptr, plan), InputError);
+    REQUIRE_THROWS_AS(make_without_boxes(sphere, nullptr), InputError);
 }

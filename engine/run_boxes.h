@@ -1,11 +1,10 @@
-// DroppedIslands: the plan of what a survey found to float free, and the solid without it.
+// RunBoxes: the plan of a survey that has found places, kept as boxes of runs by layer.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "engine/field.h"
+#include "engine/geometry.h"
 #include "engine/run_components.h"
 
 namespace lamella {
@@ -22,11 +21,12 @@ struct SurveyGrid {
     Box box(const PlacedRun& run) const;
 };
 
-/// Boxes to be left out, layer by layer. Immutable and thread-safe.
-class DroppedIslands {
+/// Boxes, layer by layer, to be taken from a solid or to be one (box_solid.h). Immutable and thread-safe.
+/// Memory: sixteen bytes a run.
+class RunBoxes {
   public:
     /// The runs in any order; they may overlap.
-    DroppedIslands(const SurveyGrid& grid, std::vector<PlacedRun> runs);
+    RunBoxes(const SurveyGrid& grid, std::vector<PlacedRun> runs);
 
     const SurveyGrid& grid() const { return grid_; }
     bool empty() const { return runs_.empty(); }
@@ -38,10 +38,12 @@ class DroppedIslands {
     const PlacedRun* find(dvec3 p) const;
     /// The lesser of `limit` and the distance from the point to the nearest box, mm.
     double distance_within(dvec3 p, double limit) const;
+    /// Encloses all boxes, mm; empty when there are none.
+    const Box& bounds() const { return bounds_; }
     /// Whether some box meets this one.
     bool meets(const Box& box) const;
 
-    friend bool operator==(const DroppedIslands& a, const DroppedIslands& b) { return a.runs_ == b.runs_; }
+    friend bool operator==(const RunBoxes& a, const RunBoxes& b) { return a.runs_ == b.runs_; }
 
   private:
     std::span<const PlacedRun> layer(int index) const;
@@ -55,9 +57,5 @@ class DroppedIslands {
     std::vector<Rect> rects_;          ///< encloses the runs of each layer
     Box bounds_;
 };
-
-/// The solid less the boxes of a plan. Runs are merged exactly; the value is that of the difference where the
-/// solid's metric is exact or bound. Null arguments are an InputError.
-FieldPtr make_without_islands(FieldPtr solid, std::shared_ptr<const DroppedIslands> dropped);
 
 }  // namespace lamella

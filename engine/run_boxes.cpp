@@ -1,12 +1,7 @@
-// Look-ups by layer and row, and the field that subtracts the boxes.
-#include "engine/dropped_islands.h"
+// Look-ups by layer and row.
+#include "engine/run_boxes.h"
 
 #include <algorithm>
-
-#include "engine/error.h"
-#include "engine/line_frame.h"
-#include "engine/slice_context.h"
-#include "engine/tile_walk.h"
 
 namespace lamella {
 namespace {
@@ -32,7 +27,7 @@ Box SurveyGrid::box(const PlacedRun& run) const {
         {origin.x + run.end * unit, origin.y + (run.row + 1) * pitch, z0 + (run.layer + 1) * layer_height}};
 }
 
-DroppedIslands::DroppedIslands(const SurveyGrid& grid, std::vector<PlacedRun> runs) : grid_(grid) {
+RunBoxes::RunBoxes(const SurveyGrid& grid, std::vector<PlacedRun> runs) : grid_(grid) {
     std::sort(runs.begin(), runs.end());
     for (const PlacedRun& run : runs) {
         if (!runs_.empty() && same_row(runs_.back(), run) && run.begin <= runs_.back().end) {
@@ -57,13 +52,13 @@ DroppedIslands::DroppedIslands(const SurveyGrid& grid, std::vector<PlacedRun> ru
     for (std::size_t l = 0; l < layers; ++l) starts_[l + 1] += starts_[l];
 }
 
-std::span<const PlacedRun> DroppedIslands::layer(int index) const {
+std::span<const PlacedRun> RunBoxes::layer(int index) const {
     const auto l = static_cast<std::size_t>(index - first_layer_);
     if (index < first_layer_ || l + 1 >= starts_.size()) return {};
     return std::span(runs_).subspan(starts_[l], starts_[l + 1] - starts_[l]);
 }
 
-std::span<const PlacedRun> DroppedIslands::row(int layer_index, int row) const {
+std::span<const PlacedRun> RunBoxes::row(int layer_index, int row) const {
     const auto all = layer(layer_index);
     const auto [first, last] =
         std::equal_range(all.begin(), all.end(), PlacedRun{layer_index, row, 0, 0},
@@ -71,11 +66,11 @@ std::span<const PlacedRun> DroppedIslands::row(int layer_index, int row) const {
     return {first, last};
 }
 
-std::span<const PlacedRun> DroppedIslands::at(double z) const {
+std::span<const PlacedRun> RunBoxes::at(double z) const {
     return layer(cell_of(z, grid_.z0, grid_.layer_height));
 }
 
-const PlacedRun* DroppedIslands::find(dvec3 p) const {
+const PlacedRun* RunBoxes::find(dvec3 p) const {
     if (!bounds_.contains(p)) return nullptr;
     const auto runs =
         row(cell_of(p.z, grid_.z0, grid_.layer_height), cell_of(p.y, grid_.origin.y, grid_.pitch));
@@ -85,7 +80,7 @@ const PlacedRun* DroppedIslands::find(dvec3 p) const {
     return after != runs.end() && after->begin <= u ? &*after : nullptr;
 }
 
-double DroppedIslands::distance_in_layer(int index, dvec3 p, double limit) const {
+double RunBoxes::distance_in_layer(int index, dvec3 p, double limit) const {
     const auto runs = layer(index);
     if (runs.empty()) return limit;
     const double z = grid_.z0 + index * grid_.layer_height, dz = gap(p.z, z, z + grid_.layer_height);
@@ -110,7 +105,7 @@ double DroppedIslands::distance_in_layer(int index, dvec3 p, double limit) const
     return std::sqrt(least);
 }
 
-double DroppedIslands::distance_within(dvec3 p, double limit) const {
+double RunBoxes::distance_within(dvec3 p, double limit) const {
     if (runs_.empty() || !(distance(bounds_, p) < limit)) return limit;
     const int middle = cell_of(p.z, grid_.z0, grid_.layer_height);
     const int last = first_layer_ + static_cast<int>(starts_.size()) - 2;
@@ -123,7 +118,7 @@ double DroppedIslands::distance_within(dvec3 p, double limit) const {
     return limit;
 }
 
-bool DroppedIslands::meets(const Box& box) const {
+bool RunBoxes::meets(const Box& box) const {
     const Box part = intersect(bounds_, box);
     if (part.empty()) return false;
     const int top = cell_of(part.hi.z, grid_.z0, grid_.layer_height);
@@ -140,117 +135,6 @@ bool DroppedIslands::meets(const Box& box) const {
         }
     }
     return false;
-}
-
-namespace {
-
-class WithoutIslands : public Field {
-  public:
-    WithoutIslands(FieldPtr solid, std::shared_ptr<const DroppedIslands> dropped)
-        : solid_(std::move(solid)), dropped_(std::move(dropped)) {}
-
-    double value(dvec3 p) const override { return adjusted(p, solid_->value(p)); }
-    Interval range(const Box& box) const override;
-    Metric metric() const override { return solid_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
-    const SliceField& slice(SliceContext& context, double z) const override;
-    Box bounds() const override { return solid_->bounds(); }
-
-    /// The value at p of the solid without the boxes, from that of the solid with them.
-    double adjusted(dvec3 p, double v) const {
-        if (const PlacedRun* run = dropped_->find(p)) {
-            const Box box = dropped_->grid().box(*run);
-            const dvec3 depth = glm::min(p - box.lo, box.hi - p);
-            const double inner = std::min(depth.x, std::min(depth.y, depth.z));
-            return std::max(v, std::max(inner, std::numeric_limits<double>::denorm_min()));
-        }
-        return v < 0 ? std::max(v, -dropped_->distance_within(p, -v)) : v;
-    }
-
-  private:
-    FieldPtr solid_;
-    std::shared_ptr<const DroppedIslands> dropped_;
-};
-
-class WithoutIslandsSlice : public SampledSlice {
-  public:
-    WithoutIslandsSlice(const WithoutIslands& field, const SliceField& solid, const DroppedIslands& dropped,
-                        double z)
-        : SampledSlice(field, z), field_(field), solid_(solid), dropped_(dropped), z_(z) {}
-
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
-    void sample(const Tile& tile, std::span<float> out) const override {
-        solid_.sample(tile, out);
-        std::size_t k = 0;
-        for (int j = 0; j < tile.ny; ++j) {
-            for (int i = 0; i < tile.nx; ++i, ++k) {
-                const dvec2 p = tile.origin + dvec2(i, j) * tile.step;
-                out[k] = static_cast<float>(field_.adjusted(dvec3(p, z_), out[k]));
-            }
-        }
-    }
-    Rect bounds() const override { return solid_.bounds(); }
-
-  private:
-    const WithoutIslands& field_;
-    const SliceField& solid_;
-    const DroppedIslands& dropped_;
-    double z_;
-};
-
-Interval WithoutIslands::range(const Box& box) const {
-    Interval r = solid_->range(box);
-    if (dropped_->empty()) return r;
-    // Inside a box the value is at most its half-height; near one, a solid point is no deeper than it is far.
-    const double margin = dropped_->grid().pitch;
-    if (dropped_->meets(box)) {
-        r.hi = std::max(r.hi, dropped_->grid().layer_height / 2);
-    } else {
-        r.hi = std::max(r.hi, dropped_->meets(grown(box, margin)) ? 0.0 : -margin);
-    }
-    return r;
-}
-
-const SliceField& WithoutIslands::slice(SliceContext& context, double z) const {
-    const SliceField& solid = context.slice(*solid_, z);
-    if (dropped_->empty()) return solid;
-    return context.make<WithoutIslandsSlice>(*this, solid, *dropped_, z);
-}
-
-void WithoutIslandsSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
-    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
-    const Rect rect = band.rect();
-    solid_.spans(band, scratch, out);
-    RunCollector& boxes = scratch.collector;
-    boxes.clear();
-    bool any = false;
-    for (const PlacedRun& run : dropped_.at(z_)) {
-        const Rect box = dropped_.grid().box(run).rect();
-        if (intersect(box, rect).empty()) continue;
-        LineRange lines = lines_across(band, {box.lo[across], box.hi[across]});
-        // A box owns its lower face only, whichever way the lines are counted.
-        const auto owned = [&](int l) { return band.line(l) < box.hi[across]; };
-        while (lines.first < lines.last && !owned(lines.first)) ++lines.first;
-        while (lines.first < lines.last && !owned(lines.last - 1)) --lines.last;
-        const int count = lines.last - lines.first;
-        if (count <= 0) continue;
-        any = true;
-        const double u = band.coordinate(box.lo[along]), v = band.coordinate(box.hi[along]);
-        const auto segment = boxes.add(lines.first, count);
-        std::fill_n(segment.begin, count, round_run(std::min(u, v)));
-        std::fill_n(segment.end, count, round_run(std::max(u, v)));
-    }
-    if (!any) return;
-    const auto taken = scratch.rows(), rest = scratch.rows();
-    boxes.merge(band, *taken);
-    subtract(out, *taken, *rest);
-    std::swap(out, *rest);
-}
-
-}  // namespace
-
-FieldPtr make_without_islands(FieldPtr solid, std::shared_ptr<const DroppedIslands> dropped) {
-    if (!solid || !dropped) throw InputError("a solid without islands needs a solid and the survey's plan");
-    return std::make_shared<WithoutIslands>(std::move(solid), std::move(dropped));
 }
 
 }  // namespace lamella
