@@ -12,8 +12,16 @@
 #include "app/recipe.h"
 #include "engine/island_survey.h"
 #include "engine/layer.h"
+#include "engine/piece_joins.h"
+#include "engine/print_check.h"
 
 namespace lamella {
+
+/// What repairs found and did; empty where they were not asked for.
+struct RepairReport {
+    std::optional<JoinSurvey> joins;
+    std::optional<CheckResult> thickened, filled;  ///< as found before they were mended
+};
 
 struct BuiltJob {
     Job job;                               ///< what is printed
@@ -29,6 +37,7 @@ struct BuiltJob {
     std::optional<DowelHoles> dowels;      ///< empty where none are asked for
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
+    std::optional<RepairReport> repairs;  ///< empty until the job is repaired
 };
 
 /// Where drains are asked for, the layers are surveyed for cavities; where dowels are, for places inside all

@@ -3,6 +3,7 @@
 
 #include "engine/csg.h"
 #include "engine/in_plane_offset.h"
+#include "engine/mended_outline.h"
 
 namespace lamella {
 
@@ -22,6 +23,23 @@ void scale_part(Job& job, dvec3 scale) {
     job.bounds = {fixed + (before.lo - fixed) * scale, fixed + (before.hi - fixed) * scale};
 }
 
+/// Lines by which outlines are looked at, in a thickness or a gap.
+constexpr double lines_in_a_thickness = 8;
+
+void grow_bounds(Job& job, double by) {
+    job.bounds.lo -= dvec3(by, by, 0);
+    job.bounds.hi += dvec3(by, by, 0);
+}
+
+void mend_outlines(Job& job, const RepairRecipe& repair) {
+    if (repair.thickness > 0) {
+        job.part = make_thickened(job.part, repair.thickness, repair.thickness / lines_in_a_thickness);
+        grow_bounds(job, repair.thickness / 2);
+    }
+    // What has been made thicker may stand closer now.
+    if (repair.gap > 0) job.part = make_gaps_filled(job.part, repair.gap, repair.gap / lines_in_a_thickness);
+}
+
 void move_outlines(Job& job, const ProcessRecipe& process) {
     const double everywhere = process.xy_compensation, foot = process.elephant_foot;
     if (everywhere == 0 && foot == 0) return;
@@ -32,9 +50,7 @@ void move_outlines(Job& job, const ProcessRecipe& process) {
         return layer < layers ? everywhere - foot * (1 - layer / layers) : everywhere;
     };
     job.part = make_in_plane_offset(job.part, {by, {everywhere - foot, everywhere}}, outline_tolerance);
-    const double grows = std::max(everywhere, 0.0);
-    job.bounds.lo -= dvec3(grows, grows, 0);
-    job.bounds.hi += dvec3(grows, grows, 0);
+    grow_bounds(job, std::max(everywhere, 0.0));
 }
 
 }  // namespace
@@ -50,12 +66,17 @@ double designed_layer_height(const Recipe& recipe) {
     return recipe.process ? recipe.layer_height / recipe.process->scale.z : recipe.layer_height;
 }
 
-Job make_processed(const Recipe& recipe, const Job& designed) {
+Job make_scaled(const Recipe& recipe, const Job& designed) {
     Job job = designed;
-    if (!recipe.process) return job;
     job.layer_height = recipe.layer_height;
-    scale_part(job, recipe.process->scale);
-    move_outlines(job, *recipe.process);
+    if (recipe.process) scale_part(job, recipe.process->scale);
+    return job;
+}
+
+Job make_processed(const Recipe& recipe, const Job& designed) {
+    Job job = make_scaled(recipe, designed);
+    if (recipe.repair) mend_outlines(job, *recipe.repair);
+    if (recipe.process) move_outlines(job, *recipe.process);
     return job;
 }
 

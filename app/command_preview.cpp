@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/job_picture.h"
 #include "app/recipe_options.h"
+#include "app/repair_job.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/image_file.h"
@@ -56,6 +57,7 @@ void run(PreviewCommand& options) {
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
+    repair_job(recipe, built, {});
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();

@@ -7,6 +7,7 @@
 #include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
+#include "app/repair_job.h"
 #include "app/section_writer.h"
 #include "app/text_output.h"
 #include "engine/error.h"
@@ -37,6 +38,7 @@ std::string section(const SectionOptions& options, const std::string& format) {
     note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
+    repair_job(recipe, built, {});
     add_supports(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {

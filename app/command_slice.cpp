@@ -15,6 +15,7 @@
 #include "app/outputs.h"
 #include "app/prepare_job.h"
 #include "app/progress.h"
+#include "app/repair_job.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/layer_stream.h"
@@ -62,6 +63,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         if (built.drains) summary["drains"] = drains_json(*built.drains);
         if (built.dowels) summary["dowels"] = dowels_json(*built.dowels);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
+        if (built.repairs) summary["repairs"] = repairs_json(*built.repairs);
         if (beams) {
             summary["beams"] = {{"output", recipe.output.beams},
                                 {"beams", beams->beams},

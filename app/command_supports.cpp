@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/recipe_options.h"
+#include "app/repair_job.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 
@@ -142,6 +143,7 @@ void run(const SupportsCommand& options) {
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
+    repair_job(recipe, built, {options.threads, {}, &cancel});
     const BuiltSupports supports = *add_supports_with_progress(
         recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     TextOutput out(options.output);

@@ -91,6 +91,7 @@ std::string job_identity(const Recipe& recipe) {
         if (section.name == "frame" && !recipe.frame) continue;
         if (section.name == "skin" && !recipe.skin) continue;
         if (section.name == "process" && !recipe.process) continue;
+        if (section.name == "repair" && !recipe.repair) continue;
         if (section.name == "support" && recipe.support == SupportKind::none) continue;
         const std::size_t entries = section.is_list() ? section.entries(recipe) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) {

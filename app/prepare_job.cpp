@@ -12,6 +12,7 @@
 #include "app/layer_range.h"
 #include "app/printer_choice.h"
 #include "app/progress.h"
+#include "app/repair_job.h"
 #include "engine/plate.h"
 
 namespace lamella {
@@ -37,6 +38,18 @@ void survey(const Recipe& recipe, BuiltJob& built, const JobOptions& options, co
     if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
 }
 
+void repair(const Recipe& recipe, BuiltJob& built, const JobOptions& options, const CancelToken& cancel) {
+    if (!recipe.repair) return;
+    ProgressDisplay display(options.quiet, "survey for repairs: ");
+    RepairOptions repairs;
+    repairs.threads = options.threads;
+    repairs.cancel = &cancel;
+    repairs.on_progress = [&](const Progress& progress) { display.show(progress); };
+    repair_job(recipe, built, repairs);
+    display.finish();
+    if (!options.quiet) std::fputs(("repairs:\n" + repairs_text(*built.repairs)).c_str(), stderr);
+}
+
 /// The recipes of what stands beside the part, with its machine, layers and supports.
 std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) {
     std::vector<Recipe> recipes;
@@ -57,6 +70,7 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
     for (const Recipe& other : others) {
         BuiltJob beside = build_job(other);
         if (other.foam && other.foam->drop_islands) survey(other, beside, options, cancel);
+        repair(other, beside, options, cancel);
         add_supports_with_progress(other, beside, {options.plans, options.threads, {}, &cancel},
                                    options.quiet);
         items.push_back({beside.job, other.plate.copies});
@@ -98,6 +112,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
+    repair(recipe, built, options, cancel);
     const auto supports = add_supports_with_progress(
         recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);

@@ -185,6 +185,13 @@ struct ProcessRecipe {
     std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
 };
 
+/// What is mended before a part is printed. Lengths in mm as printed; 0: left as it is.
+struct RepairRecipe {
+    double thickness = 0;  ///< what is thinner within a layer is made so thick
+    double gap = 0;        ///< void narrower within a layer is filled
+    double join = 0;       ///< diameter of the struts that join loose pieces
+};
+
 /// What holds the part up while it is printed; its numbers are the printer's.
 enum class SupportKind : unsigned char {
     none,
@@ -225,6 +232,7 @@ struct Recipe {
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
     std::optional<ProcessRecipe> process;
+    std::optional<RepairRecipe> repair;
     std::vector<HoleRecipe> holes;
     SupportKind support = SupportKind::none;
     double layer_height = 0.05;  ///< mm

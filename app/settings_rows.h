@@ -37,6 +37,8 @@ void add_frame_settings(std::vector<Setting>& table);
 
 /// The rows of the [process] section.
 void add_process_settings(std::vector<Setting>& table);
+/// The rows of the [repair] section.
+void add_repair_settings(std::vector<Setting>& table);
 /// The rows of the [plate] section.
 void add_plate_settings(std::vector<Setting>& table);
 /// The rows of the [support] section.

@@ -312,6 +312,7 @@ std::vector<Setting> make_table() {
     add_region_settings(table);
     add_layers(table);
     add_process_settings(table);
+    add_repair_settings(table);
     add_support_settings(table);
     add_plate_settings(table);
     add_output(table);
@@ -374,6 +375,7 @@ std::span<const Section> sections() {
          [](const Recipe& r) { return r.regions.size(); }},
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
+        {"repair", "what is mended before the part is printed; without this section nothing is"},
         {"support", "what holds up what would hang in the air; without this section there are none"},
         {"plate", "how many of the part are made at once"},
         {"output", "what is written besides the layers", nullptr, false},
