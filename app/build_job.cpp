@@ -140,6 +140,10 @@ BuiltJob build_job(const Recipe& recipe) {
         job.bounds = built.outside->bounds();
         set_layers(recipe, job);
     }
+    if (recipe.cavity) {
+        built.before_cavities = job.part;
+        built.cavities = hollow_out(recipe, job);
+    }
     if (asks_for_dowels(recipe)) {
         built.dowels = place_dowels(recipe, job);
         job.part = without_dowels(job.part, *built.dowels);

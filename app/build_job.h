@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/build_body.h"
+#include "app/build_enclosure.h"
 #include "app/build_foam.h"
 #include "app/build_regions.h"
 #include "app/build_skin.h"
@@ -35,14 +36,16 @@ struct BuiltJob {
     std::vector<DrilledHole> holes;        ///< that the recipe asks for
     std::optional<DrainReport> drains;     ///< empty where none are asked for
     std::optional<DowelHoles> dowels;      ///< empty where none are asked for
+    std::optional<HollowReport> cavities;  ///< empty where none are asked for
+    FieldPtr before_cavities;              ///< the designed part without them; null where none are asked for
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty until they are looked for
     std::optional<RepairReport> repairs;  ///< empty until the job is repaired
 };
 
-/// Where drains are asked for, the layers are surveyed for cavities; where dowels are, for places inside all
-/// of them. Throws InputError when a file is
-/// unreadable or the part is empty.
+/// Where cavities are asked for, the layers are surveyed for room inside the part; where drains are, for
+/// cavities; where dowels are, for places inside all of them. Throws InputError when a file is unreadable or
+/// the part is empty.
 BuiltJob build_job(const Recipe& recipe);
 
 /// Surveys the job's layers and leaves out of the part what floats free of it. The pitch is the recipe's, or

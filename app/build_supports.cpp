@@ -179,7 +179,9 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options) {
     if (recipe.support == SupportKind::none) return std::nullopt;
     const bool closed = has_closed_surface(recipe, built), plain = !recipe.foam && !recipe.skin;
-    const FieldPtr outer = closed ? built.outside : built.designed.part;
+    // Cavities have roofs that need no supports.
+    const FieldPtr whole = built.before_cavities ? built.before_cavities : built.designed.part;
+    const FieldPtr outer = closed ? built.outside : whole;
     FieldPtr blocked = regions_of(recipe, built, RegionMake::blocker);
     if (!closed && !plain) {
         const FieldPtr deep =

@@ -133,6 +133,7 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
     if (recipe.skin) info["skin"] = skin_json(*recipe.skin, built);
     if (built.drains) info["drains"] = drains_json(*built.drains);
+    if (built.cavities) info["cavities"] = cavities_json(*built.cavities);
     if (!built.regions.list.empty()) info["regions"] = regions_json(recipe, built.regions);
     if (!built.regions.warnings.empty()) info["region_warnings"] = built.regions.warnings;
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
@@ -251,6 +252,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     if (info.contains("foam")) text += foam_text(info["foam"]);
     if (info.contains("skin")) text += skin_text(info["skin"]);
     if (drains) text += fmt::format("drains    {}\n", drains_text(*drains));
+    if (built.cavities) text += fmt::format("cavities  {}\n", cavities_text(*built.cavities));
     for (const Json& region : info.value("regions", Json::array())) text += region_text(region);
     for (const Json& warning : info.value("region_warnings", Json::array())) {
         text += "          " + warning.get<std::string>() + "\n";

@@ -62,6 +62,7 @@ void run(PreviewCommand& options) {
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     const auto added = add_supports(recipe, built, {});
+    add_shield(recipe, built.job, {});
     save(render_job(recipe, built, added, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

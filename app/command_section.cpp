@@ -40,6 +40,7 @@ std::string section(const SectionOptions& options, const std::string& format) {
     if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
     repair_job(recipe, built, {});
     add_supports(recipe, built, {});
+    add_shield(recipe, built.job, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
         throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",

@@ -61,6 +61,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
         if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
+        if (built.cavities) summary["cavities"] = cavities_json(*built.cavities);
         if (built.dowels) summary["dowels"] = dowels_json(*built.dowels);
         if (built.islands) summary["islands"] = islands_json(*built.islands);
         if (built.repairs) summary["repairs"] = repairs_json(*built.repairs);

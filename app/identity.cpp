@@ -90,6 +90,8 @@ std::string job_identity(const Recipe& recipe) {
         if (section.name == "foam" && !recipe.foam) continue;
         if (section.name == "frame" && !recipe.frame) continue;
         if (section.name == "skin" && !recipe.skin) continue;
+        if (section.name == "cavity" && !recipe.cavity) continue;
+        if (section.name == "shield" && !recipe.shield) continue;
         if (section.name == "process" && !recipe.process) continue;
         if (section.name == "repair" && !recipe.repair) continue;
         if (section.name == "support" && recipe.support == SupportKind::none) continue;
@@ -103,6 +105,8 @@ std::string job_identity(const Recipe& recipe) {
             }
         }
     }
+    // What both fall back on is otherwise part of the supports.
+    if (recipe.cavity || recipe.shield) hash.add(fmt::format("{}\n", recipe.printer.support.overhang));
     return hash.hex();
 }
 

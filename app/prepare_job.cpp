@@ -73,6 +73,7 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
         repair(other, beside, options, cancel);
         add_supports_with_progress(other, beside, {options.plans, options.threads, {}, &cancel},
                                    options.quiet);
+        add_shield(other, beside.job, {options.threads, &cancel});
         items.push_back({beside.job, other.plate.copies});
     }
     built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
@@ -106,6 +107,8 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     }
     if (built.drains && !options.quiet)
         std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    if (built.cavities && !options.quiet)
+        std::fputs(("cavities: " + cavities_text(*built.cavities) + "\n").c_str(), stderr);
     if (built.dowels && !options.quiet)
         std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
@@ -116,6 +119,8 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     const auto supports = add_supports_with_progress(
         recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
     if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
+    const auto shield = add_shield(recipe, built.job, {options.threads, &cancel});
+    if (shield && !options.quiet) std::fputs(("shield: " + shield_text(*shield) + "\n").c_str(), stderr);
     add_picture(recipe, built, supports, options.threads);
     if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;

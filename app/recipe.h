@@ -177,6 +177,23 @@ struct SkinRecipe {
     double drain_pitch = 0;   ///< of the survey for cavities, mm; 0: what suits the skin
 };
 
+/// Cavities whose roofs print without supports.
+struct CavityRecipe {
+    double wall = 0;      ///< about a cavity, at least, mm
+    double overhang = 0;  ///< of a layer of its roof over the one below, mm; 0: the printer's
+    double chamber = 0;   ///< width of the chambers that it is divided into, mm; 0: undivided
+    double least = 10;    ///< volume of a cavity, mm^3
+    double pitch = 0;     ///< of the survey, mm; 0: what suits the overhang
+};
+
+/// A wall close about the print.
+struct ShieldRecipe {
+    double gap = 0;       ///< to the print in each layer, at least, mm
+    double wall = 0.9;    ///< its thickness, mm
+    double overhang = 0;  ///< by which its outline may move from layer to layer, mm; 0: the printer's
+    double pitch = 0;     ///< of the survey, mm; 0: what suits the overhang
+};
+
 /// What makes up for the way a machine prints.
 struct ProcessRecipe {
     dvec3 scale{1};  ///< of the finished part along x, y, z: about its middle, from its lowest point
@@ -231,6 +248,8 @@ struct Recipe {
     std::optional<FoamRecipe> foam;
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
+    std::optional<CavityRecipe> cavity;
+    std::optional<ShieldRecipe> shield;
     std::optional<ProcessRecipe> process;
     std::optional<RepairRecipe> repair;
     std::vector<HoleRecipe> holes;

@@ -206,6 +206,8 @@ void RecipeDraft::check_structure() {
         }
     }
     if (count(*find_section("skin")) > 0) check_need({"skin", 0}, "thickness", "a skin");
+    if (count(*find_section("cavity")) > 0) check_need({"cavity", 0}, "wall", "a cavity");
+    if (count(*find_section("shield")) > 0) check_need({"shield", 0}, "gap", "a shield");
     if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
 }
 

@@ -101,6 +101,7 @@ class RecipeDraft {
     void check_numbers(const Recipe& recipe);
     void check_cut_skin(const Recipe& recipe);
     void check_drains(const Recipe& recipe);
+    void check_enclosures(const Recipe& recipe);
     void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);
     void check_scripts(const GcodeProfile& gcode);

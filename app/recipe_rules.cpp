@@ -161,6 +161,18 @@ void RecipeDraft::check_drains(const Recipe& recipe) {
     }
 }
 
+/// Rules between cavities, the shield and what they go together with.
+void RecipeDraft::check_enclosures(const Recipe& recipe) {
+    if (recipe.cavity && (recipe.foam || recipe.skin)) {
+        refuse(0, fmt::format("{}: a part with {} is hollow already; accepted: cavities in a solid part",
+                              where("cavity", "wall"), recipe.foam ? "foam" : "a skin"));
+    }
+    if (recipe.shield && cuts_sheets(recipe.printer)) {
+        refuse(0, fmt::format("{}: a shield is not cut out of sheets; accepted: another kind of printer",
+                              where("shield", "gap")));
+    }
+}
+
 /// Rules between the sizes of the part's shape, or of a field's.
 template <typename Sizes>
 void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Sizes& sizes) {
@@ -182,6 +194,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (recipe.foam) check_foam(*recipe.foam);
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
+    check_enclosures(recipe);
     check_scripts(recipe.printer.gcode);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {

@@ -35,6 +35,10 @@ void add_region_settings(std::vector<Setting>& table);
 /// The rows of the [frame] section.
 void add_frame_settings(std::vector<Setting>& table);
 
+/// The rows of the [cavity] and of the [shield] section.
+void add_cavity_settings(std::vector<Setting>& table);
+void add_shield_settings(std::vector<Setting>& table);
+
 /// The rows of the [process] section.
 void add_process_settings(std::vector<Setting>& table);
 /// The rows of the [repair] section.

@@ -310,10 +310,12 @@ std::vector<Setting> make_table() {
     add_frame_settings(table);
     add_skin_settings(table);
     add_region_settings(table);
+    add_cavity_settings(table);
     add_layers(table);
     add_process_settings(table);
     add_repair_settings(table);
     add_support_settings(table);
+    add_shield_settings(table);
     add_plate_settings(table);
     add_output(table);
     add_printer_settings(table);
@@ -373,10 +375,13 @@ std::span<const Section> sections() {
         {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
         {"region", "a part of the body that is made otherwise; later ones win",
          [](const Recipe& r) { return r.regions.size(); }},
+        {"cavity",
+         "cavities inside the part whose roofs print without supports; without this section there are none"},
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
         {"repair", "what is mended before the part is printed; without this section nothing is"},
         {"support", "what holds up what would hang in the air; without this section there are none"},
+        {"shield", "a wall close about the print, taken off later; without this section there is none"},
         {"plate", "how many of the part are made at once"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};

@@ -34,6 +34,29 @@ inline double way_out(std::span<const Run> line, std::int32_t u) {
     return 0;
 }
 
+/// The greatest distance, run units, from a place in one layer to the nearest in the other; looked at in
+/// every line, at its runs' ends and between them.
+inline double furthest_from(const SpanRows& layer, const SpanRows& other, double row_pitch) {
+    double furthest = 0;
+    const int lines = static_cast<int>(layer.lines());
+    for (int l = 0; l < lines; ++l) {
+        for (const Run& run : layer.line(static_cast<std::size_t>(l))) {
+            for (std::int32_t u = run.begin; u < run.end; u += 7) {
+                double nearest = std::numeric_limits<double>::infinity();
+                for (int k = 0; k < lines; ++k) {
+                    const double across = (k - l) * row_pitch;
+                    for (const Run& there : other.line(static_cast<std::size_t>(k))) {
+                        const double along = std::max({there.begin - u, u - there.end + 1, 0});
+                        nearest = std::min(nearest, std::hypot(along, across));
+                    }
+                }
+                furthest = std::max(furthest, nearest);
+            }
+        }
+    }
+    return furthest;
+}
+
 /// The greatest distance, run units, from a place that is not in `above` to the nearest that is not in
 /// `cavity`, both in layers one over the other; looked at in every line, at its runs' ends and between them.
 inline double furthest_overhang(const SpanRows& cavity, const SpanRows& above, double row_pitch) {

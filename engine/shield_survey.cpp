@@ -1,0 +1,146 @@
+// Layers grow by gap and wall as they stream; then the enclosure is swept, and its outline kept.
+#include "engine/shield_survey.h"
+
+#include <cmath>
+
+#include "engine/error.h"
+#include "engine/island_survey.h"
+#include "engine/layer_offset.h"
+#include "engine/number_format.h"
+#include "engine/printable_enclosure.h"
+#include "engine/survey_rows.h"
+
+namespace lamella {
+namespace {
+
+struct RowsProduct : LayerProduct {
+    SpanRows rows;
+};
+
+/// What the shield has to hold, layer by layer.
+class Surveyor : public Backend {
+  public:
+    Surveyor(const Job& job, const ShieldOptions& options)
+        : options_(options),
+          // As many rows as the wall takes, and one more for what lies between the rows that are looked at.
+          wall_(std::ceil(options.wall / options.pitch - 1e-9) * run_unit),
+          reach_(units(options.gap) + wall_ + run_unit),
+          smooth_(units(options.bead)),
+          rect_(grown(job.bounds.rect(), (reach_ + smooth_ + wall_ + 2 * run_unit) / units(1))),
+          band_(rows_over(rect_, options.pitch)),
+          layers_(options.most_bytes, options.pitch) {}
+
+    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
+    void write(const Layer& layer, LayerProduct& product) override;
+    void end() override {
+        if (in_course_ > 0) finish_course();
+    }
+
+    LayerStack& layers() { return layers_; }
+    dvec2 origin() const { return rect_.lo; }
+    double units(double mm) const { return mm * (run_unit / options_.pitch); }
+    /// The wall's thickness, run units.
+    double wall() const { return wall_; }
+
+  private:
+    void finish_course();
+
+    const ShieldOptions& options_;
+    double wall_, reach_, smooth_;  // run units
+    Rect rect_;
+    RowBand band_;
+    LayerStack layers_;
+    SpanRows course_;  // what there is in any of its layers so far
+    int in_course_ = 0;
+};
+
+std::unique_ptr<LayerProduct> Surveyor::render(const Layer& layer) const {
+    auto product = std::make_unique<RowsProduct>();
+    Scratch scratch;
+    SpanRows print = all_rows(layer.part(), band_, scratch);
+    if (layer.supports() != nullptr) {
+        SpanRows both;
+        unite(print, all_rows(*layer.supports(), band_, scratch), both);
+        print = std::move(both);
+    }
+    SpanRows wide;
+    grow_rows(BallRows(print, reach_ + smooth_), run_unit, wide);
+    shrink_rows(wide, smooth_, run_unit, product->rows);
+    return product;
+}
+
+void Surveyor::write(const Layer& /*layer*/, LayerProduct& product) {
+    const SpanRows& rows = static_cast<RowsProduct&>(product).rows;
+    if (in_course_ == 0) {
+        course_ = rows;
+    } else {
+        SpanRows both;
+        unite(course_, rows, both);
+        course_ = std::move(both);
+    }
+    if (++in_course_ == options_.layers_at_once) finish_course();
+}
+
+void Surveyor::finish_course() {
+    layers_.push(course_);
+    in_course_ = 0;
+}
+
+/// The rows with what is thinner than `least` made about as thick.
+SpanRows thickened(const SpanRows& rows, double least) {
+    SpanRows core, opened, thin, grown, out;
+    shrink_rows(rows, least / 2, run_unit, core);
+    // A row more: slivers where rows graze an outline are not thin.
+    grow_rows(BallRows(core, least / 2 + run_unit), run_unit, opened);
+    subtract(rows, opened, thin);
+    grow_rows(BallRows(thin, least / 2), run_unit, grown);
+    unite(rows, grown, out);
+    return out;
+}
+
+/// Leaves of each layer what lies within the wall's thickness of its outline.
+void keep_walls(LayerStack& layers, double wall) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const SpanRows outer = thickened(layers[i], wall);
+        SpanRows inside, band;
+        shrink_rows(outer, wall, run_unit, inside);
+        subtract(outer, inside, band);
+        layers.replace(i, band);
+    }
+}
+
+void check(const Job& job, const ShieldOptions& options) {
+    const auto refuse = [](const std::string& what) { throw InputError("shield: " + what); };
+    if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
+    if (!(options.gap >= 0 && options.bead >= 0 && options.layers_at_once > 0))
+        refuse("the gap, the bead or the number of layers taken at once is below its least");
+    const Interval suited = island_pitches(job);
+    const double most = options.step * options.layers_at_once;
+    if (!(suited.lo <= options.pitch && options.pitch <= most * (1 + 1e-9))) {
+        refuse("the pitch does not suit the print; accepted: " + format_number(suited.lo, 6) + " to " +
+               format_number(most, 6) + " mm, which is a step");
+    }
+}
+
+}  // namespace
+
+ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
+    check(job, options);
+    Surveyor surveyor(job, options);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    LayerStack& layers = surveyor.layers();
+    ShieldSurvey survey;
+    const double step = surveyor.units(options.step * options.layers_at_once);
+    constexpr double corner = 2.5;  // steps: corners of 50 degrees and more are drawn in with their sides
+    survey.sweeps = enclose(layers, {step, corner * step, run_unit}, options.cancel);
+    keep_walls(layers, surveyor.wall());
+    const double height = job.layer_height * options.layers_at_once;
+    survey.volume =
+        static_cast<double>(layers.total_length()) / run_unit * options.pitch * options.pitch * height;
+    survey.wall =
+        std::make_shared<RunBoxes>(layers.boxes({surveyor.origin(), options.pitch, job.z0(), height}));
+    return survey;
+}
+
+}  // namespace lamella
