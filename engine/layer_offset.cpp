@@ -1,54 +1,86 @@
-// Sweeps across rows, then from layer to layer.
+// Blocks of lines, strip by strip; the void in place of the solid.
 #include "engine/layer_offset.h"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "engine/error.h"
-#include "engine/run_union.h"
+#include "engine/grown_block.h"
 
 namespace lamella {
 namespace {
 
-constexpr std::int32_t far_out = 1 << 29;  // run units; solids lie within, the void reaches up to it
+constexpr std::size_t least_block = 16;  // layers that are finished together
 
-/// Appends a line that covers all of the intervals.
-void push_united(std::vector<Run>& runs, SpanRows& out) {
-    std::ranges::sort(runs, {}, &Run::begin);
-    for (const Run& run : runs) out.push(run.begin, run.end);
-    out.end_line();
+using LayerStack = std::vector<const BallRows*>;
+
+/// Where what is grown from these layers can begin and end, runs without an end apart.
+Run extent_of(const LayerStack& stack) {
+    Run extent{far_out, -far_out};
+    double most = 0;
+    for (const BallRows* layer : stack) {
+        for (const BallRun& run : layer->runs()) {
+            for (const std::int32_t end : {run.begin, run.end}) {
+                if (std::abs(end) >= far_out) continue;
+                extent.begin = std::min(extent.begin, end);
+                extent.end = std::max(extent.end, end);
+            }
+        }
+        most = std::max(most, layer->most_weight());
+    }
+    if (extent.begin > extent.end) return {0, run_unit};
+    const auto reach = static_cast<std::int32_t>(std::sqrt(most)) + 2;
+    return {extent.begin - reach, extent.end + reach};
 }
 
-/// The runs of a layer with those of the lines about them, each with what is left of its weight.
-BallRows carried_across(const BallRows& rows, double pitch) {
-    const std::size_t lines = rows.lines();
-    std::vector<std::vector<BallRun>> before(lines);
-    BallSweep sweep(pitch);
-    for (std::size_t l = 0; l < lines; ++l) {
-        sweep.step();
-        sweep.add(rows.line(l));
-        sweep.append_runs(before[l]);
+/// Lines along the edge of blocks that are best grown together: wide ones share the search for what is near,
+/// but what all of their lines have in common is little where balls are small.
+std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
+    constexpr std::size_t least = 1, most = 32;
+    return std::clamp(std::bit_floor(lattice.lines_within(reach)), least, most);
+}
+
+/// The lines of a block one after another.
+void append_lines(const GrownBlock& grown, std::int32_t layer, std::int32_t lines, Run extent,
+                  SpanRows& out) {
+    for (std::int32_t l = 0; l < lines; ++l) {
+        for (const Run& run : grown.line(layer, l)) {
+            out.push(run.begin == extent.begin ? -far_out : run.begin,
+                     run.end == extent.end ? far_out : run.end);
+        }
+        out.end_line();
     }
-    sweep.reset();
-    std::vector<std::vector<BallRun>> all(lines);
-    std::vector<BallRun> after;
-    BallSweep both(pitch);
-    for (std::size_t l = lines; l-- > 0;) {
-        sweep.step();
-        after.clear();
-        sweep.append_runs(after);
-        both.reset();
-        both.add(before[l]);
-        both.add(after);
-        both.drop_hidden();
-        both.append_runs(all[l]);
-        sweep.add(rows.line(l));
+}
+
+/// Grows layers [from, from + count) of a stack, in blocks `edge` lines wide.
+std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice, std::size_t edge,
+                                  std::size_t from, std::size_t count) {
+    namespace tbb = oneapi::tbb;
+    const Run extent = extent_of(stack);
+    std::vector<std::vector<SpanRows>> strips((lattice.lines + edge - 1) / edge);  // layer by layer
+    tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, extent);
+    tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t s) {
+        GrownBlock& grown = blocks.local();
+        const auto line = static_cast<std::int32_t>(s * edge);
+        const auto lines = static_cast<std::int32_t>(std::min(edge, lattice.lines - s * edge));
+        for (std::size_t z = 0; z < count; z += edge) {
+            const auto layers = static_cast<std::int32_t>(std::min(edge, count - z));
+            grown.grow({static_cast<std::int32_t>(from + z), line, layers, lines}, stack);
+            for (std::int32_t i = 0; i < layers; ++i)
+                append_lines(grown, i, lines, extent, strips[s].emplace_back());
+        }
+    });
+    std::vector<SpanRows> layers(count);
+    for (std::size_t z = 0; z < count; ++z) {
+        for (const std::vector<SpanRows>& strip : strips) {
+            for (std::size_t l = 0; l < strip[z].lines(); ++l) layers[z].append_line(strip[z].line(l));
+        }
     }
-    BallRows carried;
-    for (const std::vector<BallRun>& line : all) carried.append_line(line);
-    return carried;
+    return layers;
 }
 
 /// The void of a line between far left and far right.
@@ -86,36 +118,10 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 
 }  // namespace
 
-BallRows::BallRows(const SpanRows& rows, double radius) : BallRows() {
-    runs_.reserve(rows.runs().size());
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
-        for (const Run& run : rows.line(l)) runs_.push_back({run.begin, run.end, radius * radius});
-        starts_.push_back(runs_.size());
-    }
-}
-
-void BallRows::append_line(std::span<const BallRun> runs) {
-    runs_.insert(runs_.end(), runs.begin(), runs.end());
-    starts_.push_back(runs_.size());
-}
-
 void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
-    out.clear();
-    const std::size_t lines = rows.lines();
-    std::vector<std::vector<Run>> before(lines);
-    BallSweep sweep(row_pitch);
-    for (std::size_t l = lines; l-- > 0;) {
-        sweep.step();
-        sweep.append_covered(before[l]);
-        sweep.add(rows.line(l));
-    }
-    sweep.reset();
-    for (std::size_t l = 0; l < lines; ++l) {
-        sweep.step();
-        sweep.add(rows.line(l));
-        sweep.append_covered(before[l]);
-        push_united(before[l], out);
-    }
+    const LayerLattice lattice{row_pitch, row_pitch, rows.lines()};
+    const std::size_t edge = edge_of_blocks(lattice, std::sqrt(rows.most_weight()));
+    out = std::move(grow_within({&rows}, lattice, edge, 0, 1).front());
 }
 
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
@@ -127,7 +133,10 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
 }
 
 GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
-    : lattice_(lattice), reach_(lattice.layers_within(most_reach)) {}
+    : lattice_(lattice),
+      reach_(lattice.layers_within(most_reach)),
+      edge_(edge_of_blocks(lattice, most_reach)),
+      block_(std::max(edge_, least_block)) {}
 
 void GrowingLayers::push(BallRows layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
@@ -146,54 +155,13 @@ bool GrowingLayers::pop(SpanRows& out) {
 void GrowingLayers::finish_block() {
     const std::size_t count = std::min(block_, layers_.size() - past_);
     const std::size_t window = std::min(past_ + count + reach_, layers_.size());
-    namespace tbb = oneapi::tbb;
-    tbb::parallel_for(spread_, window,
-                      [&](std::size_t z) { layers_[z] = carried_across(layers_[z], lattice_.row_pitch); });
-    spread_ = window;
-    const Run extent = this->extent(window);
-    std::vector<SpanRows> grown(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        RunUnion covered;
-        covered.reset(extent.begin, extent.end);
-        const std::size_t z = past_ + i, last = std::min(window, z + reach_ + 1);
-        for (std::size_t l = 0; l < lattice_.lines; ++l) {
-            for (std::size_t from = z - std::min(z, reach_); from < last; ++from) {
-                const double way =
-                    (static_cast<double>(z) - static_cast<double>(from)) * lattice_.layer_pitch;
-                for (const BallRun& run : layers_[from].line(l)) {
-                    const double left = run.weight - way * way;
-                    if (left < 0) continue;
-                    const BallReach reach(std::sqrt(left));
-                    covered.add(run.begin - reach.back, run.end + reach.ahead);
-                }
-            }
-            covered.take(grown[i]);
-        }
-    });
-    for (SpanRows& layer : grown) done_.push_back(std::move(layer));
+    LayerStack stack;
+    for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
+    for (SpanRows& layer : grow_within(stack, lattice_, edge_, past_, count))
+        done_.push_back(std::move(layer));
     const std::size_t forgotten = past_ + count - std::min(past_ + count, reach_);
     layers_.erase(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(forgotten));
     past_ += count - forgotten;
-    spread_ -= forgotten;
-}
-
-/// Where what is grown from these layers can begin and end, runs without an end apart.
-Run GrowingLayers::extent(std::size_t layers) const {
-    Run extent{far_out, -far_out};
-    double most = 0;
-    for (std::size_t z = 0; z < layers; ++z) {
-        for (const BallRun& run : layers_[z].runs()) {
-            for (const std::int32_t end : {run.begin, run.end}) {
-                if (std::abs(end) >= far_out) continue;
-                extent.begin = std::min(extent.begin, end);
-                extent.end = std::max(extent.end, end);
-            }
-            most = std::max(most, run.weight);
-        }
-    }
-    if (extent.begin > extent.end) return {0, run_unit};
-    const auto reach = static_cast<std::int32_t>(std::sqrt(most)) + 2;
-    return {extent.begin - reach, extent.end + reach};
 }
 
 ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)

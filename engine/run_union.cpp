@@ -2,6 +2,7 @@
 #include "engine/run_union.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace lamella {
@@ -9,35 +10,49 @@ namespace {
 
 constexpr Run nothing{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min()};
 
-}  // namespace
-
-void RunUnion::reset(std::int32_t lo, std::int32_t hi) {
-    lo_ = lo;
-    hi_ = std::max(lo, hi);
-    cells_.assign(static_cast<std::size_t>((hi_ - lo_) / run_unit) + 1, nothing);
-    small_.clear();
-    least_ = nothing.begin;
-    greatest_ = nothing.end;
+std::size_t cells_of(Run extent) {
+    return static_cast<std::size_t>((extent.end - extent.begin) / run_unit) + 1;
 }
 
-void RunUnion::take(SpanRows& out) {
+}  // namespace
+
+RunUnion::RunUnion(Run extent)
+    : extent_(extent), cells_(cells_of(extent), nothing), used_(cells_.size() / 64 + 1, 0) {}
+
+void RunUnion::take(std::vector<Run>& out) {
     std::ranges::sort(small_, {}, &Run::begin);
-    auto small = small_.begin();
-    // Ends that were taken for the borders' are put back.
+    const std::size_t first = out.size();
     const auto push = [&](const Run& run) {
-        out.push(run.begin == lo_ ? least_ : run.begin, run.end == hi_ ? greatest_ : run.end);
+        if (out.size() > first && run.begin <= out.back().end) {
+            out.back().end = std::max(out.back().end, run.end);
+        } else {
+            out.push_back(run);
+        }
     };
-    for (Run& cell : cells_) {
-        if (cell.end < cell.begin) continue;
-        for (; small != small_.end() && small->begin < cell.begin; ++small) push(*small);
-        push(cell);
-        cell = nothing;
+    auto small = small_.begin();
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+        for (; used_[i] != 0; used_[i] &= used_[i] - 1) {
+            Run& cell = cells_[i * 64 + static_cast<std::size_t>(std::countr_zero(used_[i]))];
+            for (; small != small_.end() && small->begin < cell.begin; ++small) push(*small);
+            push(cell);
+            cell = nothing;
+        }
     }
     for (; small != small_.end(); ++small) push(*small);
-    out.end_line();
     small_.clear();
-    least_ = nothing.begin;
-    greatest_ = nothing.end;
+}
+
+CoverTable::CoverTable(Run extent) : extent_(extent), cells_(cells_of(extent), 0) {}
+
+void CoverTable::assign(std::span<const Run> runs) {
+    ends_.clear();
+    auto cell = cells_.begin();
+    for (const Run& run : runs) {
+        const auto last = cells_.begin() + (run.end - extent_.begin) / run_unit;
+        for (; cell <= last; ++cell) *cell = static_cast<std::uint32_t>(ends_.size());
+        ends_.push_back(run.end);
+    }
+    std::fill(cell, cells_.end(), static_cast<std::uint32_t>(ends_.size()));
 }
 
 }  // namespace lamella

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/runs.h"
@@ -13,31 +14,54 @@ namespace lamella {
 /// least begin to the greatest end. Runs within a cell are few, and kept apart.
 class RunUnion {
   public:
-    /// Runs lie in [lo, hi), run units; what sticks out of that is as one run on either side.
-    void reset(std::int32_t lo, std::int32_t hi);
+    /// Runs are clipped to `extent`.
+    explicit RunUnion(Run extent);
 
     void add(std::int32_t begin, std::int32_t end) {
-        least_ = std::min(least_, begin);
-        greatest_ = std::max(greatest_, end);
-        begin = std::max(begin, lo_);
-        end = std::min(end, hi_);
+        begin = std::max(begin, extent_.begin);
+        end = std::min(end, extent_.end);
         if (begin >= end) return;
-        const std::int32_t cell = (begin - lo_) / run_unit;
-        if ((end - lo_) / run_unit == cell) {
+        const std::size_t cell = cell_of(begin);
+        if (cell_of(end) == cell) {
             small_.push_back({begin, end});
             return;
         }
-        Run& run = cells_[static_cast<std::size_t>(cell)];
+        used_[cell / 64] |= std::uint64_t{1} << (cell % 64);
+        Run& run = cells_[cell];
         run.begin = std::min(run.begin, begin);
         run.end = std::max(run.end, end);
     }
-    /// Appends the runs of the union to a line of `out`, which is ended, and forgets them.
-    void take(SpanRows& out);
+    /// Appends the runs of the union, sorted, disjoint and not touching, and forgets them.
+    void take(std::vector<Run>& out);
 
   private:
-    std::int32_t lo_ = 0, hi_ = 0;
-    std::int32_t least_ = 0, greatest_ = 0;  // of all begins and ends
+    std::size_t cell_of(std::int32_t at) const {
+        return static_cast<std::uint32_t>(at - extent_.begin) / run_unit;
+    }
+
+    Run extent_;
     std::vector<Run> cells_, small_;
+    std::vector<std::uint64_t> used_;  // a bit for each cell
+};
+
+/// Finds runs of a union by where they lie.
+class CoverTable {
+  public:
+    explicit CoverTable(Run extent);
+    /// `runs` of a union.
+    void assign(std::span<const Run> runs);
+    Run clip(Run run) const { return {std::max(run.begin, extent_.begin), std::min(run.end, extent_.end)}; }
+    /// The first run that ends right of what lies in the extent; or the number of runs.
+    std::size_t first_run(std::int32_t at) const {
+        std::size_t run = cells_[static_cast<std::uint32_t>(at - extent_.begin) / run_unit];
+        while (run < ends_.size() && ends_[run] <= at) ++run;
+        return run;
+    }
+
+  private:
+    Run extent_;
+    std::vector<std::uint32_t> cells_;  // the first run that ends in the cell or behind it
+    std::vector<std::int32_t> ends_;
 };
 
 }  // namespace lamella

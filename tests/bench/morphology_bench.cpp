@@ -1,4 +1,4 @@
-// A foam and a capsule of 40 mm grown by balls, as dexels of one core; by the sweeps and by brute force.
+// A foam and a capsule of 40 mm grown by balls, as dexels of one core; by blocks of lines and by brute force.
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
 

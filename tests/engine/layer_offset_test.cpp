@@ -209,6 +209,77 @@ TEST_CASE("shrunk layers equal brute force", "[morphology]") {
     }
 }
 
+TEST_CASE("large balls leave the right gaps between sparse solids", "[morphology]") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int round = 0; round < 8; ++round) {
+        // Blocks are halved up to five times; some balls are small beside others.
+        const double radius = run_unit * (18 + 24 * unit(random));
+        const LayerLattice lattice{256, round % 2 == 0 ? 256.0 : 201.5, 50};
+        Stack stack(90, Lines(50));
+        const int sites = round < 4 ? 12 : 150;
+        for (int i = 0; i < sites; ++i) {
+            const auto z = static_cast<std::size_t>(89.99 * unit(random));
+            const auto l = static_cast<std::size_t>(49.99 * unit(random));
+            if (!stack[z][l].empty()) continue;
+            const auto at = static_cast<std::int32_t>(60000 * unit(random));
+            const double r = round % 4 < 2 ? radius : radius * unit(random);
+            stack[z][l].push_back({at, at + 1 + static_cast<std::int32_t>(900 * unit(random)), r * r});
+        }
+        CAPTURE(round, radius);
+        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+        REQUIRE(out.size() == stack.size());
+        for (int z = 0; z < 90; z += 2) {
+            for (int l = 0; l < 50; ++l) {
+                check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)),
+                            grown_line(stack, lattice, z, l));
+            }
+        }
+    }
+}
+
+TEST_CASE("a convex solid grows by large balls as by brute force", "[morphology]") {
+    constexpr int size = 96;
+    const LayerLattice lattice{256, 256, size};
+    const double radius = 33.3 * run_unit;
+    Stack stack(size, Lines(size));
+    for (int z = 0; z < size; ++z) {
+        for (int l = 0; l < size; ++l) {
+            const double left = 30 * 30 - (z - 48) * (z - 48) - (l - 40.2) * (l - 40.2);
+            if (left <= 0) continue;
+            const double half = std::sqrt(left) * run_unit;
+            stack[static_cast<std::size_t>(z)][static_cast<std::size_t>(l)] = {
+                {round_run(-half), round_run(half) + 1, radius * radius}};
+        }
+    }
+    const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+    REQUIRE(out.size() == stack.size());
+    for (int z = 0; z < size; z += 3) {
+        for (int l = z % 2; l < size; l += 2) {
+            check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)),
+                        grown_line(stack, lattice, z, l));
+        }
+    }
+}
+
+TEST_CASE("a run without an end stays so, whatever is grown beside it", "[morphology]") {
+    const LayerLattice lattice{256, 256, 12};
+    const double radius = 5 * run_unit, weight = radius * radius;
+    Stack stack(20, Lines(12));
+    stack[3][4] = {{-far, -700, weight}, {900, far, weight}};
+    stack[12][9] = {{-far, far, weight}};
+    stack[18][0] = {{100, 101, weight}};
+    const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+    REQUIRE(out.size() == stack.size());
+    for (int z = 0; z < 20; ++z) {
+        for (int l = 0; l < 12; ++l) {
+            std::vector<Run> expected = grown_line(stack, lattice, z, l);
+            for (Run& run : expected) run = {std::max(run.begin, -far), std::min(run.end, far)};
+            check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)), expected);
+        }
+    }
+}
+
 TEST_CASE("a point grows into a ball, and a ball shrinks to a point", "[morphology]") {
     const double radius = 10 * run_unit;
     const LayerLattice lattice{run_unit, run_unit, 41};

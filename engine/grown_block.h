@@ -1,0 +1,103 @@
+// GrownBlock: neighbouring lines of a dexel solid grown by balls together, the core of exact offsets.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/ball_rows.h"
+#include "engine/run_union.h"
+
+namespace lamella {
+
+/// A rectangle of neighbouring lines of neighbouring layers.
+struct LineBlock {
+    std::int32_t layer, line;    ///< the first
+    std::int32_t layers, lines;  ///< how many
+};
+
+/// Grows lines by what all lines about them give them, by halving blocks of them (branch and bound).
+///
+/// A run that lies, across the lines, between d and D away from all lines of a block covers on each of these
+/// what lies within sqrt(w - D^2) of it, w being its weight, and at most what lies within sqrt(w - d^2).
+/// Gaps that the former leave contain the gaps of each of the lines. Before a block is halved, runs are
+/// forgotten that do not even by the latter reach into a gap, and those that nowhere reach as far into it as
+/// another one does: of two points, which one is nearer changes at a plane (power diagrams; Chen, Panozzo
+/// and Dumas 2018).
+class GrownBlock {
+  public:
+    /// What is covered is clipped to `extent`.
+    GrownBlock(const LayerLattice& lattice, Run extent);
+
+    /// Grows the lines of a block of a stack of layers.
+    void grow(const LineBlock& block, std::span<const BallRows* const> layers);
+    /// A grown line of the block, counted from its first.
+    std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
+        const Place& at = places_[place_of(layer, line)];
+        return {runs_.data() + at.from, at.count};
+    }
+
+  private:
+    struct SourceLine {
+        std::int32_t layer, line;
+        std::span<const BallRun> runs;
+    };
+    /// What may reach into the gaps of a block.
+    struct Level {
+        std::vector<SourceLine> lines;
+        std::vector<BallRun> runs;  // of the lines, where these are not whole
+        std::vector<Run> covered;   // anyway
+    };
+    /// How far a run reaches on lines of a block.
+    struct Reaches {
+        std::int32_t least, most;  // negative where not all or none are reached
+    };
+    struct Source {
+        const SourceLine* line;
+        const BallRun* run;
+    };
+    /// One that reaches into a gap, and all it covers in the block.
+    struct Visible {
+        Source source;
+        Run most;
+        const Run* meets;  // if it sticks out of a covered run
+    };
+    /// About the farthest that sticks out of a covered run on either side.
+    struct Champions {
+        Source left, right;
+        std::int32_t least, greatest;  // twice their ends, about
+    };
+    struct Place {
+        std::size_t from, count;  // in runs_
+    };
+
+    std::size_t place_of(std::int32_t layer, std::int32_t line) const {
+        return static_cast<std::size_t>(layer) * static_cast<std::size_t>(block_.lines) +
+               static_cast<std::size_t>(line);
+    }
+    void gather(std::span<const BallRows* const> layers);
+    void refine(const LineBlock& block, std::size_t depth);
+    void cover(const LineBlock& block, const Level& above, std::vector<Run>& covered);
+    void see(const Level& above, std::span<const Run> covered);
+    void see(Source source, const Reaches& reaches, std::span<const Run> covered);
+    bool is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered);
+    std::size_t find_beside(std::size_t from, const Source& source, std::int32_t up) const;
+    bool outdoes(const LineBlock& block, Source other, const Visible& seen, bool left, bool right) const;
+    void keep_visible(const LineBlock& block, std::size_t depth);
+    void finish_line(const LineBlock& block, const Level& level);
+    void place(const LineBlock& block, std::span<const Run> runs);
+
+    LayerLattice lattice_;
+    LineBlock block_{};
+    std::vector<Level> levels_;  // by how often a block was halved
+    RunUnion union_;
+    CoverTable table_;
+    std::vector<Reaches> reaches_;
+    std::vector<Visible> visible_;
+    std::vector<Champions> champions_;
+    std::size_t below_ = 0, above_ = 0;  // in visible_, about where a layer below or above is looked at
+    std::vector<Run> runs_;
+    std::vector<Place> places_;
+};
+
+}  // namespace lamella
