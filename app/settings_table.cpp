@@ -313,6 +313,7 @@ std::vector<Setting> make_table() {
     add_layers(table);
     add_process_settings(table);
     add_support_settings(table);
+    add_check_settings(table);
     add_plate_settings(table);
     add_output(table);
     add_printer_settings(table);
@@ -375,6 +376,9 @@ std::span<const Section> sections() {
         {"layers", "how the part is cut"},
         {"process", "what makes up for the way a machine prints"},
         {"support", "what holds up what would hang in the air; without this section there are none"},
+        {"check",
+         "how small the machine makes things, and which faults matter to `check` and `slice --check`",
+         nullptr, false},
         {"plate", "how many of the part are made at once"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};
