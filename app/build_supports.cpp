@@ -68,8 +68,7 @@ Printing printing(const Recipe& recipe, double layer_height) {
     Printing p;
     p.filament = recipe.printer.backend == "gcode";
     if (p.filament) p.width = recipe.printer.filament.line_width;
-    const double given = recipe.printer.support.overhang;
-    p.overhang = given > 0 ? given : p.filament ? p.width / 2 : layer_height;
+    p.overhang = printable_overhang(recipe.printer, layer_height);
     // Outlines are known to a part of the width; a step that is small against that says nothing.
     if (!p.filament) p.layers_at_once = std::max(1, static_cast<int>(std::lround(p.width / 2 / p.overhang)));
     return p;
@@ -169,6 +168,11 @@ void lift(Job& job, int layers) {
 }
 
 }  // namespace
+
+double printable_overhang(const PrinterProfile& printer, double layer_height) {
+    if (printer.support.overhang > 0) return printer.support.overhang;
+    return printer.backend == "gcode" ? printer.filament.line_width / 2 : layer_height;
+}
 
 int lifted_layers(const Recipe& recipe, const Job& job) {
     if (recipe.support == SupportKind::none) return 0;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/beam_output.h"
+#include "app/check_outputs.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/island_report.h"
@@ -29,6 +30,7 @@ struct SliceOptions : JobOptions {
     std::vector<std::string> output;
     bool force = false;
     bool json = false;
+    bool check = false;
     std::string repeat;  ///< the command line that continues this run
 };
 
@@ -42,6 +44,7 @@ std::int64_t peak_memory_bytes() {
 struct Written {
     std::optional<BeamLatticeReport> beams;
     std::vector<std::string> notes;
+    std::vector<CheckOutcome> checks;  ///< by output; empty where none was asked for
 };
 
 void summarise(const SliceOptions& options, const std::vector<Output>& outputs, const BuiltJob& built,
@@ -72,6 +75,8 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
                                 {"too_short", beams->dropped}};
         }
         if (!written.notes.empty()) summary["notes"] = written.notes;
+        for (const CheckOutcome& checked : written.checks)
+            summary["checks"].push_back(check_json(checked, built.job));
         TextOutput out("");
         out.write(summary.dump(2) + "\n");
         out.close();
@@ -94,6 +99,17 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
             std::fputs(fmt::format("{}: {}\n", output.path, warning).c_str(), stderr);
     }
     if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
+    for (const CheckOutcome& checked : written.checks)
+        std::fputs(("\n" + check_text(checked)).c_str(), stderr);
+}
+
+/// The layers are written all the same: what to do about it is the user's to say.
+void refuse_failures(const std::vector<CheckOutcome>& checks) {
+    std::string text;
+    for (const CheckOutcome& checked : checks) {
+        if (!checked.report.passed()) text += failure_text(checked) + "\n";
+    }
+    if (!text.empty()) throw ConstraintError(text + "all layers have been written all the same");
 }
 
 /// Standard output takes the layers and nothing else.
@@ -115,6 +131,10 @@ void run(const SliceOptions& options) {
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
     const std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles());
+    if (options.check && !options.layers.empty()) {
+        throw InputError(
+            "--check: it looks at all layers, which --layers leaves out; accepted: one of the two");
+    }
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const BuiltJob& built = prepared.built;
     StreamOptions stream = prepared.stream;
@@ -124,10 +144,17 @@ void run(const SliceOptions& options) {
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
     StreamReport report;
     std::vector<std::string> notes;
+    std::vector<CheckOutcome> checks;
     try {
-        const auto backend = make_outputs(outputs, options.force);
+        auto backend = make_outputs(outputs, options.force);
+        OutputChecks checking;
+        if (options.check) {
+            const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
+            backend = checking.beside(std::move(backend), outputs, recipe.part.name, built.job, parts);
+        }
         report = stream_layers(built.job, *backend, stream);
         notes = backend->notes();
+        checks = checking.outcomes();
     } catch (const Interrupted&) {
         display.finish();
         if (to_pipe) throw Interrupted("interrupted; standard output holds a part of the layers");
@@ -136,7 +163,8 @@ void run(const SliceOptions& options) {
     display.finish();
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
-    summarise(options, outputs, built, report, display, {beams, notes}, recipe);
+    summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
+    refuse_failures(checks);
 }
 
 }  // namespace
@@ -157,6 +185,9 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
     command.add_flag("--force", options->force, "Replace an output that exists");
+    command.add_flag("--check", options->check,
+                     "See on the way whether the part can be printed, as `lamella check` does; exit code 1 "
+                     "when it cannot, with all layers written");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     command.add_flag("--json", options->json, "A summary of the run on standard output");
     finish_command(

@@ -145,10 +145,14 @@ void add_job_options(CLI::App& command, JobOptions& options) {
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--threads", options.threads, "Threads to use; 0: one a core")
-        ->check(CLI::Range(0, 1024));
     command.add_option("--look-ahead", options.look_ahead, "Layers in flight at most; 0: two a thread")
         ->check(CLI::Range(0, 4096));
+    add_survey_options(command, options);
+}
+
+void add_survey_options(CLI::App& command, JobOptions& options) {
+    command.add_option("--threads", options.threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
     command
         .add_option("--plans", options.plans,
                     "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "

@@ -23,7 +23,9 @@ struct JobOptions {
     bool quiet = false;
 };
 
-/// Adds the options to a subcommand.
+/// Adds those options to a subcommand that look ahead of all layers: threads and plans.
+void add_survey_options(CLI::App& command, JobOptions& options);
+/// Adds all of them.
 void add_job_options(CLI::App& command, JobOptions& options);
 
 struct PreparedJob {

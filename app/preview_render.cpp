@@ -22,6 +22,7 @@ constexpr dvec3 part_colour{0.42, 0.52, 0.60};
 constexpr dvec3 cut_colour{0.86, 0.30, 0.09};
 constexpr dvec3 support_colour{0.82, 0.63, 0.28};
 constexpr dvec3 support_cut_colour{0.95, 0.82, 0.45};
+constexpr dvec3 fault_colour{0.80, 0.05, 0.04};
 constexpr dvec3 sky_top{0.80, 0.84, 0.88};
 constexpr dvec3 sky_bottom{0.93, 0.93, 0.92};
 constexpr dvec3 key_light{1.00, 0.95, 0.88};
@@ -129,6 +130,9 @@ class Scene {
         reach_ = grid_.size().x + grid_.size().y + grid_.size().z;
     }
 
+    /// Gives the second solid another colour than supports have.
+    void paint_second(dvec3 colour) { second_ = second_cut_ = colour; }
+
     /// Linear light at a point of the picture.
     dvec3 colour(double x, double y) const {
         const dvec3 direction = camera_.ray(x, y);
@@ -233,7 +237,7 @@ class Scene {
 
     dvec3 shade(const Hit& hit, dvec3 direction) const {
         const dvec3 n = glm::dot(hit.normal, direction) > 0 ? -hit.normal : hit.normal;
-        const dvec3 albedo = hit.on_support ? (hit.on_cut ? support_cut_colour : support_colour)
+        const dvec3 albedo = hit.on_support ? (hit.on_cut ? second_cut_ : second_)
                              : hit.on_cut   ? cut_colour
                                             : part_colour;
         const double open = openness(hit.point, n, reach_ * 0.15);
@@ -268,6 +272,7 @@ class Scene {
     const VoxelGrid& grid_;
     dvec3 key_;
     double reach_;
+    dvec3 second_ = support_colour, second_cut_ = support_cut_colour;
 };
 
 /// Linear light to sRGB, 0 to 1.
@@ -349,7 +354,8 @@ Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box
         const VoxelGrid grid(*all, cut.kept, cells);
         camera = frame(cut.kept, options);
         zoom_to(camera, grid.solid_places(), options);
-        const Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
+        Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
+        if (options.faults) scene.paint_second(fault_colour);
         return Painter(scene, options.width, options.height).render();
     });
 }

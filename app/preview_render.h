@@ -14,6 +14,7 @@ struct PreviewOptions {
     char cut = 'x';         ///< axis along which the nearer part is cut away: 'x', 'y', 'z', or '-' for none
     double cut_at = 0.5;    ///< where, as a share of the bounds along that axis
     int threads = 0;        ///< 0: one a core
+    bool faults = false;    ///< the second solid is what is wrong with the part, not its supports
 };
 
 /// Perspective view of the part and, in a colour of their own, its supports (null for none) within `bounds`

@@ -159,7 +159,7 @@ std::string profile_as_toml(const MachineProfile& profile) {
     recipe.printer = profile.printer;
     std::string text;
     if (!profile.description.empty()) text = "description = " + quoted(profile.description) + "\n";
-    for (const char* section : {"printer", "support"}) {
+    for (const char* section : profile_sections) {
         text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
         for (const Setting& setting : settings()) {
             if (setting.section == section && is_written(setting)) text += setting_line(setting, recipe);

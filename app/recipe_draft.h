@@ -44,7 +44,7 @@ class RecipeDraft {
     /// The recipe. Throws one InputError with every mistake, a line each, when there is any.
     Recipe finish();
 
-    /// Reads a machine profile instead of a recipe: `description`, `based_on`, [printer] and [support].
+    /// Reads a machine profile instead of a recipe: `description`, `based_on` and profile_sections.
     ProfileHead read_profile_file(const std::string& path);
     ProfileHead read_profile(std::string_view text, const std::string& path);
     /// The back-end that the profile names. Throws InputError with every mistake when it names none.

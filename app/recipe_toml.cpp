@@ -228,26 +228,31 @@ class TomlRecipe {
             } else if (name == "based_on") {
                 read_text(line, name, node, head.based_on);
                 head.based_on_where = at(line, name);
-            } else if (name == "printer" || name == "support") {
+            } else if (std::ranges::find(profile_sections, name) != profile_sections.end()) {
                 in_profile_ = true;
                 read_section(*find_section(name), line, node);
             } else {
-                const std::string near = nearest(name, {"description", "based_on", "printer", "support"});
-                const bool misplaced = find_setting("printer", name) || find_setting("support", name);
-                std::string hint = near.empty() ? "" : fmt::format(", did you mean `{}`?", near);
-                if (misplaced)
-                    hint = find_setting("printer", name) ? ", it belongs to [printer]"
-                                                         : ", it belongs to [support]";
-                refuse(line, shown(name),
-                       (misplaced ? "stands outside a section" : "does not belong into a machine profile") +
-                           hint,
-                       "description, based_on, [printer] and [support]");
+                refuse(line, shown(name), misplaced_in_profile(name),
+                       "description, based_on, [printer], [support] and [check]");
             }
         }
         return head;
     }
 
   private:
+    /// What is wrong with a key that stands where a profile has its sections.
+    static std::string misplaced_in_profile(const std::string& name) {
+        for (const char* section : profile_sections) {
+            if (find_setting(section, name))
+                return fmt::format("stands outside a section, it belongs to [{}]", section);
+        }
+        std::vector<std::string> known{"description", "based_on"};
+        known.insert(known.end(), profile_sections.begin(), profile_sections.end());
+        const std::string near = nearest(name, known);
+        return "does not belong into a machine profile" +
+               (near.empty() ? "" : fmt::format(", did you mean `{}`?", near));
+    }
+
     /// A line of text above the sections of a profile.
     void read_text(int line, const std::string& key, const toml::node& node, std::string& text) {
         const auto* given = node.as_string();

@@ -1,6 +1,7 @@
 // The settings table: every key of a recipe and every recipe flag of the command, described once.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -83,6 +84,9 @@ struct Section {
     std::string title() const { return is_list() ? "[[" + name + "]]" : "[" + name + "]"; }
 };
 std::span<const Section> sections();
+
+/// The sections that a machine's profile may have.
+inline constexpr std::array<const char*, 3> profile_sections{"printer", "support", "check"};
 
 /// The section of that name, null when there is none.
 const Section* find_section(std::string_view name);

@@ -27,6 +27,8 @@ const std::vector<std::string>& words(Laser);
 const std::vector<std::string>& words(Ties);
 const std::vector<std::string>& words(SvgDialect);
 const std::vector<std::string>& words(Flavour);
+const std::vector<std::string>& words(Process);
+const std::vector<std::string>& words(Concern);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -47,6 +49,8 @@ void add_repair_settings(std::vector<Setting>& table);
 void add_plate_settings(std::vector<Setting>& table);
 /// The rows of the [support] section.
 void add_support_settings(std::vector<Setting>& table);
+/// The rows of the [check] section.
+void add_check_settings(std::vector<Setting>& table);
 /// The rows of the [skin] and [[hole]] sections.
 void add_skin_settings(std::vector<Setting>& table);
 

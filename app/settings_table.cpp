@@ -316,6 +316,7 @@ std::vector<Setting> make_table() {
     add_repair_settings(table);
     add_support_settings(table);
     add_shield_settings(table);
+    add_check_settings(table);
     add_plate_settings(table);
     add_output(table);
     add_printer_settings(table);
@@ -382,6 +383,9 @@ std::span<const Section> sections() {
         {"repair", "what is mended before the part is printed; without this section nothing is"},
         {"support", "what holds up what would hang in the air; without this section there are none"},
         {"shield", "a wall close about the print, taken off later; without this section there is none"},
+        {"check",
+         "how small the machine makes things, and which faults matter to `check` and `slice --check`",
+         nullptr, false},
         {"plate", "how many of the part are made at once"},
         {"output", "what is written besides the layers", nullptr, false},
         {"printer", "the machine: a profile, and what differs from it"}};

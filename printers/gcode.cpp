@@ -29,6 +29,12 @@ constexpr double prime_strip = 6;     // mm along the bed's edges that stay free
 constexpr double prime_height = 0.3;  // mm
 constexpr double prime_length = 60;   // mm
 
+/// How far brim and skirt reach beyond the part, mm.
+double reach_beside(const PrinterProfile& profile, double layer_height) {
+    const FilamentProfile& filament = profile.filament;
+    return skirt_reach(profile.toolpath, {filament.line_width, layer_height, filament.tolerance});
+}
+
 struct GcodeProduct : LayerProduct {
     std::string text;  ///< from the first bead on; empty for an empty layer
     dvec2 first{0};    ///< on the bed, mm
@@ -258,22 +264,19 @@ class Gcode : public Backend {
     }
 
     void check_fit(const Job& job) const {
-        const double reach =
-            skirt_reach(profile_.toolpath, {filament_.line_width, job.layer_height, filament_.tolerance});
+        const double reach = reach_beside(profile_, job.layer_height);
         const dvec3 size = job.bounds.size() + dvec3(2 * reach, 2 * reach, 0);
-        const double room_x = filament_.bed_x - 2 * prime_strip;
-        const double room_y = filament_.bed_y - 2 * prime_strip;
+        const dvec3 room = gcode_room(profile_, job.layer_height) + dvec3(2 * reach, 2 * reach, 0);
         const double top = job.layer_count * job.layer_height;
         constexpr double slack = 1e-9;
-        if (size.x <= room_x * (1 + slack) && size.y <= room_y * (1 + slack) &&
-            top <= filament_.bed_z * (1 + slack)) {
+        if (size.x <= room.x * (1 + slack) && size.y <= room.y * (1 + slack) && top <= room.z * (1 + slack)) {
             return;
         }
-        throw InputError(fmt::format(
-            "{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
-            "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
-            "larger printer",
-            with_what(reach > 0), size.x, size.y, top, room_x, room_y, filament_.bed_z, prime_strip));
+        throw InputError(
+            fmt::format("{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
+                        "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
+                        "larger printer",
+                        with_what(reach > 0), size.x, size.y, top, room.x, room.y, room.z, prime_strip));
     }
 
     /// Comments, heating, homing and a line that fills the nozzle.
@@ -391,6 +394,13 @@ class Gcode : public Backend {
 };
 
 }  // namespace
+
+dvec3 gcode_room(const PrinterProfile& profile, double layer_height) {
+    if (profile.gcode.flavour == Flavour::grbl) return laser_room(profile);
+    const FilamentProfile& bed = profile.filament;
+    const double beside = 2 * (prime_strip + reach_beside(profile, layer_height));
+    return {bed.bed_x - beside, bed.bed_y - beside, bed.bed_z};
+}
 
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::string& path, bool force) {
     return make_gcode(profile, make_gcode_file(path, force));

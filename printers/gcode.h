@@ -24,4 +24,8 @@ std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::st
 /// The same to any other place.
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);
 
+/// What the bed has room for beside the strip for the priming line, brim and skirt, and how high, mm; under
+/// grbl laser_room.
+dvec3 gcode_room(const PrinterProfile& profile, double layer_height);
+
 }  // namespace lamella

@@ -214,8 +214,9 @@ class LaserGcode : public Backend {
         const double more = 2 * cut_allowance(profile_.cutting);
         const dvec3 size = job.bounds.size();
         const FilamentProfile& bed = profile_.filament;
+        const dvec3 room = laser_room(profile_);
         constexpr double slack = 1e-9;
-        if (size.x + more <= bed.bed_x * (1 + slack) && size.y + more <= bed.bed_y * (1 + slack)) return;
+        if (size.x <= room.x + bed.bed_x * slack && size.y <= room.y + bed.bed_y * slack) return;
         throw InputError(fmt::format(
             "the part with its kerf is {:.3f} x {:.3f} mm but the bed has {:.3f} x {:.3f} mm; scale or "
             "turn the part, or choose a larger machine (bed_x, bed_y)",
@@ -287,6 +288,11 @@ class LaserGcode : public Backend {
 };
 
 }  // namespace
+
+dvec3 laser_room(const PrinterProfile& profile) {
+    const double beside = 2 * cut_allowance(profile.cutting);
+    return {profile.filament.bed_x - beside, profile.filament.bed_y - beside, infinity};
+}
 
 std::unique_ptr<Backend> make_laser_gcode(const PrinterProfile& profile,
                                           std::unique_ptr<GcodeOutput> output) {

@@ -19,4 +19,7 @@ namespace lamella {
 /// for a part that is larger than the bed.
 std::unique_ptr<Backend> make_laser_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);
 
+/// What the bed has room for beside the kerf, mm; upward there is no end.
+dvec3 laser_room(const PrinterProfile& profile);
+
 }  // namespace lamella

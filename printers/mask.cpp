@@ -211,19 +211,22 @@ std::vector<double> shares_of(const ImageProfile& profile) {
 
 }  // namespace
 
+dvec2 display_room(const ImageProfile& profile) {
+    return dvec2(profile.width * profile.pixel_x, profile.height * profile.pixel_y) - 2 * profile.margin;
+}
+
 MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     check_profile(profile);
-    const double size_x = profile.width * profile.pixel_x - 2 * profile.margin;
-    const double size_y = profile.height * profile.pixel_y - 2 * profile.margin;
+    const dvec2 room = display_room(profile);
     const dvec3 size = part_bounds.size();
     // A part as large as the display fits, whatever the rounding of its bounds.
     constexpr double slack = 1e-9;
-    if (size.x > size_x * (1 + slack) || size.y > size_y * (1 + slack)) {
+    if (size.x > room.x * (1 + slack) || size.y > room.y * (1 + slack)) {
         throw InputError(fmt::format(
             "the part is {:.3f} x {:.3f} mm but the display {} {:.3f} x {:.3f} mm ({} x {} px{}); "
             "scale or turn the part, or choose a larger printer",
-            size.x, size.y, profile.margin > 0 ? "has room for" : "is", std::max(size_x, 0.0),
-            std::max(size_y, 0.0), profile.width, profile.height,
+            size.x, size.y, profile.margin > 0 ? "has room for" : "is", std::max(room.x, 0.0),
+            std::max(room.y, 0.0), profile.width, profile.height,
             profile.margin > 0 ? fmt::format(", {} mm kept clear at its edge", profile.margin)
                                : std::string()));
     }

@@ -37,6 +37,9 @@ class MaskLayout {
     int height_;
 };
 
+/// What a display has room for, mm: all of it but the margin at its edge.
+dvec2 display_room(const ImageProfile& profile);
+
 /// Takes the runs of the next `rows` rows of an image.
 using BandSink = std::function<void(std::span<const GreyRun> runs, int rows)>;
 

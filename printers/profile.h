@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "printers/check_profile.h"
 #include "printers/gcode_profile.h"
 
 namespace lamella {
@@ -195,6 +196,7 @@ struct PrinterProfile {
     GcodeProfile gcode;
     LaserProfile laser;
     SupportProfile support;
+    CheckProfile check;
 };
 
 }  // namespace lamella

@@ -12,6 +12,7 @@
 #include "printers/ember.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
+#include "printers/mask.h"
 #include "printers/nanodlp.h"
 #include "printers/png_stack.h"
 #include "printers/sl1.h"
@@ -21,22 +22,27 @@
 namespace lamella {
 namespace {
 
+dvec3 room_under_display(const PrinterProfile& profile, double /*layer_height*/) {
+    return {display_room(profile.image), infinity};
+}
+
 constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
-                make_png_stack, Medium::pixels, true},
+                make_png_stack, Medium::pixels, true, nullptr, room_under_display},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
-                OutputKind::file, make_sl1, Medium::pixels, true},
-    BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo},
+                OutputKind::file, make_sl1, Medium::pixels, true, nullptr, room_under_display},
+    BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo,
+                Medium::pixels, false, nullptr, room_under_display},
     BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
-                OutputKind::file, make_nanodlp, Medium::pixels, true},
+                OutputKind::file, make_nanodlp, Medium::pixels, true, nullptr, room_under_display},
     BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file,
-                make_ember, Medium::pixels, true},
+                make_ember, Medium::pixels, true, nullptr, room_under_display},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
                 OutputKind::file_or_folder, make_svg, Medium::contours, true},
     BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
                 make_dxf, Medium::contours},
     BackendInfo{"gcode", "G-code for filament printers, and for lasers under GRBL", ".gcode",
-                OutputKind::file, make_gcode, Medium::beads, true},
+                OutputKind::file, make_gcode, Medium::beads, true, nullptr, gcode_room},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
                 OutputKind::file, make_cli, Medium::contours, true},
     BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
@@ -82,6 +88,11 @@ SupportProfile usual_supports(std::string_view backend) {
     support.foot_height = 0.6;
     support.density = 1.12;
     return support;
+}
+
+dvec3 build_room(const PrinterProfile& profile, double layer_height) {
+    const auto room = find_backend(profile.backend).room;
+    return room != nullptr ? room(profile, layer_height) : dvec3(infinity);
 }
 
 const BackendInfo& find_backend(std::string_view name) {

@@ -26,6 +26,8 @@ struct BackendInfo {
     Medium medium = Medium::pixels;
     bool streams = false;           ///< writes to standard output as well
     const char* warning = nullptr;  ///< what whoever gets such an output should know
+    /// What its machine has room for at this height of layers, mm; null where that is not known.
+    dvec3 (*room)(const PrinterProfile& profile, double layer_height) = nullptr;
 };
 
 /// All back-ends.
@@ -34,6 +36,10 @@ std::span<const BackendInfo> backends();
 /// Supports as a back-end's machines need them where nothing else is known. Resin is peeled off layer by
 /// layer and cannot span a void: more points, thick round pillars, large feet, and tips that break off.
 SupportProfile usual_supports(std::string_view backend);
+
+/// Width, depth and height of what a profile's machine has room for at this height of layers, as its
+/// back-end takes it, mm; infinite where that is not known.
+dvec3 build_room(const PrinterProfile& profile, double layer_height);
 
 /// Throws InputError, with the nearest known name, when there is none of this name.
 const BackendInfo& find_backend(std::string_view name);

@@ -1,6 +1,7 @@
 // Machine profiles: what ships is sourced and consistent, and users' files are read like recipes.
 #include "app/machine_profiles.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <regex>
@@ -56,7 +57,7 @@ bool same(const PrinterProfile& a, const PrinterProfile& b) {
     ra.printer = a;
     rb.printer = b;
     for (const Setting& setting : settings()) {
-        if (setting.section != "printer" && setting.section != "support") continue;
+        if (std::ranges::find(profile_sections, setting.section) == profile_sections.end()) continue;
         INFO(setting.name());
         if (!(setting.load(ra, 0) == setting.load(rb, 0))) return false;
     }
@@ -148,6 +149,8 @@ TEST_CASE("a profile written down as TOML is read back the same") {
         INFO(name);
         MachineProfile profile = *profiles.find(name);
         profile.printer.support.tip = 0.4375;
+        profile.printer.check.least_gap = 0.3125;
+        profile.printer.check.concerns[3] = Concern::off;
         profile.printer.resin.material = "a \"grey\" \\ resin";
         profile.printer.gcode.start_script = "M117 \"{layers}\"\n\nG28 ; {{home}}";
         write(folder / (name + ".toml"), profile_as_toml(profile));
@@ -160,7 +163,7 @@ TEST_CASE("a profile written down as TOML is read back the same") {
     // Every key is there, apart from those that say the same in other words.
     const std::string text = "\n" + profile_as_toml(*profiles.find("elegoo-mars-3"));
     for (const Setting& setting : settings()) {
-        if (setting.section != "printer" && setting.section != "support") continue;
+        if (std::ranges::find(profile_sections, setting.section) == profile_sections.end()) continue;
         const bool other = setting.name() == "printer.profile" || setting.name() == "support.kind" ||
                            setting.key == "pixel" || setting.key == "dpi" ||
                            setting.type == ValueType::rows ||
@@ -170,6 +173,24 @@ TEST_CASE("a profile written down as TOML is read back the same") {
         CHECK((section.substr(0, section.find("\n\n")).find("\n" + setting.key + " = ") !=
                std::string::npos) == !other);
     }
+}
+
+TEST_CASE("what a profile says of checks holds, and changes no job", "[check]") {
+    const Folder folder;
+    const std::string text = "based_on = \"binder-jet-300\"\n";
+    write(folder / "plain.toml", text);
+    write(folder / "mine.toml", text + "[check]\nleast_thickness = 1.5\ncavities = \"warn\"\n");
+    const MachineProfiles profiles = with(folder);
+    const Recipe plain = recipe_with(profiles, "[printer]\nprofile = \"plain\"\n");
+    Recipe mine = recipe_with(profiles, "[printer]\nprofile = \"mine\"\n");
+    CHECK(mine.printer.check.process == Process::powder);  // as the profile at the bottom says
+    CHECK(mine.printer.check.least_thickness == 1.5);
+    mine.printer.name = plain.printer.name;
+    CHECK(job_identity(mine) == job_identity(plain));
+    CHECK(mentions(wrong("[printer]\nkind = \"sl1\"\n[check]\ncups = \"no\"\n"),
+                   "mine.toml:4: check.cups: \"no\" is unknown"));
+    CHECK(mentions(wrong("cups = \"off\"\n[printer]\nkind = \"sl1\"\n"),
+                   "mine.toml:1: cups: stands outside a section, it belongs to [check]"));
 }
 
 TEST_CASE("a user's profile is found by name, by file, and before a built-in one") {
