@@ -12,12 +12,12 @@
 #include "engine/layer_thinness.h"
 #include "engine/neck_check.h"
 #include "engine/number_format.h"
+#include "engine/survey_rows.h"
 #include "engine/void_check.h"
 
 namespace lamella {
 namespace {
 
-constexpr int band_rows = 64;          // a band's runs stay in the cache
 constexpr double most_rows = 1 << 15;  // along a side
 constexpr double pitches_in_a_thickness = 5;
 constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
@@ -36,20 +36,10 @@ CheckGrid check_grid(const Job& job, double pitch) {
     return grid;
 }
 
-SpanRows all_rows(const SliceField* slice, const RowBand& whole, Scratch& scratch) {
-    SpanRows all;
-    const auto some = scratch.rows();
-    RowBand band = whole;
-    for (band.first = 0; band.first < whole.count; band.first += band_rows) {
-        band.count = std::min(band_rows, whole.count - band.first);
-        if (slice != nullptr) {
-            slice->spans(band, scratch, *some);
-            for (std::size_t l = 0; l < some->lines(); ++l) all.append_line(some->line(l));
-        } else {
-            for (int l = 0; l < band.count; ++l) all.end_line();
-        }
-    }
-    return all;
+SpanRows empty_rows(int count) {
+    SpanRows rows;
+    for (int l = 0; l < count; ++l) rows.end_line();
+    return rows;
 }
 
 /// What the checks need of one layer.
@@ -242,14 +232,15 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
     auto product = std::make_unique<CheckedLayer>();
     Scratch scratch;
-    SpanRows part = all_rows(&layer.part(), state.grid.band, scratch);
+    SpanRows part = all_rows(layer.part(), state.grid.band, scratch);
     product->area = state.grid.area(part.total_length());
     if (state.pieces || state.wants(Check::sheets))
         product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness) product->thin = state.thickness->prepare(part);
     if (state.gaps) product->narrow = state.gaps->prepare(part);
-    SpanRows supports = all_rows(layer.supports(), state.grid.band, scratch);
+    SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
+                                                    : empty_rows(state.grid.band.count);
     product->support_area = state.grid.area(supports.total_length());
     if (state.hold) {
         product->rows = state.hold->prepare(std::move(part), std::move(supports));
