@@ -105,7 +105,7 @@ TEST_CASE("a shield stands about the print, and every key of it does something",
         "[[field]]\nname = \"m\"\nkind = \"formula\"\nbounds = [[-6, -6, 0], [6, 6, 10]]\nformula = "
         "\"max(max(min(hypot(x, y) - 1, max(hypot(x, y) - 6, 8 - z)), -z), z - 10)\"\n"
         "[part]\nfield = \"m\"\n[layers]\nheight = 0.2\n[printer]\nprofile = \"marlin\"\n"
-        "[shield]\ngap = 1\n";
+        "[shield]\ngap = 1\npitch = 0.1\n";
     REQUIRE(shield_of(mushroom + "overhang = 0.4\n") < shield_of(mushroom));
     REQUIRE(identity_of(plain) != identity_of(box));
 }
