@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/check_words.h"
 
@@ -73,6 +74,30 @@ const char* limit_unit(Check check) {
         default:
             return "";
     }
+}
+
+/// All sizes that were asked for, whether or not a check of them was.
+Json limits_mm_json(const PrintLimits& limits) {
+    Json room = Json::array();
+    for (int k = 0; k < 3; ++k) {
+        const double side = limits.build_volume[k];
+        room.push_back(std::isfinite(side) ? Json(side) : Json());
+    }
+    return {{"thickness", limits.thickness},
+            {"thickness_up", limits.thickness_up},
+            {"gap", limits.gap},
+            {"gap_up", limits.gap_up},
+            {"neck", limits.neck},
+            {"overhang", limits.overhang},
+            {"free_stretch", limits.free_stretch},
+            {"bridge", limits.bridge},
+            {"support_spacing", limits.support_spacing},
+            {"support_gap", limits.support_gap},
+            {"build_volume", std::move(room)}};
+}
+
+Json limits_mm3_json(const PrintLimits& limits) {
+    return {{"large_part", limits.large_part}, {"cavity", limits.cavity}, {"cup", limits.cup}};
 }
 
 /// A row's height, where it begins and where it ends.
@@ -169,7 +194,9 @@ nlohmann::ordered_json check_json(const CheckOutcome& outcome, const Job& job) {
               {"layers", job.layer_count},
               {"layer_height_mm", job.layer_height},
               {"pitch_mm", outcome.plan.options.pitch},
-              {"volume_mm3", outcome.report.volume}};
+              {"volume_mm3", outcome.report.volume},
+              {"limits_mm", limits_mm_json(outcome.plan.options.limits)},
+              {"limits_mm3", limits_mm3_json(outcome.plan.options.limits)}};
     if (!outcome.plan.notes.empty()) json["notes"] = outcome.plan.notes;
     json["checks"] = Json::array();
     for (const CheckResult& result : outcome.report.results)

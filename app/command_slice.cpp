@@ -197,6 +197,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
         "  lamella slice insole.toml -o insole.sl1@prusa-sl1s -o insole.gcode@marlin\n"
         "  lamella slice insole.toml --layers 100:200 --json\n"
+        "  lamella slice insole.toml --check -o insole.sl1\n"
         "  lamella slice insole.toml --printer ember -o - | ssh printer 'cat > insole.tar.gz'\n"
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
     command.callback([options] { run(*options); });

@@ -1,6 +1,7 @@
 // Layers shrink by the wall as they stream; then the cavities are swept from the top down.
 #include "engine/hollow_survey.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/error.h"
@@ -185,10 +186,10 @@ void check(const Job& job, const HollowOptions& options) {
         refuse("a width, a volume or the number of layers taken at once is below its least");
     }
     const Interval suited = island_pitches(job);
-    const double most = options.step * options.layers_at_once;
+    const double most = std::min(options.step * options.layers_at_once, suited.hi);
     if (!(suited.lo <= options.pitch && options.pitch <= most * (1 + 1e-9))) {
         refuse("the pitch does not suit the part; accepted: " + format_number(suited.lo, 6) + " to " +
-               format_number(most, 6) + " mm, which is a step");
+               format_number(most, 6) + " mm: no more than a step, nor than 16 layers");
     }
 }
 

@@ -147,6 +147,21 @@ TEST_CASE("what is held is no overhang, and limits are the machine's", "[check]"
                     "thickness", 1)["count"] == 1);
 }
 
+TEST_CASE("JSON tells all limits, unknown ones as null", "[check]") {
+    const Json bed = Json::parse(run_lamella("check -q --json " + block +
+                                             "--printer prusa-mk4 --check-least-cup 7 --layer-height 0.25")
+                                     .out);
+    CHECK(bed["process"] == "filament");
+    CHECK(bed["layers"] == 80);
+    CHECK(bed["volume_mm3"].get<double>() == Approx(8000).epsilon(0.01));
+    CHECK(bed["limits_mm"]["build_volume"] == Json({238, 198, 220}));
+    CHECK(bed["limits_mm"]["neck"] == 0.9);
+    CHECK(bed["limits_mm"]["overhang"] == 0.225);
+    CHECK(bed["limits_mm3"]["cup"] == 7);
+    const Json open = Json::parse(run_lamella("check -q --json " + block + "--printer prusa-sl1s").out);
+    CHECK(open["limits_mm"]["build_volume"] == Json({128, 81, nullptr}));
+}
+
 TEST_CASE("wrong limits are told by their names, and nothing is written", "[check]") {
     const Folder folder;
     for (const auto& [wrong, message] : std::vector<std::pair<std::string, std::string>>{
