@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/print_check.h"
 #include "printers/check_profile.h"
 
 namespace lamella {

@@ -64,6 +64,7 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       slope_layers_(std::clamp<std::size_t>(layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang),
                                             1, most_slope_layers)),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
+      supports_(grid, limits.support_spacing, limits.support_gap),
       islands_(most),
       overhangs_(most),
       bridges_(most) {}
@@ -74,7 +75,6 @@ HoldingRows HoldCheck::prepare(SpanRows part, SpanRows supports) const {
     HoldingRows layer;
     layer.reach = grown(part, step + 1);
     layer.far_reach = grown(part, static_cast<double>(slope_layers_) * step + 1);
-    layer.held_by_support = grown(supports, limits_.support_spacing / grid_.band.along_pitch);
     layer.printed = united(part, supports);
     layer.part = std::move(part);
     layer.supports = std::move(supports);
@@ -88,14 +88,17 @@ void HoldCheck::add(HoldingRows layer, int index) {
         add_overhang(next.hung, index);
     } else {
         const SpanRows islands = find_islands(layer, index);
-        const SpanRows hanging = without(hanging_over(layer), islands);
+        const SpanRows held = supports_.held();
+        const SpanRows hanging =
+            without(without(without(layer.part, below_.back().rows.reach), held), islands);
         const SpanRows bad = judge_regions(layer, hanging, index);
         next.hung = united(without(hanging, bad), islands);
         below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
-        const SpanRows steep = too_steep(layer);
+        const SpanRows steep = too_steep(layer, held);
         below_.pop_back();
         add_overhang(standing_out(layer, united(bad, steep)), index);
     }
+    supports_.add(layer.supports);
     next.rows = std::move(layer);
     below_.push_back(std::move(next));
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
@@ -132,29 +135,18 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
     return floating;
 }
 
-/// What stands out over the layer below and no support holds.
-SpanRows HoldCheck::hanging_over(const HoldingRows& layer) const {
-    SpanRows hanging = without(layer.part, below_.back().rows.reach);
-    const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
-    for (std::size_t k = oldest; k < below_.size() && !hanging.runs().empty(); ++k)
-        hanging = without(hanging, below_[k].rows.held_by_support);
-    return hanging;
-}
-
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer) const {
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) const {
     SpanRows steep;
     for (std::size_t l = 0; l < layer.part.lines(); ++l) steep.end_line();
     if (below_.size() <= slope_layers_) return steep;
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
-    steep = without(layer.part, below_[first].rows.far_reach);
+    steep = without(without(layer.part, below_[first].rows.far_reach), held);
     const double step = limits_.overhang / grid_.band.along_pitch;
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
         if (!below.hung.runs().empty()) steep = without(steep, grown(below.hung, above * step + 1));
-        if (k + 1 < below_.size() && !below.rows.held_by_support.runs().empty())
-            steep = without(steep, below.rows.held_by_support);
     }
     const LabelledLayer labelled = label_layer(steep, 0, Growth{});
     std::vector<std::uint8_t> large;

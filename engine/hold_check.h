@@ -4,17 +4,17 @@
 #include <deque>
 
 #include "engine/hanging_regions.h"
+#include "engine/support_hold.h"
 
 namespace lamella {
 
 /// The rows of a layer, as far as the next ones are compared with them.
 struct HoldingRows {
     SpanRows part;
-    SpanRows supports;         ///< empty rows where there are none
-    SpanRows printed;          ///< both
-    SpanRows reach;            ///< the part grown by what a layer may stand out, and a pitch
-    SpanRows far_reach;        ///< the same for as many layers as a slope is followed over
-    SpanRows held_by_support;  ///< the supports, grown by what they hold
+    SpanRows supports;   ///< empty rows where there are none
+    SpanRows printed;    ///< both
+    SpanRows reach;      ///< the part grown by what a layer may stand out, and a pitch
+    SpanRows far_reach;  ///< the same for as many layers as a slope is followed over
 };
 
 /// Compares each layer with those below it; the first one lies on the bed.
@@ -44,8 +44,7 @@ class HoldCheck {
         SpanRows hung;
     };
     SpanRows find_islands(const HoldingRows& layer, int index);
-    SpanRows hanging_over(const HoldingRows& layer) const;
-    SpanRows too_steep(const HoldingRows& layer) const;
+    SpanRows too_steep(const HoldingRows& layer, const SpanRows& held) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);
@@ -53,8 +52,9 @@ class HoldCheck {
     CheckGrid grid_;
     PrintLimits limits_;
     std::size_t slope_layers_;    // over which a slope is followed
-    std::size_t support_layers_;  // back, whose supports hold
+    std::size_t support_layers_;  // back, whose supports an island may stand on
     std::deque<Below> below_;     // newest last
+    SupportHold supports_;
     PassingComponents hanging_;
     std::vector<EndedComponent> ended_;
     FaultList islands_, overhangs_, bridges_;

@@ -211,8 +211,14 @@ bool CheckReport::passed() const {
 
 double check_pitch(const Job& job, const PrintLimits& limits) {
     const dvec3 size = job.bounds.size();
-    double least = std::min(limits.thickness, limits.gap);
-    if (limits.verdict(Check::necks) != Verdict::off) least = std::min(least, limits.neck);
+    constexpr double where_nothing_is_thin = 0.5;  // mm
+    double least = where_nothing_is_thin;
+    const auto consider = [&](Check check, double thickness) {
+        if (limits.verdict(check) != Verdict::off) least = std::min(least, thickness);
+    };
+    consider(Check::thickness, limits.thickness);
+    consider(Check::gaps, limits.gap);
+    consider(Check::necks, limits.neck);
     return std::max(least / pitches_in_a_thickness, std::max(size.x, size.y) / most_rows);
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "engine/print_check.h"
+#include "engine/print_limits.h"
 
 namespace lamella {
 
