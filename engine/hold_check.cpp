@@ -32,9 +32,10 @@ bool touches(const SpanRows& rows, int r, const Run& run) {
     return any;
 }
 
-SpanRows grown(const SpanRows& rows, double pitches) {
+/// What of a lies further than `pitches` from b.
+SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
     SpanRows out;
-    grow_rows(BallRows(rows, pitches * run_unit), run_unit, out);
+    subtract_grown(a, b, pitches * run_unit, run_unit, out);
     return out;
 }
 
@@ -61,6 +62,7 @@ std::size_t layers_in(double height, double layer_height) {
 HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
     : grid_(grid),
       limits_(limits),
+      step_(limits.overhang / grid.band.along_pitch),
       slope_layers_(std::clamp<std::size_t>(layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang),
                                             1, most_slope_layers)),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
@@ -69,12 +71,8 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       overhangs_(most),
       bridges_(most) {}
 
-HoldingRows HoldCheck::prepare(SpanRows part, SpanRows supports) const {
-    // Rows see a border up to a pitch late.
-    const double step = limits_.overhang / grid_.band.along_pitch;
+HoldingRows HoldCheck::prepare(SpanRows part, SpanRows supports) {
     HoldingRows layer;
-    layer.reach = grown(part, step + 1);
-    layer.far_reach = grown(part, static_cast<double>(slope_layers_) * step + 1);
     layer.printed = united(part, supports);
     layer.part = std::move(part);
     layer.supports = std::move(supports);
@@ -89,8 +87,9 @@ void HoldCheck::add(HoldingRows layer, int index) {
     } else {
         const SpanRows islands = find_islands(layer, index);
         const SpanRows held = supports_.held();
-        const SpanRows hanging =
-            without(without(without(layer.part, below_.back().rows.reach), held), islands);
+        // Rows see a border up to a pitch late.
+        const SpanRows out = beyond(layer.part, below_.back().rows.part, step_ + 1);
+        const SpanRows hanging = without(without(out, held), islands);
         const SpanRows bad = judge_regions(layer, hanging, index);
         next.hung = united(without(hanging, bad), islands);
         below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
@@ -141,12 +140,12 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) co
     for (std::size_t l = 0; l < layer.part.lines(); ++l) steep.end_line();
     if (below_.size() <= slope_layers_) return steep;
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
-    steep = without(without(layer.part, below_[first].rows.far_reach), held);
-    const double step = limits_.overhang / grid_.band.along_pitch;
+    const double far = static_cast<double>(slope_layers_) * step_ + 1;
+    steep = without(beyond(layer.part, below_[first].rows.part, far), held);
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
-        if (!below.hung.runs().empty()) steep = without(steep, grown(below.hung, above * step + 1));
+        if (!below.hung.runs().empty()) steep = beyond(steep, below.hung, above * step_ + 1);
     }
     const LabelledLayer labelled = label_layer(steep, 0, Growth{});
     std::vector<std::uint8_t> large;
@@ -188,10 +187,8 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
 /// What stands out over the layer below about what was found: from layer to layer that hangs together.
 SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found) const {
     if (found.runs().empty()) return found;
-    const double step = limits_.overhang / grid_.band.along_pitch;
-    SpanRows near;
-    intersect(without(layer.part, below_.back().rows.printed), grown(found, 2 * step + 2), near);
-    return near;
+    const SpanRows all = without(layer.part, below_.back().rows.printed);
+    return without(all, beyond(all, found, 2 * step_ + 2));
 }
 
 void HoldCheck::add_overhang(const SpanRows& rows, int index) {

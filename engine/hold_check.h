@@ -11,10 +11,8 @@ namespace lamella {
 /// The rows of a layer, as far as the next ones are compared with them.
 struct HoldingRows {
     SpanRows part;
-    SpanRows supports;   ///< empty rows where there are none
-    SpanRows printed;    ///< both
-    SpanRows reach;      ///< the part grown by what a layer may stand out, and a pitch
-    SpanRows far_reach;  ///< the same for as many layers as a slope is followed over
+    SpanRows supports;  ///< empty rows where there are none
+    SpanRows printed;   ///< both
 };
 
 /// Compares each layer with those below it; the first one lies on the bed.
@@ -29,7 +27,7 @@ class HoldCheck {
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
     /// What the check needs of a layer. Pure.
-    HoldingRows prepare(SpanRows part, SpanRows supports) const;
+    static HoldingRows prepare(SpanRows part, SpanRows supports);
     void add(HoldingRows layer, int index);
     void finish();
 
@@ -51,6 +49,7 @@ class HoldCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
+    double step_;                 // by which a layer may stand out, pitches
     std::size_t slope_layers_;    // over which a slope is followed
     std::size_t support_layers_;  // back, whose supports an island may stand on
     std::deque<Below> below_;     // newest last

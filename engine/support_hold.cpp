@@ -20,7 +20,9 @@ SpanRows SupportHold::held() const {
     const double unit = grid_.band.along_pitch / run_unit;
     BallRows balls;
     std::vector<BallRun> line;
-    bool any = false;
+    bool any = !last_.runs().empty();
+    for (const SpanRows& top : tops_) any = any || !top.runs().empty();
+    if (!any) return last_;
     for (std::size_t l = 0; l < last_.lines(); ++l) {
         line.clear();
         const auto add = [&](const SpanRows& rows, std::size_t layers_down) {
@@ -32,15 +34,10 @@ SpanRows SupportHold::held() const {
         add(last_, 0);
         for (std::size_t k = 0; k < tops_.size(); ++k) add(tops_[k], tops_.size() - k);
         std::ranges::sort(line, {}, &BallRun::begin);
-        any = any || !line.empty();
         balls.append_line(line);
     }
     SpanRows out;
-    if (any) {
-        grow_rows(balls, run_unit, out);
-    } else {
-        for (std::size_t l = 0; l < last_.lines(); ++l) out.end_line();
-    }
+    grow_rows(balls, run_unit, out);
     return out;
 }
 
