@@ -150,6 +150,25 @@ TEST_CASE("grown rows equal brute force", "[morphology]") {
     }
 }
 
+TEST_CASE("rows less grown ones equal brute force", "[morphology]") {
+    std::mt19937 random(7);
+    std::int64_t left = 0;
+    for (int round = 0; round < 60; ++round) {
+        const double radius = std::uniform_real_distribution<double>(0, 1200)(random);
+        const LayerLattice lattice{round % 3 == 0 ? 256 : 190.5, 256, 40};
+        const Stack from = random_stack(random, 1, 40, [](double) { return 0.0; }),
+                    taken = random_stack(random, 1, 40, [&](double) { return radius; });
+        CAPTURE(round, radius);
+        SpanRows brute, expected, out;
+        for (int l = 0; l < 40; ++l) brute.append_line(grown_line(taken, lattice, 0, l));
+        subtract(spans_of(from[0]), brute, expected);
+        subtract_grown(spans_of(from[0]), spans_of(taken[0]), radius, lattice.row_pitch, out);
+        REQUIRE(out == expected);
+        left += out.total_length();
+    }
+    CHECK(left > 0);
+}
+
 TEST_CASE("shrunk rows equal brute force", "[morphology]") {
     std::mt19937 random(2);
     for (int round = 0; round < 30; ++round) {
