@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "engine/error.h"
-#include "engine/island_survey.h"
 #include "engine/layer_opening.h"
-#include "engine/number_format.h"
 #include "engine/printable_roof.h"
+#include "engine/row_sets.h"
 #include "engine/survey_rows.h"
 
 namespace lamella {
@@ -77,9 +76,7 @@ void Surveyor::write(const Layer& layer, LayerProduct& product) {
     if (in_course_ == 0) {
         course_ = std::move(rows);
     } else {
-        SpanRows both;
-        intersect(course_, rows, both);
-        course_ = std::move(both);
+        course_ = common(course_, rows);
     }
     if (++in_course_ == options_.layers_at_once) finish_course();
 }
@@ -133,8 +130,7 @@ SpanRows Surveyor::chamber_walls() const {
 /// Makes of what may become cavity what does.
 void sweep_down(LayerStack& layers, const RoofRule& rule, const CancelToken* cancel) {
     if (layers.size() == 0) return;
-    SpanRows above;
-    for (std::size_t l = 0; l < layers[0].lines(); ++l) above.end_line();
+    SpanRows above = empty_rows(layers[0].lines());
     for (std::size_t i = layers.size(); i-- > 0;) {
         if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped while cavities were made");
         above = cavity_below(above, layers[i], rule);
@@ -185,12 +181,7 @@ void check(const Job& job, const HollowOptions& options) {
           options.layers_at_once > 0)) {
         refuse("a width, a volume or the number of layers taken at once is below its least");
     }
-    const Interval suited = island_pitches(job);
-    const double most = std::min(options.step * options.layers_at_once, suited.hi);
-    if (!(suited.lo <= options.pitch && options.pitch <= most * (1 + 1e-9))) {
-        refuse("the pitch does not suit the part; accepted: " + format_number(suited.lo, 6) + " to " +
-               format_number(most, 6) + " mm: no more than a step, nor than 16 layers");
-    }
+    check_course_pitch("hollowing out", job, options.pitch, options.step * options.layers_at_once);
 }
 
 }  // namespace

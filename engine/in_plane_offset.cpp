@@ -3,33 +3,13 @@
 
 #include "engine/error.h"
 #include "engine/line_frame.h"
+#include "engine/plane_lattice.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
 namespace {
 
 constexpr int lines_at_once = 64;
-
-/// The lattice lines of one direction that meet a rectangle, and their pixels in it. They stand on multiples
-/// of the pitch plus an odd fraction, so that borders at round coordinates do not run along them.
-RowBand lattice_lines(Axis axis, const Rect& rect, double pitch) {
-    constexpr double fraction = 0.118;
-    constexpr double most = 1 << 22;
-    const int along = axis == Axis::x ? 0 : 1, across = 1 - along;
-    RowBand band{
-        .axis = axis, .along_pitch = pitch, .across_origin = fraction * pitch, .across_pitch = pitch};
-    const dvec2 from = glm::floor(rect.lo / pitch) - 1.0, to = glm::ceil(rect.hi / pitch) + 1.0;
-    if (!(-most < std::min(from.x, from.y) && std::max(to.x, to.y) < most)) {
-        throw InputError("the tolerance of " + std::to_string(pitch) +
-                         " mm is too fine for moving an outline this far from the origin, or the layer is "
-                         "unbounded");
-    }
-    band.first = static_cast<int>(from[across]);
-    band.count = static_cast<int>(to[across]) - band.first;
-    band.lo = static_cast<int>(from[along]);
-    band.hi = static_cast<int>(to[along]);
-    return band;
-}
 
 /// The points in a rectangle where lattice lines cross the border of the section, and some around it. Ends of
 /// runs that are clipped lie outside the rectangle.
@@ -40,7 +20,7 @@ std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, do
     if (met.empty()) return points;
     const auto rows = scratch.rows();
     for (const Axis axis : {Axis::x, Axis::y}) {
-        const RowBand all = lattice_lines(axis, met, pitch);
+        const RowBand all = plane_lattice(axis, met, pitch);
         RowBand band = all;
         for (; band.first < all.first + all.count; band.first += lines_at_once) {
             band.count = std::min(lines_at_once, all.first + all.count - band.first);

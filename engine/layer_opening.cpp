@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/error.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 namespace {
@@ -28,10 +29,10 @@ LayerLattice ball_lattice(const RowBand& band, double layer_height, double acros
 }
 
 SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up) {
-    const double pitch = std::abs(band.along_pitch), across = thickness - pitch,
+    const double across = thickness - std::abs(band.across_pitch) / band.sub,
                  up = thickness_up - layer_height;
     if (!(across > 0)) throw InputError("rows as far apart as a thickness cannot tell it");
-    const double radius = 0.5 * across / pitch * run_unit;
+    const double radius = 0.5 * across / std::abs(band.along_pitch) * run_unit;
     if (up > 0) return {ball_lattice(band, layer_height, across, up), radius};
     LayerLattice flat = ball_lattice(band, layer_height, across, across);
     flat.layer_pitch = infinity;
@@ -69,16 +70,14 @@ ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius, double sl
 
 /// What grows out of the lattice has to be there when it shrinks back.
 void ClosedLayers::push_empty() {
-    SpanRows nothing;
-    for (std::size_t l = 0; l < lines_ + 2 * margin_; ++l) nothing.end_line();
+    const SpanRows nothing = empty_rows(lines_ + 2 * margin_);
     for (std::size_t i = 0; i < beyond_; ++i) grown_.push(BallRows(nothing, radius_));
     carry_on();
 }
 
 void ClosedLayers::push(const SpanRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
-    SpanRows wide;
-    for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
+    SpanRows wide = empty_rows(margin_);
     append_lines(layer, 0, lines_, wide);
     for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
     grown_.push(BallRows(wide, radius_));

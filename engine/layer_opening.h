@@ -17,9 +17,10 @@ struct SampledBall {
     double radius;  ///< run units
 };
 
-/// The ball for a thickness (mm) within layers and one upright. Rows see a thickness up to a pitch less than
-/// it is, and layers up to one of them: so much smaller is the ball. One that is no thicker than a layer
-/// upright stays within its layer. Throws InputError where the thickness is no more than a pitch.
+/// The ball for a thickness (mm) within layers and one upright. Rows see a thickness up to the way between
+/// two of them less than it is, and layers up to one of them: so much smaller is the ball. One that is no
+/// thicker than a layer upright stays within its layer. Throws InputError where the thickness is no more than
+/// a way between rows.
 SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up);
 
 /// What balls cover that lie in the solid wholly: the solid without all that is thinner than the ball (the

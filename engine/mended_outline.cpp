@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/layer_offset.h"
 #include "engine/layer_thinness.h"
 #include "engine/line_frame.h"
+#include "engine/plane_lattice.h"
+#include "engine/row_sets.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -40,8 +43,7 @@ void grow(const SpanRows& rows, double radius, SpanRows& out) {
 void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
     SpanRows thin, shrunk, larger, some, all;
     thin_rows(rows, {radius, slack_share * radius + run_unit}, run_unit, thin);
-    out.clear();
-    for (std::size_t l = 0; l < rows.lines(); ++l) out.end_line();
+    out = empty_rows(rows.lines());
     for (int level = levels - 1; level >= 0 && !thin.runs().empty(); --level) {
         const double r = radius * level / levels;
         shrink_rows(rows, r, run_unit, shrunk);
@@ -57,24 +59,6 @@ void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
 
 void cores_of_narrow(const SpanRows& rows, double radius, SpanRows& out) {
     narrow_rows(rows, {radius, slack_share * radius + run_unit}, run_unit, out);
-}
-
-/// The lines of the lattice that meet a rectangle, and their pixels in it. They stand on multiples of the
-/// pitch plus an odd fraction, so that borders at round coordinates do not run along them.
-RowBand lattice_lines(const Rect& rect, double pitch) {
-    constexpr double fraction = 0.118;
-    constexpr double most = 1 << 20;
-    RowBand band{.along_pitch = pitch, .across_origin = fraction * pitch, .across_pitch = pitch};
-    const dvec2 from = glm::floor(rect.lo / pitch) - 1.0, to = glm::ceil(rect.hi / pitch) + 1.0;
-    if (!(-most < std::min(from.x, from.y) && std::max(to.x, to.y) < most)) {
-        throw InputError("a pitch of " + std::to_string(pitch) +
-                         " mm is too fine for mending an outline this far from the origin");
-    }
-    band.first = static_cast<int>(from.y);
-    band.count = static_cast<int>(to.y) - band.first;
-    band.lo = static_cast<int>(from.x);
-    band.hi = static_cast<int>(to.x);
-    return band;
 }
 
 class MendedSlice : public SliceField {
@@ -137,7 +121,7 @@ class MendedSlice : public SliceField {
         if (intersect(grown(rect, mending_.radius), section_.bounds()).empty()) return cores;
         const Rect met = intersect(grown(rect, away), section_.bounds());
         if (met.empty()) return cores;
-        const RowBand lines = lattice_lines(met, mending_.pitch);
+        const RowBand lines = plane_lattice(Axis::x, met, mending_.pitch);
         const auto rows = scratch.rows(), found = scratch.rows();
         section_.spans(lines, scratch, *rows);
         if (rows->runs().empty()) return cores;

@@ -3,18 +3,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 namespace lamella {
 namespace {
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
 
 /// The components of a layer by themselves.
 std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, const ComponentTags& tags) {
@@ -89,23 +80,20 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
                             std::vector<EndedComponent>& ended) {
     std::vector<PassingComponent> fresh = of_layer(layer, index, tags);
     const auto old_count = static_cast<std::uint32_t>(live_.size());
-    std::vector<std::uint32_t> parents(live_.size() + fresh.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(live_.size() + fresh.size());
     for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
         for (int near = r - 1; near <= r + 1; ++near) {
             for_touching(layer.row(r), last_.row(near),
                          [&](const LabelledRun& run, const LabelledRun& older) {
-                             const std::uint32_t a = root_of(parents, old_count + run.component),
-                                                 b = root_of(parents, older.component);
-                             parents[std::max(a, b)] = std::min(a, b);
+                             sets.join(old_count + run.component, older.component);
                          });
         }
     }
     // The layer's own components first: the runs of one layer belong together before layers are compared.
-    std::vector<PassingComponent> joined(parents.size());
-    std::vector<std::uint8_t> goes_on(parents.size(), 0);
+    std::vector<PassingComponent> joined(sets.size());
+    std::vector<std::uint8_t> goes_on(sets.size(), 0);
     for (std::uint32_t c = 0; c < fresh.size(); ++c) {
-        const std::uint32_t root = root_of(parents, old_count + c);
+        const std::uint32_t root = sets.find(old_count + c);
         if (goes_on[root] == 0) {
             joined[root] = std::move(fresh[c]);
             goes_on[root] = 1;
@@ -113,13 +101,13 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
             joined[root].include(fresh[c]);
         }
     }
-    std::vector<std::uint32_t> group_flags(parents.size());
-    for (std::uint32_t c = 0; c < parents.size(); ++c) {
-        const std::uint32_t root = root_of(parents, c);
+    std::vector<std::uint32_t> group_flags(sets.size());
+    for (std::uint32_t c = 0; c < sets.size(); ++c) {
+        const std::uint32_t root = sets.find(c);
         group_flags[root] |= c < old_count ? live_[c].flags : joined[root].flags;
     }
     for (std::uint32_t c = 0; c < old_count; ++c) {
-        const std::uint32_t root = root_of(parents, c);
+        const std::uint32_t root = sets.find(c);
         if (goes_on[root] == 0) {
             ended.push_back({std::move(live_[c]), false, 0});
             continue;
@@ -128,14 +116,14 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
         if (group_flags[root] != live_[c].flags)
             ended.push_back({std::move(live_[c]), true, group_flags[root]});
     }
-    std::vector<std::uint32_t> places(parents.size());
+    std::vector<std::uint32_t> places(sets.size());
     live_.clear();
-    for (std::uint32_t c = 0; c < parents.size(); ++c) {
+    for (std::uint32_t c = 0; c < sets.size(); ++c) {
         if (goes_on[c] == 0) continue;
         places[c] = static_cast<std::uint32_t>(live_.size());
         live_.push_back(std::move(joined[c]));
     }
-    for (LabelledRun& run : layer.runs) run.component = places[root_of(parents, old_count + run.component)];
+    for (LabelledRun& run : layer.runs) run.component = places[sets.find(old_count + run.component)];
     last_ = std::move(layer);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
 #include "engine/error.h"
 #include "engine/island_survey.h"
@@ -93,27 +92,6 @@ class ThinnedPoints {
     std::map<Key, dvec3> points_;
 };
 
-/// Sets of pieces that edges have joined.
-class PieceSets {
-  public:
-    explicit PieceSets(std::size_t count) : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t i) {
-        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-    bool join(std::size_t a, std::size_t b) {
-        a = find(a);
-        b = find(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-        return a != b;
-    }
-
-  private:
-    std::vector<std::size_t> parents_;
-};
-
 /// An edge of the tree, and the runs about its ends.
 struct Edge {
     PiecePoint a, b;
@@ -125,19 +103,19 @@ struct Edge {
 std::vector<Edge> spanning_tree(const ThinnedPoints& points, const std::vector<std::uint32_t>& pieces,
                                 std::uint32_t largest) {
     const auto place_of = [&](std::uint32_t piece) {
-        return static_cast<std::size_t>(std::ranges::lower_bound(pieces, piece) - pieces.begin());
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(pieces, piece) - pieces.begin());
     };
-    PieceSets sets(pieces.size());
+    DisjointSets sets(pieces.size());
     std::vector<Edge> edges;
     while (edges.size() + 1 < pieces.size()) {
         struct WayOut {
             double length = infinity;
             PiecePoint from, to;
         };
-        std::map<std::size_t, WayOut> ways;
-        const std::size_t large = sets.find(place_of(largest));
+        std::map<std::uint32_t, WayOut> ways;
+        const std::uint32_t large = sets.find(place_of(largest));
         points.visit([&](const PiecePoint& from) {
-            const std::size_t set = sets.find(place_of(from.piece));
+            const std::uint32_t set = sets.find(place_of(from.piece));
             if (set == large) return;
             WayOut& way = ways[set];
             std::uint32_t piece = 0;
@@ -182,6 +160,7 @@ class PieceSurveyor : public Backend {
     }
     void write(const Layer& layer, LayerProduct& product) override {
         auto& rows = static_cast<RowsProduct&>(product);
+        begin_layer(layer.z());
         const std::vector<std::uint32_t> owners = rows.labelled.owners;
         const auto numbers = components_.add(std::move(rows.labelled), layer.index());
         std::size_t i = 0;
@@ -201,6 +180,7 @@ class PieceSurveyor : public Backend {
     }
 
   protected:
+    virtual void begin_layer(double /*z*/) {}
     virtual void visit(const PlacedRun& run, std::uint32_t number) = 0;
 
     RowBand band_;
@@ -236,16 +216,31 @@ class EdgeSurveyor : public PieceSurveyor {
         : PieceSurveyor(job, pitch), edges_(edges), reach_(reach), known_(known) {}
 
   protected:
-    void visit(const PlacedRun& run, std::uint32_t number) override {
-        const std::uint32_t piece = known_.find(number);
-        const dvec3 from = place(run.begin, run), to = place(run.end, run);
+    void begin_layer(double z) override {
+        ends_.clear();
+        const auto add = [&](const PiecePoint& end, std::vector<PlacedRun>& runs) {
+            if (std::abs(end.at.z - z) <= reach_) ends_[end.piece].push_back({end.at, &runs});
+        };
         for (Edge& edge : edges_) {
-            if (edge.a.piece == piece && is_near(from, to, edge.a.at)) edge.runs_a.push_back(run);
-            if (edge.b.piece == piece && is_near(from, to, edge.b.at)) edge.runs_b.push_back(run);
+            add(edge.a, edge.runs_a);
+            add(edge.b, edge.runs_b);
+        }
+    }
+    void visit(const PlacedRun& run, std::uint32_t number) override {
+        const auto found = ends_.find(known_.find(number));
+        if (found == ends_.end()) return;
+        const dvec3 from = place(run.begin, run), to = place(run.end, run);
+        for (const End& end : found->second) {
+            if (is_near(from, to, end.at)) end.runs->push_back(run);
         }
     }
 
   private:
+    /// An end of an edge, and where the runs about it go.
+    struct End {
+        dvec3 at;
+        std::vector<PlacedRun>* runs;
+    };
     bool is_near(dvec3 from, dvec3 to, dvec3 p) const {
         const double x = std::min(std::max(p.x, from.x), to.x);
         return square(dvec3(x, from.y, from.z) - p) <= reach_ * reach_;
@@ -253,6 +248,7 @@ class EdgeSurveyor : public PieceSurveyor {
     std::vector<Edge>& edges_;
     double reach_;
     RunComponents& known_;
+    std::map<std::uint32_t, std::vector<End>> ends_;  // in reach of the layer at hand, by piece
 };
 
 /// The shortest way between two sets of runs.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/layer_offset.h"
+#include "engine/row_sets.h"
 #include "engine/run_components.h"
 
 namespace lamella {
@@ -17,24 +18,6 @@ SpanRows rows_of(const SpanRows& all, int first, int count) {
         some.append_line(known ? all.line(static_cast<std::size_t>(l)) : std::span<const Run>());
     }
     return some;
-}
-
-SpanRows united(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
-    unite(a, b, out);
-    return out;
-}
-
-SpanRows common(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
-    intersect(a, b, out);
-    return out;
-}
-
-SpanRows without(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
-    subtract(a, b, out);
-    return out;
 }
 
 /// The cavity of one connected part of a layer's inside. All rows are those of the part, and as many beside
@@ -84,8 +67,7 @@ class PartCavity {
     SpanRows under_hip_roof(const SpanRows& cavity) const {
         constexpr int parts_of_a_step = 16;
         double too_little = 0, enough = half_width();
-        SpanRows best;
-        for (std::size_t l = 0; l < part_.lines(); ++l) best.end_line();
+        SpanRows best = empty_rows(part_.lines());
         while (enough - too_little > rule_.step / parts_of_a_step) {
             const double distance = (too_little + enough) / 2;
             const SpanRows middle = shrunk(part_, distance);
@@ -138,8 +120,7 @@ SpanRows joined(const SpanRows& whole, const SpanRows& some, int first) {
 SpanRows cavity_below(const SpanRows& above, const SpanRows& inside, const RoofRule& rule) {
     const LabelledLayer labels = label_layer(inside, 0, Growth{});
     const int margin = static_cast<int>(rule.step / rule.row_pitch) + 1;
-    SpanRows all;
-    for (std::size_t l = 0; l < inside.lines(); ++l) all.end_line();
+    SpanRows all = empty_rows(inside.lines());
     for (std::uint32_t c = 0; c < labels.components.size(); ++c) {
         const SpanRows part = rows_of_component(inside, labels, c, margin);
         const int first = labels.components[c].first_row - margin;

@@ -3,26 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
 namespace lamella {
 namespace {
-
-/// The root above an entry; shortens the way to it.
-std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-/// Joins two sets; the lower root stays, so that numbers tell what came first.
-void join(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
-    a = root_of(parents, a);
-    b = root_of(parents, b);
-    parents[std::max(a, b)] = std::min(a, b);
-}
 
 bool begins_first(const LabelledRun& a, const LabelledRun& b) { return a.begin < b.begin; }
 
@@ -50,16 +33,15 @@ void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t u
 
 /// Turns the number of each run into the number of its component, by appearance; returns how many there are.
 std::uint32_t number_components(LabelledLayer& layer) {
-    std::vector<std::uint32_t> parents(layer.runs.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(layer.runs.size());
     for (int r = layer.first_row + 1; r < layer.first_row + layer.rows(); ++r) {
         for_touching(layer.row(r - 1), layer.row(r), [&](const LabelledRun& a, const LabelledRun& b) {
-            join(parents, a.component, b.component);
+            sets.join(a.component, b.component);
         });
     }
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < layer.runs.size(); ++i) {
-        const std::uint32_t root = root_of(parents, i);
+        const std::uint32_t root = sets.find(i);
         layer.runs[i].component = root == i ? count++ : layer.runs[root].component;
     }
     return count;
@@ -109,7 +91,7 @@ LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth)
 RunComponents::RunComponents(const Growth& growth, std::size_t most_runs)
     : reach_(2 * growth.layers + 1), most_runs_(most_runs) {}
 
-std::uint32_t RunComponents::find(std::uint32_t number) { return root_of(parents_, number); }
+std::uint32_t RunComponents::find(std::uint32_t number) { return sets_.find(number); }
 
 std::vector<std::uint32_t> RunComponents::add(LabelledLayer layer, int index) {
     constexpr std::uint32_t none = UINT32_MAX;
@@ -133,8 +115,7 @@ std::vector<std::uint32_t> RunComponents::add(LabelledLayer layer, int index) {
     }
     for (std::size_t c = 0; c < numbers.size(); ++c) {
         if (numbers[c] == none) {
-            numbers[c] = static_cast<std::uint32_t>(parents_.size());
-            parents_.push_back(numbers[c]);
+            numbers[c] = sets_.add();
             components_.push_back(std::make_unique<Component>());
         }
         numbers[c] = find(numbers[c]);
@@ -174,7 +155,7 @@ void RunComponents::unite(std::uint32_t a, std::uint32_t b) {
         kept.runs.insert(kept.runs.end(), joined.runs.begin(), joined.runs.end());
     }
     for (const std::uint32_t group : joined.groups) mark(low, group);
-    parents_[high] = low;
+    sets_.join(low, high);
     components_[high].reset();
 }
 

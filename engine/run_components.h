@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/disjoint_sets.h"
 #include "engine/runs.h"
 
 namespace lamella {
@@ -114,7 +115,7 @@ class RunComponents {
     std::size_t most_runs_;
     std::size_t runs_kept_ = 0;
     std::deque<LabelledLayer> recent_;  ///< newest last; components are numbers of the solid
-    std::vector<std::uint32_t> parents_;
+    DisjointSets sets_;
     std::vector<std::unique_ptr<Component>> components_;  ///< null once joined to another
 };
 

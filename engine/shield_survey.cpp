@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "engine/error.h"
-#include "engine/island_survey.h"
 #include "engine/layer_offset.h"
-#include "engine/number_format.h"
 #include "engine/printable_enclosure.h"
+#include "engine/row_sets.h"
 #include "engine/survey_rows.h"
 
 namespace lamella {
@@ -60,11 +59,7 @@ std::unique_ptr<LayerProduct> Surveyor::render(const Layer& layer) const {
     auto product = std::make_unique<RowsProduct>();
     Scratch scratch;
     SpanRows print = all_rows(layer.part(), band_, scratch);
-    if (layer.supports() != nullptr) {
-        SpanRows both;
-        unite(print, all_rows(*layer.supports(), band_, scratch), both);
-        print = std::move(both);
-    }
+    if (layer.supports() != nullptr) print = united(print, all_rows(*layer.supports(), band_, scratch));
     SpanRows wide;
     grow_rows(BallRows(print, reach_ + smooth_), run_unit, wide);
     shrink_rows(wide, smooth_, run_unit, product->rows);
@@ -76,9 +71,7 @@ void Surveyor::write(const Layer& /*layer*/, LayerProduct& product) {
     if (in_course_ == 0) {
         course_ = rows;
     } else {
-        SpanRows both;
-        unite(course_, rows, both);
-        course_ = std::move(both);
+        course_ = united(course_, rows);
     }
     if (++in_course_ == options_.layers_at_once) finish_course();
 }
@@ -90,24 +83,21 @@ void Surveyor::finish_course() {
 
 /// The rows with what is thinner than `least` made about as thick.
 SpanRows thickened(const SpanRows& rows, double least) {
-    SpanRows core, opened, thin, grown, out;
+    SpanRows core, opened, grown;
     shrink_rows(rows, least / 2, run_unit, core);
     // A row more: slivers where rows graze an outline are not thin.
     grow_rows(BallRows(core, least / 2 + run_unit), run_unit, opened);
-    subtract(rows, opened, thin);
-    grow_rows(BallRows(thin, least / 2), run_unit, grown);
-    unite(rows, grown, out);
-    return out;
+    grow_rows(BallRows(without(rows, opened), least / 2), run_unit, grown);
+    return united(rows, grown);
 }
 
 /// Leaves of each layer what lies within the wall's thickness of its outline.
 void keep_walls(LayerStack& layers, double wall) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const SpanRows outer = thickened(layers[i], wall);
-        SpanRows inside, band;
+        SpanRows inside;
         shrink_rows(outer, wall, run_unit, inside);
-        subtract(outer, inside, band);
-        layers.replace(i, band);
+        layers.replace(i, without(outer, inside));
     }
 }
 
@@ -116,12 +106,7 @@ void check(const Job& job, const ShieldOptions& options) {
     if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
     if (!(options.gap >= 0 && options.bead >= 0 && options.layers_at_once > 0))
         refuse("the gap, the bead or the number of layers taken at once is below its least");
-    const Interval suited = island_pitches(job);
-    const double most = std::min(options.step * options.layers_at_once, suited.hi);
-    if (!(suited.lo <= options.pitch && options.pitch <= most * (1 + 1e-9))) {
-        refuse("the pitch does not suit the print; accepted: " + format_number(suited.lo, 6) + " to " +
-               format_number(most, 6) + " mm: no more than a step, nor than 16 layers");
-    }
+    check_course_pitch("shield", job, options.pitch, options.step * options.layers_at_once);
 }
 
 }  // namespace

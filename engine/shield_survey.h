@@ -31,8 +31,7 @@ struct ShieldSurvey {
 /// A wall about a job's part and supports, from its first layer to its last: the outermost `wall` mm of the
 /// smallest solid that holds what is printed and the gap about it and whose outline moves by at most a step
 /// from layer to layer (see printable_enclosure.h). Above what ends below the last layer it closes as a roof,
-/// what is thinner than twice the wall is solid, and what
-/// is thinner than the wall is made as thick.
+/// what is thinner than twice the wall is solid, and what is thinner than the wall is made as thick.
 ///
 /// Rows are exact along x and stand for `pitch` in y. A pure function of (part, supports, layers, options),
 /// the same by any number of threads. Memory is the plan's, which is of all layers: four bytes a row and

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/layer_offset.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 
@@ -13,7 +14,7 @@ SupportHold::SupportHold(const CheckGrid& grid, double spacing, double gap)
       spacing_(spacing),
       gap_(gap),
       layers_(static_cast<std::size_t>((spacing + gap) / grid.layer_height)) {
-    for (int l = 0; l < grid.band.count; ++l) last_.end_line();
+    last_ = empty_rows(static_cast<std::size_t>(grid.band.count));
 }
 
 SpanRows SupportHold::held() const {

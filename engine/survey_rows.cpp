@@ -1,7 +1,10 @@
 // Bands of a layer, and what a stack of layers takes.
 #include "engine/survey_rows.h"
 
+#include <algorithm>
+
 #include "engine/error.h"
+#include "engine/island_survey.h"
 #include "engine/number_format.h"
 
 namespace lamella {
@@ -28,6 +31,15 @@ SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratc
         for (std::size_t l = 0; l < some->lines(); ++l) all.append_line(some->line(l));
     }
     return all;
+}
+
+void check_course_pitch(const char* survey, const Job& job, double pitch, double step) {
+    const Interval suited = island_pitches(job);
+    const double most = std::min(step, suited.hi);
+    if (suited.lo <= pitch && pitch <= most * (1 + 1e-9)) return;
+    throw InputError(std::string(survey) +
+                     ": the pitch does not suit the part; accepted: " + format_number(suited.lo, 6) + " to " +
+                     format_number(most, 6) + " mm: no more than a step, nor than 16 layers");
 }
 
 std::size_t LayerStack::bytes(const SpanRows& rows) { return 56 * rows.runs().size() + 4 * rows.lines(); }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/layer_stream.h"
 #include "engine/run_boxes.h"
 #include "engine/slice_context.h"
 
@@ -15,6 +16,10 @@ RowBand rows_over(const Rect& rect, double pitch);
 
 /// All rows of a slice; it is asked band by band, so that what it works with stays in the cache.
 SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
+
+/// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job (island_pitches)
+/// or lie further apart than an outline moves by from one course of layers to the next, `step` mm.
+void check_course_pitch(const char* survey, const Job& job, double pitch, double step);
 
 /// The rows of layers, from the lowest on. Memory: eight bytes a run and four a row, and while boxes are made
 /// of them another 48 a run; all of it is counted from the beginning.

@@ -1,6 +1,8 @@
 // The void of each layer joined to that of the one before.
 #include "engine/void_check.h"
 
+#include "engine/row_sets.h"
+
 namespace lamella {
 namespace {
 
@@ -9,17 +11,7 @@ constexpr std::uint32_t outside = 1, on_bed = 2;
 }  // namespace
 
 LabelledLayer VoidCheck::label(const SpanRows& solid, const CheckGrid& grid, int layer) {
-    SpanRows voids;
-    const std::int32_t end = grid.band.hi * run_unit;
-    for (std::size_t l = 0; l < solid.lines(); ++l) {
-        std::int32_t from = 0;
-        for (const Run& run : solid.line(l)) {
-            voids.push(from, run.begin);
-            from = run.end;
-        }
-        voids.push(from, end);
-        voids.end_line();
-    }
+    const SpanRows voids = complement(solid, 0, grid.band.hi * run_unit);
     return label_layer(voids, layer, Growth{});
 }
 

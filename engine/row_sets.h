@@ -1,0 +1,45 @@
+// Set operations on the rows of a layer that return their result, for where no buffer is at hand.
+#pragma once
+
+#include "engine/runs.h"
+
+namespace lamella {
+
+/// The operands have equally many lines.
+inline SpanRows united(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    unite(a, b, out);
+    return out;
+}
+inline SpanRows common(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    intersect(a, b, out);
+    return out;
+}
+inline SpanRows without(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    subtract(a, b, out);
+    return out;
+}
+/// What [begin, end) has on each line besides the rows, which lie in it.
+inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_t end) {
+    SpanRows out;
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        std::int32_t from = begin;
+        for (const Run& run : rows.line(l)) {
+            out.push(from, run.begin);
+            from = run.end;
+        }
+        out.push(from, end);
+        out.end_line();
+    }
+    return out;
+}
+/// Rows without a run.
+inline SpanRows empty_rows(std::size_t lines) {
+    SpanRows out;
+    for (std::size_t l = 0; l < lines; ++l) out.end_line();
+    return out;
+}
+
+}  // namespace lamella
