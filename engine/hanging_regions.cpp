@@ -168,19 +168,29 @@ std::optional<double> bridge_of(const RegionRaster& raster, const std::vector<Pl
 
 }  // namespace
 
-std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, int layer,
-                                                const CheckGrid& grid) {
+std::vector<std::uint8_t> reaching(const LabelledLayer& labelled, double least, const CheckGrid& grid) {
+    std::vector<std::uint8_t> reach;
+    for (const ComponentExtent& extent : labelled.components) {
+        const dvec3 size = grid.box(extent).size();
+        reach.push_back(size.x * size.x + size.y * size.y >= least * least);
+    }
+    return reach;
+}
+
+std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, double least,
+                                                int layer, const CheckGrid& grid) {
     const LabelledLayer labelled = label_layer(hanging, layer, Growth{});
+    const std::vector<std::uint8_t> large = reaching(labelled, least, grid);
     std::vector<std::vector<PlacedRun>> runs(labelled.components.size());
     for (int r = 0; r < labelled.rows(); ++r) {
-        for (const LabelledRun& run : labelled.row(r))
-            runs[run.component].push_back({layer, r, run.begin, run.end});
+        for (const LabelledRun& run : labelled.row(r)) {
+            if (large[run.component] != 0) runs[run.component].push_back({layer, r, run.begin, run.end});
+        }
     }
     std::vector<HangingRegion> regions;
     for (std::size_t c = 0; c < runs.size(); ++c) {
+        if (large[c] == 0) continue;
         HangingRegion region;
-        const dvec3 size = grid.box(labelled.components[c]).size();
-        region.diagonal = std::sqrt(size.x * size.x + size.y * size.y);
         const RegionRaster raster(runs[c], labelled.components[c], held);
         if (const auto pixels = bridge_of(raster, runs[c])) region.bridge = *pixels * grid.band.along_pitch;
         region.runs = std::move(runs[c]);

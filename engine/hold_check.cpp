@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/layer_offset.h"
+#include "engine/layer_remainder.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 namespace {
@@ -12,24 +13,15 @@ namespace {
 constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
 
-SpanRows united(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
-    unite(a, b, out);
-    return out;
-}
-
-SpanRows without(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
-    subtract(a, b, out);
-    return out;
-}
-
-bool touches(const SpanRows& rows, int r, const Run& run) {
-    if (r < 0 || r >= static_cast<int>(rows.lines())) return false;
-    bool any = false;
-    for_touching(std::span(&run, 1), rows.line(static_cast<std::size_t>(r)),
-                 [&](const Run&, const Run&) { any = true; });
-    return any;
+/// Those components of a layer do not float that touch rows of one below.
+void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
+    for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
+        if (below.line(static_cast<std::size_t>(r)).empty()) continue;
+        for (int near = r - 1; near <= r + 1; ++near) {
+            for_touching(labelled.row(near), below.line(static_cast<std::size_t>(r)),
+                         [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
+        }
+    }
 }
 
 /// What of a lies further than `pitches` from b.
@@ -71,18 +63,10 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       overhangs_(most),
       bridges_(most) {}
 
-HoldingRows HoldCheck::prepare(SpanRows part, SpanRows supports) {
-    HoldingRows layer;
-    layer.printed = united(part, supports);
-    layer.part = std::move(part);
-    layer.supports = std::move(supports);
-    return layer;
-}
-
 void HoldCheck::add(HoldingRows layer, int index) {
     Below next;
     if (below_.empty()) {
-        for (std::size_t l = 0; l < layer.part.lines(); ++l) next.hung.end_line();
+        next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
         const SpanRows islands = find_islands(layer, index);
@@ -107,19 +91,10 @@ void HoldCheck::add(HoldingRows layer, int index) {
 SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
     const LabelledLayer labelled = label_layer(layer.printed, index, Growth{});
     std::vector<std::uint8_t> floats(labelled.components.size(), 1);
+    sink_touching(labelled, below_.back().rows.printed, floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
-    std::size_t i = 0;
-    for (int r = 0; r < static_cast<int>(layer.printed.lines()); ++r) {
-        for (const Run& run : layer.printed.line(static_cast<std::size_t>(r))) {
-            std::uint8_t& component = floats[labelled.owners[i++]];
-            for (int near = r - 1; near <= r + 1 && component != 0; ++near) {
-                if (touches(below_.back().rows.printed, near, run)) component = 0;
-                for (std::size_t k = oldest; k < below_.size(); ++k) {
-                    if (touches(below_[k].rows.supports, near, run)) component = 0;
-                }
-            }
-        }
-    }
+    for (std::size_t k = oldest; k < below_.size(); ++k)
+        sink_touching(labelled, below_[k].rows.supports, floats);
     SpanRows floating = rows_of(layer.printed, labelled, floats);
     if (floating.runs().empty()) return floating;
     PassingComponents one_layer;
@@ -136,24 +111,18 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
 SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) const {
-    SpanRows steep;
-    for (std::size_t l = 0; l < layer.part.lines(); ++l) steep.end_line();
-    if (below_.size() <= slope_layers_) return steep;
+    if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
-    steep = without(beyond(layer.part, below_[first].rows.part, far), held);
+    SpanRows steep = without(beyond(layer.part, below_[first].rows.part, far), held);
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
         if (!below.hung.runs().empty()) steep = beyond(steep, below.hung, above * step_ + 1);
     }
+    if (steep.runs().empty()) return steep;
     const LabelledLayer labelled = label_layer(steep, 0, Growth{});
-    std::vector<std::uint8_t> large;
-    for (const ComponentExtent& extent : labelled.components) {
-        const dvec3 size = grid_.box(extent).size();
-        large.push_back(size.x * size.x + size.y * size.y >= limits_.free_stretch * limits_.free_stretch);
-    }
-    return rows_of(steep, labelled, large);
+    return rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
@@ -161,8 +130,8 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
     std::vector<std::vector<Run>> bad(hanging.lines());
     if (!hanging.runs().empty()) {
         const SpanRows held = without(layer.printed, hanging);
-        for (const HangingRegion& region : find_hanging_regions(hanging, held, index, grid_)) {
-            if (region.diagonal < limits_.free_stretch) continue;
+        for (const HangingRegion& region :
+             find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
             if (!region.bridge) {
                 for (const PlacedRun& run : region.runs)
                     bad[static_cast<std::size_t>(run.row)].push_back({run.begin, run.end});

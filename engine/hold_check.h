@@ -26,8 +26,6 @@ class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
-    /// What the check needs of a layer. Pure.
-    static HoldingRows prepare(SpanRows part, SpanRows supports);
     void add(HoldingRows layer, int index);
     void finish();
 

@@ -2,7 +2,6 @@
 #include "engine/layer_offset.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +9,8 @@
 
 #include "engine/error.h"
 #include "engine/grown_block.h"
+#include "engine/parallel_strips.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 namespace {
@@ -59,11 +60,10 @@ void append_lines(const GrownBlock& grown, std::int32_t layer, std::int32_t line
 /// Grows layers [from, from + count) of a stack, in blocks `edge` lines wide.
 std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice, std::size_t edge,
                                   std::size_t from, std::size_t count) {
-    namespace tbb = oneapi::tbb;
     const Run extent = extent_of(stack);
     std::vector<std::vector<SpanRows>> strips((lattice.lines + edge - 1) / edge);  // layer by layer
-    tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, extent);
-    tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t s) {
+    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, extent);
+    for_all_strips(strips.size(), [&](std::size_t s) {
         GrownBlock& grown = blocks.local();
         const auto line = static_cast<std::int32_t>(s * edge);
         const auto lines = static_cast<std::int32_t>(std::min(edge, lattice.lines - s * edge));
@@ -124,47 +124,6 @@ void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
     out = std::move(grow_within({&rows}, lattice, edge, 0, 1).front());
 }
 
-namespace {
-
-/// Takes runs that reach further to both sides out of sorted ones.
-void take_away(std::span<const Run> taken, const BallReach& reach, std::vector<Run>& runs,
-               std::vector<Run>& buffer) {
-    buffer.clear();
-    auto next = std::ranges::upper_bound(taken, runs.front().begin - reach.ahead, {}, &Run::end);
-    for (const Run& run : runs) {
-        while (next != taken.end() && next->end + reach.ahead <= run.begin) ++next;
-        std::int32_t from = run.begin;
-        for (auto t = next; t != taken.end() && t->begin - reach.back < run.end; ++t) {
-            if (t->begin - reach.back > from) buffer.push_back({from, t->begin - reach.back});
-            from = std::max(from, t->end + reach.ahead);
-        }
-        if (from < run.end) buffer.push_back({from, run.end});
-    }
-    runs.swap(buffer);
-}
-
-}  // namespace
-
-void subtract_grown(const SpanRows& a, const SpanRows& b, double radius, double row_pitch, SpanRows& out) {
-    if (a.lines() != b.lines()) throw FaultError("rows that are taken from others are not as many");
-    const auto rows = static_cast<std::size_t>(radius / row_pitch);
-    std::vector<BallReach> reaches;
-    for (std::size_t k = 0; k <= rows; ++k) {
-        const double way = static_cast<double>(k) * row_pitch;
-        reaches.emplace_back(std::sqrt(std::max(radius * radius - way * way, 0.0)));
-    }
-    out.clear();
-    std::vector<Run> left, buffer;
-    for (std::size_t l = 0; l < a.lines(); ++l) {
-        left.assign(a.line(l).begin(), a.line(l).end());
-        for (std::size_t k = 0; k <= rows && !left.empty(); ++k) {
-            if (l + k < b.lines()) take_away(b.line(l + k), reaches[k], left, buffer);
-            if (k > 0 && k <= l && !left.empty()) take_away(b.line(l - k), reaches[k], left, buffer);
-        }
-        out.append_line(left);
-    }
-}
-
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
     const auto margin = static_cast<std::size_t>(radius / row_pitch);
     SpanRows voids;
@@ -216,8 +175,7 @@ ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)
 }
 
 void ShrinkingLayers::push_void() {
-    SpanRows nothing;
-    for (std::size_t l = 0; l < lattice_.lines; ++l) nothing.end_line();
+    const SpanRows nothing = empty_rows(lattice_.lines);
     for (std::size_t i = 0; i < void_layers_; ++i) voids_.push(void_of(nothing, margin_, radius_));
 }
 

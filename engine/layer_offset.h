@@ -15,10 +15,6 @@ void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out);
 /// What is left when a disc about each point of the void is taken away; beyond the lines all is void.
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out);
 
-/// What of `a` is left when a disc of `radius` about each point of `b`, rows of equal number, is taken away:
-/// as when `b` is grown first, at the cost of what is left. Quick for discs of few rows.
-void subtract_grown(const SpanRows& a, const SpanRows& b, double radius, double row_pitch, SpanRows& out);
-
 /// Grows layers by a ball about each of their points, exactly (thesis 3.2; Chen, Panozzo and Dumas 2018),
 /// in blocks of lines (GrownBlock). Layers come out in the order in which they went in, once all are known
 /// that reach them: what is held depends on the ball's height alone. Independent blocks are worked on in

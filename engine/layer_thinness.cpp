@@ -1,34 +1,22 @@
-// Openings and closings with slack, less what was there; within a layer without making them.
+// What is far from what is far from the border.
 #include "engine/layer_thinness.h"
+
+#include "engine/error.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr std::int32_t far_out = 1 << 29;  // run units; solids lie within, the void reaches up to it
-
 /// Rows with `margin` empty ones on either side.
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
-    SpanRows wide;
-    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
+    SpanRows wide = empty_rows(margin);
     for (std::size_t l = 0; l < rows.lines(); ++l) wide.append_line(rows.line(l));
     for (std::size_t l = 0; l < margin; ++l) wide.end_line();
     return wide;
 }
 
-SpanRows void_of(const SpanRows& rows) {
-    SpanRows voids;
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
-        std::int32_t from = -far_out;
-        for (const Run& run : rows.line(l)) {
-            voids.push(from, run.begin);
-            from = run.end;
-        }
-        voids.push(from, far_out);
-        voids.end_line();
-    }
-    return voids;
-}
+SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_out); }
 
 void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.clear();
@@ -67,31 +55,59 @@ void narrow_rows(const SpanRows& rows, const Thinness& thinness, double row_pitc
                    margin, out);
 }
 
+ThinLayers::ThinLayers(const LayerLattice& lattice, const Thinness& thinness, Medium medium)
+    : medium_(medium),
+      lines_(lattice.lines),
+      margin_(margin_of(thinness, lattice.row_pitch)),
+      beyond_(lattice.layers_within(thinness.radius) +
+              lattice.layers_within(thinness.radius + thinness.slack)),
+      to_drop_(beyond_),
+      core_(lattice, thinness.radius),
+      thin_(lattice, thinness.radius + thinness.slack) {
+    push_beyond();
+}
+
+/// The void goes on, and balls fit there.
+void ThinLayers::push_beyond() {
+    for (std::size_t i = 0; i < beyond_; ++i) push_wide(empty_rows(lines_ + 2 * margin_));
+}
+
 void ThinLayers::push(const SpanRows& layer) {
-    solid_.push_back(layer);
-    opened_.push(layer);
+    if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
+    ++to_come_;
+    push_wide(widened(layer, margin_));
+}
+
+void ThinLayers::push_wide(SpanRows layer) {
+    SpanRows voids = void_of(layer);
+    if (medium_ == Medium::gaps) std::swap(layer, voids);
+    of_.push_back(layer);
+    core_.push(std::move(layer), std::move(voids));
+    carry_on();
+}
+
+void ThinLayers::finish() {
+    push_beyond();
+    core_.finish();
+    carry_on();
+    thin_.finish();
+}
+
+void ThinLayers::carry_on() {
+    for (SpanRows core; core_.pop(core);) {
+        thin_.push(std::move(of_.front()), std::move(core));
+        of_.pop_front();
+    }
 }
 
 bool ThinLayers::pop(SpanRows& out) {
-    SpanRows opened;
-    if (!opened_.pop(opened)) return false;
-    out.clear();
-    subtract(solid_.front(), opened, out);
-    solid_.pop_front();
-    return true;
-}
-
-void NarrowLayers::push(const SpanRows& layer) {
-    solid_.push_back(layer);
-    closed_.push(layer);
-}
-
-bool NarrowLayers::pop(SpanRows& out) {
-    SpanRows closed;
-    if (!closed_.pop(closed)) return false;
-    out.clear();
-    subtract(closed, solid_.front(), out);
-    solid_.pop_front();
+    SpanRows wide;
+    for (; to_drop_ > 0; --to_drop_) {
+        if (!thin_.pop(wide)) return false;
+    }
+    if (to_come_ == 0 || !thin_.pop(wide)) return false;
+    --to_come_;
+    without_margin(wide, margin_, out);
     return true;
 }
 

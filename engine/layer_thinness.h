@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "engine/layer_opening.h"
+#include "engine/layer_remainder.h"
 
 namespace lamella {
 
@@ -24,34 +24,31 @@ void thin_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch,
 /// The void between the rows' solid that is too narrow, by the same measure.
 void narrow_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch, SpanRows& out);
 
-/// What is too thin in layers, by a ball that reaches from layer to layer. Layers come out in the order in
-/// which they went in, once all are known that the ball reaches.
+/// What is measured: the solid, or the void between it.
+enum class Medium : unsigned char { solid, gaps };
+
+/// What is too thin in layers, by a ball that reaches from layer to layer; beside the lines and layers given
+/// all is void. Layers come out in the order in which they went in, once all are known that the ball reaches.
 class ThinLayers {
   public:
-    ThinLayers(const LayerLattice& lattice, const Thinness& thinness)
-        : opened_(lattice, thinness.radius, thinness.slack) {}
+    ThinLayers(const LayerLattice& lattice, const Thinness& thinness, Medium medium = Medium::solid);
     void push(const SpanRows& layer);
-    void finish() { opened_.finish(); }
-    /// Takes the next layer. False where further layers have to be pushed first, or there are no more.
+    void finish();
     bool pop(SpanRows& out);
 
   private:
-    std::deque<SpanRows> solid_;  // layers that did not come out yet
-    OpenedLayers opened_;
-};
+    void push_wide(SpanRows layer);
+    void push_beyond();
+    void carry_on();
 
-/// The same for the void.
-class NarrowLayers {
-  public:
-    NarrowLayers(const LayerLattice& lattice, const Thinness& thinness)
-        : closed_(lattice, thinness.radius, thinness.slack) {}
-    void push(const SpanRows& layer);
-    void finish() { closed_.finish(); }
-    bool pop(SpanRows& out);
-
-  private:
-    std::deque<SpanRows> solid_;
-    ClosedLayers closed_;
+    Medium medium_;
+    std::size_t lines_, margin_;  // of the lattice, and beside it on either side
+    std::size_t beyond_;          // empty layers before the first and behind the last
+    std::size_t to_drop_;         // of those before
+    std::size_t to_come_ = 0;     // layers that went in and did not come out yet
+    std::deque<SpanRows> of_;     // what is measured, of layers where it is not known where the ball fits
+    RemainingLayers core_;        // where the middle of a ball may be
+    RemainingLayers thin_;        // what lies far from there
 };
 
 }  // namespace lamella

@@ -1,13 +1,18 @@
-// Openings split layers; union-find joins what they leave and what they take away.
+// What is thin splits layers; union-find joins what is left, and what is thin.
 #include "engine/neck_check.h"
 
 #include <algorithm>
+
+#include "engine/layer_opening.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 namespace {
 
 /// Rows crumble the border of what is opened, run units.
 constexpr double crumbs = 1.5 * run_unit;
+
+ThinLayers thin_layers(const SampledBall& ball) { return {ball.lattice, {ball.radius, crumbs}}; }
 
 /// The parts that a run of row `r` touches.
 void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
@@ -20,34 +25,60 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
 
 }  // namespace
 
-NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
-    : NeckCheck(grid, sampled_ball(grid.band, grid.layer_height, thickness, thickness), large_part, most) {}
+NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
+    constexpr double samples_in_a_neck = 4;
+    const auto one_of = [&](double pitch) {
+        return std::max(1, static_cast<int>(thickness / (samples_in_a_neck * pitch)));
+    };
+    rows = one_of(grid.band.across_pitch);
+    layers = one_of(grid.layer_height);
+}
 
-NeckCheck::NeckCheck(const CheckGrid& grid, const SampledBall& ball, double large_part, std::size_t most)
-    : grid_(grid),
+CheckGrid NeckCheck::Sampling::of(CheckGrid grid) const {
+    grid.band.across_pitch *= rows;
+    grid.band.count = (grid.band.count + rows - 1) / rows;
+    grid.layer_height *= layers;
+    return grid;
+}
+
+SpanRows NeckCheck::Sampling::of(const SpanRows& layer) const {
+    if (rows == 1) return layer;
+    const auto step = static_cast<std::size_t>(rows);
+    SpanRows sampled;
+    for (std::size_t l = 0; l < layer.lines(); l += step)
+        sampled.append_line(layer.line(std::min(l + step / 2, layer.lines() - 1)));
+    return sampled;
+}
+
+NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
+    : NeckCheck(Sampling(grid, thickness).of(grid), Sampling(grid, thickness), thickness, large_part, most) {}
+
+NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,
+                     std::size_t most)
+    : grid_(sampled),
+      sampling_(sampling),
       large_part_(large_part),
-      opened_(ball.lattice, ball.radius, crumbs),
+      thin_(thin_layers(sampled_ball(sampled.band, sampled.layer_height, thickness, thickness))),
       parts_(Growth{}, 0),
       necks_(most) {}
 
 void NeckCheck::push(const SpanRows& layer) {
-    solid_.push_back(layer);
-    opened_.push(layer);
+    const int index = pushed_++;
+    if (index != sampling_.sampled_layer(index / sampling_.layers)) return;
+    solid_.push_back(sampling_.of(layer));
+    thin_.push(solid_.back());
     carry_on();
 }
 
 void NeckCheck::carry_on() {
-    for (SpanRows opened; opened_.pop(opened);) split(opened);
+    for (SpanRows thin; thin_.pop(thin);) split(std::move(thin));
 }
 
-void NeckCheck::split(const SpanRows& opened) {
-    const SpanRows solid = std::move(solid_.front());
-    solid_.pop_front();
-    SpanRows part;
+void NeckCheck::split(SpanRows thin) {
     Split fresh;
-    intersect(solid, opened, part);
-    subtract(solid, opened, fresh.rest);
-    fresh.parts = label_layer(part, layers_, Growth{});
+    fresh.parts = label_layer(without(solid_.front(), thin), layers_, Growth{});
+    fresh.rest = std::move(thin);
+    solid_.pop_front();
     const std::vector<std::uint32_t> numbers = parts_.add(fresh.parts, layers_);
     for (LabelledRun& run : fresh.parts.runs) run.component = numbers[run.component];
     recent_.push_back(std::move(fresh));
@@ -82,7 +113,7 @@ void NeckCheck::join_rest(std::size_t of) {
 }
 
 void NeckCheck::finish() {
-    opened_.finish();
+    thin_.finish();
     carry_on();
     if (!recent_.empty()) join_rest(recent_.size() - 1);
     rests_.finish(ended_);
@@ -95,10 +126,24 @@ void NeckCheck::finish() {
         }
         std::ranges::sort(large);
         if (std::unique(large.begin(), large.end()) - large.begin() < 2) continue;
-        Fault fault = grid_.fault(candidate);
-        fault.size = grid_.volume(candidate.extent.length);
-        necks_.add(std::move(fault));
+        necks_.add(neck(candidate));
     }
+}
+
+/// A rest as a fault in the rows and layers of which some were looked at.
+Fault NeckCheck::neck(const PassingComponent& rest) const {
+    Fault fault = grid_.fault(rest);
+    fault.size = grid_.volume(rest.extent.length);
+    fault.layer = sampling_.sampled_layer(fault.layer);
+    fault.first_layer *= sampling_.layers;
+    fault.end_layer = std::min(fault.end_layer * sampling_.layers, pushed_);
+    std::vector<PlacedRun> runs;
+    for (const PlacedRun& run : fault.runs) {
+        for (int k = 0; k < sampling_.rows; ++k)
+            runs.push_back({fault.layer, run.row * sampling_.rows + k, run.begin, run.end});
+    }
+    fault.runs = std::move(runs);
+    return fault;
 }
 
 }  // namespace lamella

@@ -4,13 +4,14 @@
 #include <deque>
 
 #include "engine/fault_list.h"
-#include "engine/layer_opening.h"
+#include "engine/layer_thinness.h"
 
 namespace lamella {
 
 /// Finds what joins large parts and is thinner than a ball. The solid is opened by the ball; what stays falls
-/// into parts, and a piece of what the opening takes away is a neck where it touches two large ones that
-/// nothing else as thick joins. Memory: the layers that the ball reaches, and a record for each part.
+/// into parts, and a piece of what that takes away is a neck where it touches two large ones that
+/// nothing else as thick joins. Where rows or layers lie much closer than a neck is thick, one of several is
+/// looked at. Memory: the layers that the ball reaches, and a record for each part.
 class NeckCheck {
   public:
     /// `thickness` of a neck that carries, mm; `large_part`, the volume from which a part counts, mm^3.
@@ -26,15 +27,28 @@ class NeckCheck {
         LabelledLayer parts;  ///< components are numbers of parts_
         SpanRows rest;
     };
-    NeckCheck(const CheckGrid& grid, const SampledBall& ball, double large_part, std::size_t most);
+    /// One row and one layer of so many are looked at.
+    struct Sampling {
+        int rows, layers;
+        /// As few as tell a thickness, mm.
+        Sampling(const CheckGrid& grid, double thickness);
+        CheckGrid of(CheckGrid grid) const;
+        int sampled_layer(int course) const { return course * layers + (layers - 1) / 2; }
+        SpanRows of(const SpanRows& layer) const;
+    };
+    NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,
+              std::size_t most);
     void carry_on();
-    void split(const SpanRows& opened);
+    void split(SpanRows thin);
     void join_rest(std::size_t of);
+    Fault neck(const PassingComponent& rest) const;
 
-    CheckGrid grid_;
+    CheckGrid grid_;  // of what is looked at
+    Sampling sampling_;
+    int pushed_ = 0;  // layers
     double large_part_;
-    OpenedLayers opened_;
-    std::deque<SpanRows> solid_;  // layers whose opening is not known yet
+    ThinLayers thin_;
+    std::deque<SpanRows> solid_;  // layers of which it is not known yet what is thin
     std::deque<Split> recent_;    // three at most: a rest touches parts below, beside and above it
     int layers_ = 0;              // that were split
     RunComponents parts_;

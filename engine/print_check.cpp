@@ -9,9 +9,11 @@
 #include "engine/fault_list.h"
 #include "engine/hold_check.h"
 #include "engine/layer_checks.h"
+#include "engine/layer_opening.h"
 #include "engine/layer_thinness.h"
 #include "engine/neck_check.h"
 #include "engine/number_format.h"
+#include "engine/row_sets.h"
 #include "engine/survey_rows.h"
 #include "engine/void_check.h"
 
@@ -36,15 +38,9 @@ CheckGrid check_grid(const Job& job, double pitch) {
     return grid;
 }
 
-SpanRows empty_rows(int count) {
-    SpanRows rows;
-    for (int l = 0; l < count; ++l) rows.end_line();
-    return rows;
-}
-
 /// What the checks need of one layer.
 struct CheckedLayer : LayerProduct {
-    HoldingRows rows;  ///< of part and supports; the rest only where it is asked for
+    HoldingRows rows;
     LabelledLayer part;
     LabelledLayer voids;
     SpanRows thin, narrow;
@@ -112,26 +108,24 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
 }
 
 /// Thicknesses of solid or void: layers one by one in parallel, or with their neighbours in order.
-template <typename Layers>
 class ThicknessCheck {
   public:
-    using OneLayer = void (*)(const SpanRows&, const Thinness&, double, SpanRows&);
-
-    ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, OneLayer one_layer,
+    ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, Medium medium,
                    std::size_t most)
-        : one_layer_(one_layer), found_(grid, thickness, most) {
+        : medium_(medium), found_(grid, thickness, most) {
         const SampledBall ball = sampled_ball(grid.band, grid.layer_height, thickness, thickness_up);
         // A pitch besides, by which rows see late what is opened.
         measure_ = {ball.radius, slack_share * ball.radius + run_unit};
         row_pitch_ = ball.lattice.row_pitch;
         if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)
-            neighbours_.emplace(ball.lattice, measure_);
+            neighbours_.emplace(ball.lattice, measure_, medium);
     }
 
     /// What of a layer can be told without its neighbours. Pure.
     SpanRows prepare(const SpanRows& rows) const {
         SpanRows found;
-        if (!neighbours_) one_layer_(rows, measure_, row_pitch_, found);
+        if (neighbours_) return found;
+        (medium_ == Medium::solid ? thin_rows : narrow_rows)(rows, measure_, row_pitch_, found);
         return found;
     }
     void add(const SpanRows& rows, const SpanRows& prepared) {
@@ -152,10 +146,10 @@ class ThicknessCheck {
     void take() {
         for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
     }
-    OneLayer one_layer_;
+    Medium medium_;
     Thinness measure_;
     double row_pitch_ = 0;
-    std::optional<Layers> neighbours_;
+    std::optional<ThinLayers> neighbours_;
     int next_ = 0;  // layer to be told of
     PassingFaults found_;
 };
@@ -176,8 +170,8 @@ struct PrintCheck::State {
         if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
             hold.emplace(grid, limits, most);
         if (wants(Check::thickness))
-            thickness.emplace(grid, limits.thickness, limits.thickness_up, thin_rows, most);
-        if (wants(Check::gaps)) gaps.emplace(grid, limits.gap, limits.gap_up, narrow_rows, most);
+            thickness.emplace(grid, limits.thickness, limits.thickness_up, Medium::solid, most);
+        if (wants(Check::gaps)) gaps.emplace(grid, limits.gap, limits.gap_up, Medium::gaps, most);
         if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
         if (wants(Check::cavities) || wants(Check::cups))
             voids.emplace(grid, limits.cavity, limits.cup, most);
@@ -193,8 +187,8 @@ struct PrintCheck::State {
     int layer_count;
     std::optional<PassingFaults> pieces;
     std::optional<HoldCheck> hold;
-    std::optional<ThicknessCheck<ThinLayers>> thickness;
-    std::optional<ThicknessCheck<NarrowLayers>> gaps;
+    std::optional<ThicknessCheck> thickness;
+    std::optional<ThicknessCheck> gaps;
     std::optional<NeckCheck> necks;
     std::optional<VoidCheck> voids;
     SheetCheck sheets;
@@ -246,14 +240,11 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     if (state.thickness) product->thin = state.thickness->prepare(part);
     if (state.gaps) product->narrow = state.gaps->prepare(part);
     SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
-                                                    : empty_rows(state.grid.band.count);
+                                                    : empty_rows(part.lines());
     product->support_area = state.grid.area(supports.total_length());
-    if (state.hold) {
-        product->rows = state.hold->prepare(std::move(part), std::move(supports));
-    } else {
-        unite(part, supports, product->rows.printed);
-        product->rows.part = std::move(part);
-    }
+    product->rows.printed = supports.runs().empty() ? part : united(part, supports);
+    product->rows.part = std::move(part);
+    product->rows.supports = std::move(supports);
     return product;
 }
 

@@ -1,5 +1,6 @@
 // Offsets of dexel solids against brute force: every line grown by what every line in reach gives it.
 #include "engine/layer_offset.h"
+#include "engine/layer_remainder.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -113,7 +113,7 @@ TEST_CASE("layers one by one are what a ball without height makes of them", "[mo
     const Thinness thinness{2.2 * run_unit, 1.1 * run_unit};
     const LayerLattice flat{run_unit, 100.0 * run_unit, lines};
     const Stack thin = through(ThinLayers(flat, thinness), stack),
-                narrow = through(NarrowLayers(flat, thinness), stack);
+                narrow = through(ThinLayers(flat, thinness, Medium::gaps), stack);
     SpanRows rows;
     std::int64_t found = 0;
     for (std::size_t z = 0; z < stack.size(); ++z) {
@@ -147,7 +147,7 @@ TEST_CASE("what is narrow in a solid is what is thin in its void", "[morphology]
     const Thinness thinness{1.5 * run_unit, 1.2 * run_unit};
     const LayerLattice lattice{run_unit, 1.2 * run_unit, lines};
     const Stack thin = through(ThinLayers(lattice, thinness), voids),
-                narrow = through(NarrowLayers(lattice, thinness), solid_stack);
+                narrow = through(ThinLayers(lattice, thinness, Medium::gaps), solid_stack);
     std::int64_t differ = 0, all = 0;
     for (std::size_t z = 5; z + 5 < voids.size(); ++z) {
         for (std::size_t l = 6; l + 6 < lines; ++l) {
