@@ -54,6 +54,8 @@ std::size_t layers_in(double height, double layer_height) {
 HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
     : grid_(grid),
       limits_(limits),
+      follows_overhangs_(limits.verdict(Check::overhangs) != Verdict::off ||
+                         limits.verdict(Check::bridges) != Verdict::off),
       step_(limits.overhang / grid.band.along_pitch),
       slope_layers_(std::clamp<std::size_t>(layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang),
                                             1, most_slope_layers)),
@@ -63,23 +65,14 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       overhangs_(most),
       bridges_(most) {}
 
-void HoldCheck::add(HoldingRows layer, int index) {
+void HoldCheck::add(HoldingRows layer, const LabelledLayer& printed, int index) {
     Below next;
     if (below_.empty()) {
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
-        const SpanRows islands = find_islands(layer, index);
-        const SpanRows held = supports_.held();
-        // Rows see a border up to a pitch late.
-        const SpanRows out = beyond(layer.part, below_.back().rows.part, step_ + 1);
-        const SpanRows hanging = without(without(out, held), islands);
-        const SpanRows bad = judge_regions(layer, hanging, index);
-        next.hung = united(without(hanging, bad), islands);
-        below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
-        const SpanRows steep = too_steep(layer, held);
-        below_.pop_back();
-        add_overhang(standing_out(layer, united(bad, steep)), index);
+        const SpanRows islands = find_islands(layer, printed, index);
+        if (follows_overhangs_) follow_overhangs(layer, islands, next, index);
     }
     supports_.add(layer.supports);
     next.rows = std::move(layer);
@@ -87,16 +80,29 @@ void HoldCheck::add(HoldingRows layer, int index) {
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
 }
 
+/// Tells of what hangs beside islands; `next` is to hold what of it may.
+void HoldCheck::follow_overhangs(const HoldingRows& layer, const SpanRows& islands, Below& next, int index) {
+    const SpanRows held = supports_.held();
+    // Rows see a border up to a pitch late.
+    const SpanRows out = beyond(layer.part, below_.back().rows.part, step_ + 1);
+    const SpanRows hanging = without(without(out, held), islands);
+    const SpanRows bad = judge_regions(layer, hanging, index);
+    next.hung = united(without(hanging, bad), islands);
+    below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
+    const SpanRows steep = too_steep(layer, held);
+    below_.pop_back();
+    add_overhang(standing_out(layer, united(bad, steep)), index);
+}
+
 /// The pieces of the part that nothing holds.
-SpanRows HoldCheck::find_islands(const HoldingRows& layer, int index) {
-    const LabelledLayer labelled = label_layer(layer.printed, index, Growth{});
-    std::vector<std::uint8_t> floats(labelled.components.size(), 1);
-    sink_touching(labelled, below_.back().rows.printed, floats);
+SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index) {
+    std::vector<std::uint8_t> floats(printed.components.size(), 1);
+    sink_touching(printed, below_.back().rows.printed, floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
-        sink_touching(labelled, below_[k].rows.supports, floats);
-    SpanRows floating = rows_of(layer.printed, labelled, floats);
-    if (floating.runs().empty()) return floating;
+        sink_touching(printed, below_[k].rows.supports, floats);
+    if (std::ranges::find(floats, 1) == floats.end()) return empty_rows(layer.printed.lines());
+    SpanRows floating = rows_of(layer.printed, printed, floats);
     PassingComponents one_layer;
     one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
     one_layer.finish(ended_);

@@ -26,7 +26,8 @@ class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
-    void add(HoldingRows layer, int index);
+    /// `printed` is what the layer prints, labelled without growth.
+    void add(HoldingRows layer, const LabelledLayer& printed, int index);
     void finish();
 
     const FaultList& islands() const { return islands_; }
@@ -39,7 +40,8 @@ class HoldCheck {
         HoldingRows rows;
         SpanRows hung;
     };
-    SpanRows find_islands(const HoldingRows& layer, int index);
+    void follow_overhangs(const HoldingRows& layer, const SpanRows& islands, Below& next, int index);
+    SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index);
     SpanRows too_steep(const HoldingRows& layer, const SpanRows& held) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
@@ -47,6 +49,7 @@ class HoldCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
+    bool follows_overhangs_;      // or nothing but islands
     double step_;                 // by which a layer may stand out, pitches
     std::size_t slope_layers_;    // over which a slope is followed
     std::size_t support_layers_;  // back, whose supports an island may stand on

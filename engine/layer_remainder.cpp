@@ -10,25 +10,28 @@
 namespace lamella {
 namespace {
 
-/// Takes runs that reach further to both sides out of sorted ones.
+/// Takes runs that reach further to both sides out of sorted ones. The buffer is for what is left.
 void take_away(std::span<const Run> taken, const BallReach& reach, std::vector<Run>& runs,
                std::vector<Run>& buffer) {
-    buffer.clear();
-    auto next = std::ranges::upper_bound(taken, runs.front().begin - reach.ahead, {}, &Run::end);
+    const Run *t = taken.data(), *const end = t + taken.size();
+    while (t != end && t->end + reach.ahead <= runs.front().begin) ++t;
+    if (t == end || t->begin - reach.back >= runs.back().end) return;
+    buffer.resize(runs.size() + static_cast<std::size_t>(end - t));
+    Run* left = buffer.data();
     for (const Run& run : runs) {
-        while (next != taken.end() && next->end + reach.ahead <= run.begin) ++next;
+        while (t != end && t->end + reach.ahead <= run.begin) ++t;
         std::int32_t from = run.begin;
-        for (auto t = next; t != taken.end() && t->begin - reach.back < run.end; ++t) {
-            if (t->begin - reach.back > from) buffer.push_back({from, t->begin - reach.back});
-            from = std::max(from, t->end + reach.ahead);
+        for (const Run* cut = t; cut != end && cut->begin - reach.back < run.end; ++cut) {
+            if (cut->begin - reach.back > from) *left++ = {from, cut->begin - reach.back};
+            from = std::max(from, cut->end + reach.ahead);
         }
-        if (from < run.end) buffer.push_back({from, run.end});
+        if (from < run.end) *left++ = {from, run.end};
     }
+    buffer.resize(static_cast<std::size_t>(left - buffer.data()));
     runs.swap(buffer);
 }
 
-/// Appends lines [first, last) of what is left. `below(k)` is the layer k layers on from the middle one, or
-/// null.
+/// Appends lines [first, last) of what is left. layer_at(k) is what is grown k layers on, or null.
 template <typename LayerAt>
 void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& ball, std::size_t first,
                       std::size_t last, SpanRows& out) {

@@ -26,15 +26,17 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
 }  // namespace
 
 NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
-    constexpr double samples_in_a_neck = 4;
-    const auto one_of = [&](double pitch) {
-        return std::max(1, static_cast<int>(thickness / (samples_in_a_neck * pitch)));
+    constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
+    const auto one_of = [&](double pitch, double samples) {
+        return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
     };
-    rows = one_of(grid.band.across_pitch);
-    layers = one_of(grid.layer_height);
+    rows = one_of(grid.band.across_pitch, rows_in_a_neck);
+    layers = one_of(grid.layer_height, layers_in_a_neck);
 }
 
 CheckGrid NeckCheck::Sampling::of(CheckGrid grid) const {
+    // The sampled row is the middle of those that it stands for.
+    grid.band.across_origin += (rows / 2 + 0.5 - 0.5 * rows) * grid.band.across_pitch;
     grid.band.across_pitch *= rows;
     grid.band.count = (grid.band.count + rows - 1) / rows;
     grid.layer_height *= layers;

@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-/// The components of a layer by themselves.
+/// The components of a layer by themselves, without the runs of their patches.
 std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, const ComponentTags& tags) {
     std::vector<PassingComponent> components(layer.components.size());
     for (std::size_t c = 0; c < components.size(); ++c) {
@@ -18,7 +18,7 @@ std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, co
     }
     for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
         for (const LabelledRun& run : layer.row(r)) {
-            components[run.component].largest.include(PlacedRun{index, r, run.begin, run.end});
+            components[run.component].largest.measure({index, r, run.begin, run.end});
         }
     }
     return components;
@@ -26,11 +26,14 @@ std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, co
 
 }  // namespace
 
-void LayerPatch::include(const PlacedRun& run) {
+void LayerPatch::measure(const PlacedRun& run) {
     const auto width = std::int64_t{run.end} - run.begin;
     length += width;
     along += static_cast<double>(width) * 0.5 * (static_cast<double>(run.begin) + run.end);
     across += static_cast<double>(width) * run.row;
+}
+
+void LayerPatch::keep(const PlacedRun& run) {
     if (runs.size() < most_kept) runs.push_back(run);
 }
 
@@ -60,7 +63,7 @@ LayerPatch::Point LayerPatch::middle() const {
     return best;
 }
 
-void PassingComponent::include(const PassingComponent& other) {
+void PassingComponent::include(PassingComponent other) {
     extent.include(other.extent);
     flags |= other.flags;
     if (!other.marks.empty()) {
@@ -72,7 +75,7 @@ void PassingComponent::include(const PassingComponent& other) {
         largest.include(other.largest);
     } else if (other.largest.length > largest.length ||
                (other.largest.length == largest.length && other.largest.layer < largest.layer)) {
-        largest = other.largest;
+        largest = std::move(other.largest);
     }
 }
 
@@ -98,7 +101,7 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
             joined[root] = std::move(fresh[c]);
             goes_on[root] = 1;
         } else {
-            joined[root].include(fresh[c]);
+            joined[root].include(std::move(fresh[c]));
         }
     }
     std::vector<std::uint32_t> group_flags(sets.size());
@@ -112,9 +115,8 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
             ended.push_back({std::move(live_[c]), false, 0});
             continue;
         }
-        joined[root].include(live_[c]);
-        if (group_flags[root] != live_[c].flags)
-            ended.push_back({std::move(live_[c]), true, group_flags[root]});
+        if (group_flags[root] != live_[c].flags) ended.push_back({live_[c], true, group_flags[root]});
+        joined[root].include(std::move(live_[c]));
     }
     std::vector<std::uint32_t> places(sets.size());
     live_.clear();
@@ -124,6 +126,13 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
         live_.push_back(std::move(joined[c]));
     }
     for (LabelledRun& run : layer.runs) run.component = places[sets.find(old_count + run.component)];
+    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+        for (const LabelledRun& run : layer.row(r)) {
+            // Most layers are not the largest one of what goes through them.
+            LayerPatch& largest = live_[run.component].largest;
+            if (largest.layer == index) largest.keep({index, r, run.begin, run.end});
+        }
+    }
     last_ = std::move(layer);
 }
 

@@ -16,8 +16,14 @@ struct LayerPatch {
     double along = 0, across = 0;  ///< sums of their middles (run units, rows), weighted with their lengths
     std::vector<PlacedRun> runs{};
 
-    void include(const PlacedRun& run);
+    void include(const PlacedRun& run) {
+        measure(run);
+        keep(run);
+    }
     void include(const LayerPatch& other);
+    /// The two halves of including a run.
+    void measure(const PlacedRun& run);
+    void keep(const PlacedRun& run);
     /// A point of the run that is nearest to the middle of all: its row, and the run coordinate, half a pixel
     /// inside the run where it is that long.
     struct Point {
@@ -35,7 +41,7 @@ struct PassingComponent {
     LayerPatch largest;                  ///< its largest layer, of equals the lowest, among the parts that
                                          ///< it was joined from
 
-    void include(const PassingComponent& other);
+    void include(PassingComponent other);
 };
 
 /// A component that ends with a layer, or is joined to what has flags that it lacks.

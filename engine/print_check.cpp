@@ -21,6 +21,7 @@ namespace lamella {
 namespace {
 
 constexpr double most_rows = 1 << 15;  // along a side
+// An odd number finds the most: walls along the rows of up to three pitches for sure, and of four mostly.
 constexpr double pitches_in_a_thickness = 5;
 constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
 
@@ -41,13 +42,15 @@ CheckGrid check_grid(const Job& job, double pitch) {
 /// What the checks need of one layer.
 struct CheckedLayer : LayerProduct {
     HoldingRows rows;
-    LabelledLayer part;
+    LabelledLayer part, printed;  ///< printed only where there are supports
     LabelledLayer voids;
     SpanRows thin, narrow;
+    bool has_supports = false;
 };
 
-/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
-/// diagonal than `least`, mm, are none.
+/// Faults that reach over several layers, from the rows that come of each. Those are none whose bounds have a
+/// shorter diagonal than `least`, mm, or that fill less than half of a cube of that side: specks where
+/// outlines graze layers and rows.
 class PassingFaults {
   public:
     PassingFaults(const CheckGrid& grid, double least, std::size_t most)
@@ -69,8 +72,9 @@ class PassingFaults {
         for (const EndedComponent& ended : ended_) {
             Fault fault = grid_.fault(ended.component);
             const dvec3 size = fault.box.size();
-            if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
+            if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
+            if (fault.size < 0.5 * least_ * least_ * least_) continue;
             faults_.add(std::move(fault));
         }
         ended_.clear();
@@ -234,7 +238,7 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     Scratch scratch;
     SpanRows part = all_rows(layer.part(), state.grid.band, scratch);
     product->area = state.grid.area(part.total_length());
-    if (state.pieces || state.wants(Check::sheets))
+    if (state.pieces || state.hold || state.wants(Check::sheets))
         product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness) product->thin = state.thickness->prepare(part);
@@ -242,7 +246,10 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
                                                     : empty_rows(part.lines());
     product->support_area = state.grid.area(supports.total_length());
-    product->rows.printed = supports.runs().empty() ? part : united(part, supports);
+    product->has_supports = !supports.runs().empty();
+    product->rows.printed = product->has_supports ? united(part, supports) : part;
+    if (state.hold && product->has_supports)
+        product->printed = label_layer(product->rows.printed, layer.index(), Growth{});
     product->rows.part = std::move(part);
     product->rows.supports = std::move(supports);
     return product;
@@ -257,12 +264,14 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.wants(Check::sheets)) state.sheets.add(checked.part, index);
     if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed, index);
     if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed, index);
-    if (state.pieces) state.pieces->add(std::move(checked.part), index);
     if (state.voids) state.voids->add(std::move(checked.voids), index);
     if (state.thickness) state.thickness->add(part, checked.thin);
     if (state.gaps) state.gaps->add(part, checked.narrow);
     if (state.necks) state.necks->push(part);
-    if (state.hold) state.hold->add(std::move(checked.rows), index);
+    if (state.hold)
+        state.hold->add(std::move(checked.rows), checked.has_supports ? checked.printed : checked.part,
+                        index);
+    if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }
 
 void PrintCheck::end() { state_->finish(); }

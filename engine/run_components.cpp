@@ -58,14 +58,35 @@ void ComponentExtent::include(const ComponentExtent& other) {
     last_layer = std::max(last_layer, other.last_layer);
 }
 
-std::span<const LabelledRun> LabelledLayer::row(int r) const {
-    const int i = r - first_row;
-    if (i < 0 || i >= rows()) return {};
-    const auto at = static_cast<std::size_t>(i);
-    return std::span(runs).subspan(starts[at], starts[at + 1] - starts[at]);
+namespace {
+
+/// Without growth each run is its own.
+LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
+    LabelledLayer out;
+    out.starts.reserve(rows.lines() + 1);
+    out.starts.push_back(0);
+    out.runs.reserve(rows.runs().size());
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        for (const Run& run : rows.line(l))
+            out.runs.push_back({run.begin, run.end, static_cast<std::uint32_t>(out.runs.size())});
+        out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
+    }
+    out.components.resize(number_components(out));
+    out.owners.reserve(out.runs.size());
+    for (int r = 0; r < out.rows(); ++r) {
+        for (const LabelledRun& run : out.row(r)) {
+            out.components[run.component].include(
+                {run.end - run.begin, {run.begin, run.end}, r, r, layer, layer});
+            out.owners.push_back(run.component);
+        }
+    }
+    return out;
 }
 
+}  // namespace
+
 LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth) {
+    if (growth.units == 0 && growth.rows == 0) return label_as_it_is(rows, layer);
     LabelledLayer out;
     out.first_row = -growth.rows;
     out.starts.push_back(0);

@@ -49,7 +49,12 @@ struct LabelledLayer {
 
     int rows() const { return static_cast<int>(starts.size()) - 1; }
     /// The runs of a row; empty where the layer has no such row.
-    std::span<const LabelledRun> row(int r) const;
+    std::span<const LabelledRun> row(int r) const {
+        const int i = r - first_row;
+        if (i < 0 || i >= rows()) return {};
+        const auto at = static_cast<std::size_t>(i);
+        return {runs.data() + starts[at], starts[at + 1] - starts[at]};
+    }
 };
 
 /// Grows and labels a layer's runs: line l is row l. Pure, so layers can be labelled at once.
