@@ -1,5 +1,6 @@
 # Everything comes from Debian packages; packages-build.txt names them. Some ship no CMake package, only
 # pkg-config files or bare headers: those get an imported target here.
+find_package(Eigen3 REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
