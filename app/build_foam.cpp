@@ -28,6 +28,7 @@ FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
     settings.seed = static_cast<std::uint64_t>(foam.seed);
     settings.pattern = pattern;
     settings.jitter = foam.jitter;
+    settings.repeats_after = foam.repeats_after;
     settings.region = making.region;
     const dvec3 stretch = constant(foam.stretch).value_or(dvec3(1));
     if (stretch != dvec3(1)) {
@@ -41,12 +42,20 @@ FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
     return settings;
 }
 
+/// How soon a foam on such seeds repeats, mm.
+double period_of(const FoamSettings& settings) {
+    const bool alike = settings.cell->constant() && settings.stretch.identity();
+    if (settings.repeats_after == 0 || !alike) return 0;
+    return prepare_foam(settings).tree->coarse_side() * static_cast<double>(settings.repeats_after);
+}
+
 /// Beams along the edges of the seeds' cells.
 void edges(FoamMaking& making, SeedPattern pattern) {
     const FoamSettings settings = seeded(making, pattern);
     BuiltFoam& built = making.built;
     const auto made = make_voronoi_foam(settings);
     built.field = made;
+    built.period = period_of(settings);
     built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
     built.seeds_in = [made](const Box& box) { return made->seeds_in(box); };
     // The law was measured on jittered seeds in round cells.
@@ -66,6 +75,7 @@ void closed(FoamMaking& making) {
     settings.window = further(making, "foam.window", foam.window, {0, 1});
     const auto made = make_closed_foam(settings);
     making.built.field = made;
+    making.built.period = period_of(settings.foam);
     making.built.beams_touching = [made](const Box& box) {
         std::vector<Beam> beams;
         for (const FoamPiece& piece : made->pieces_touching(box)) {
@@ -84,6 +94,7 @@ void nearest_seeds(FoamMaking& making) {
     settings.foam.cell = making.built.cell.made;
     settings.foam.beam_radius = making.built.member.made;
     settings.foam.seed = static_cast<std::uint64_t>(foam.seed);
+    settings.foam.repeats_after = foam.repeats_after;
     settings.foam.region = making.region;
     settings.neighbours = static_cast<int>(foam.neighbours);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -92,6 +103,7 @@ void nearest_seeds(FoamMaking& making) {
     }
     const auto made = std::make_shared<const NearestFoam>(settings);
     making.built.field = made;
+    if (constant(foam.stretch) == dvec3(1)) making.built.period = period_of(settings.foam);
     making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
     making.built.seeds_in = [made](const Box& box) { return made->seeds_in(box); };
 }
@@ -99,6 +111,7 @@ void nearest_seeds(FoamMaking& making) {
 template <TpmsKind surface>
 void periodic(FoamMaking& making) {
     BuiltFoam& built = making.built;
+    built.period = built.cell.made->constant().value_or(0);
     built.field =
         make_tpms({surface, making.recipe.network, built.cell.made, built.member.made, making.region});
 }
@@ -115,6 +128,7 @@ void lattice(FoamMaking& making) {
     settings.region = making.region;
     const auto made = make_strut_lattice(settings);
     making.built.field = made;
+    if (settings.cell->constant()) making.built.period = made->cells().coarse_side();
     making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
 }
 

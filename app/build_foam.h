@@ -21,6 +21,8 @@ struct BuiltFoam {
     /// The beams whose solid touches a box, and the seeds in it; null for foams that have none.
     std::function<std::vector<Beam>(const Box&)> beams_touching;
     std::function<std::vector<Seed>(const Box&)> seeds_in;
+    /// After which the foam repeats along x, y and z, mm; 0: it does not.
+    double period = 0;
     /// The share of space that is solid about a point; null where no law is known.
     std::function<double(dvec3)> volume_fraction;
 };

@@ -19,6 +19,7 @@ void add_dump_command(CLI::App& root);
 void add_supports_command(CLI::App& root);
 void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
+void add_homogenize_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_keys_command(CLI::App& root);
 

@@ -143,9 +143,10 @@ struct FoamRecipe {
     std::int64_t neighbours = 5;  ///< k-nearest: beams of each seed, about
     /// Factors on the cells along three axes at right angles; formulas for k-nearest alone.
     GradedTriple stretch{GradedNumber{1.0, ""}, GradedNumber{1.0, ""}, GradedNumber{1.0, ""}};
-    GradedTriple turn{};    ///< of these axes about x, then y, then z, degrees
-    std::string unit_cell;  ///< lattice: the name of a cell
-    NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
+    GradedTriple turn{};             ///< of these axes about x, then y, then z, degrees
+    std::string unit_cell;           ///< lattice: the name of a cell
+    NumberRows struts;               ///< lattice: ends in the unit cube, six numbers each
+    std::int64_t repeats_after = 0;  ///< no key: coarse cells of seeds, for samples that repeat; 0: never
     bool drop_islands = false;
     double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
 };

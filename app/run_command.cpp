@@ -82,6 +82,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_dump_command(root);
         add_supports_command(root);
         add_check_command(root);
+        add_homogenize_command(root);
         add_printers_command(root);
         add_keys_command(root);
         return parse_and_run(root, arguments);

@@ -141,7 +141,7 @@ FoamGround prepare_foam(const FoamSettings& settings) {
                           (settings.pattern == SeedPattern::bcc ? bcc_side : 1);
     const NodeRadius radius = node_radius(settings, cell, cells);
     return {std::make_shared<const SeedTree>(std::move(density), coarse * cells.hi, settings.seed,
-                                             settings.pattern, settings.jitter),
+                                             settings.pattern, settings.jitter, settings.repeats_after),
             cell,
             cells,
             radius,

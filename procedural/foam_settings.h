@@ -23,7 +23,9 @@ struct FoamSettings {
     Graded beam_radius = 0.2;
     std::uint64_t seed = 0;  ///< another number, another foam
     SeedPattern pattern = SeedPattern::jittered;
-    double jitter = 0.05;                  ///< of the patterns other than jittered: share of the spacing
+    double jitter = 0.05;  ///< of the patterns other than jittered: share of the spacing
+    /// Coarse cells of the seeds after which these repeat along each axis; 0: never.
+    std::int64_t repeats_after = 0;
     Stretch stretch{};                     ///< of the cells
     std::optional<FrameSettings> frame{};  ///< under a body's surface, which the foam then ends at
     Box region{};                          ///< where the foam is wanted, mm; finite

@@ -76,11 +76,12 @@ struct SeedTree::Growth {
 };
 
 SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed,
-                   SeedPattern pattern, double jitter)
+                   SeedPattern pattern, double jitter, std::int64_t period)
     : density_(std::move(density)),
       side_(coarse_side),
       recipe_seed_(recipe_seed),
       pattern_(pattern),
+      period_(period),
       blocks_(block_cache_bytes, idle_block_bytes) {
     if (!(coarse_side > 0) || !std::isfinite(coarse_side)) {
         throw InputError("the coarse cell's side is " + std::to_string(coarse_side) +
@@ -89,7 +90,14 @@ SeedTree::SeedTree(std::shared_ptr<const Density> density, double coarse_side, s
     if (!(jitter >= 0 && jitter <= 1)) {
         throw InputError("the seeds' jitter is " + std::to_string(jitter) + "; it must be from 0 to 1");
     }
+    if (period < 0) throw InputError("seeds cannot repeat after less than one coarse cell");
     jitter_ = static_cast<std::int64_t>(jitter * 0x1p20);
+}
+
+glm::i64vec3 SeedTree::original(glm::i64vec3 index) const {
+    if (period_ == 0) return index;
+    for (int axis = 0; axis < 3; ++axis) index[axis] = (index[axis] % period_ + period_) % period_;
+    return index;
 }
 
 glm::i64vec3 SeedTree::block_index(dvec3 p) const {
@@ -147,7 +155,8 @@ SeedBlock SeedTree::make_block(glm::i64vec3 index) const {
         throw InputError("the density gives " + std::to_string(expected) + " seeds in a coarse cell of " +
                          std::to_string(side_) + " mm; it must give more than 0");
     }
-    const CounterHash hash(recipe_seed_, 0, index.x, index.y, index.z);
+    const glm::i64vec3 place = original(index);
+    const CounterHash hash(recipe_seed_, 0, place.x, place.y, place.z);
     const auto count = static_cast<std::uint32_t>(std::floor(expected + hash.uniform(draw_count)));
     growth.block.positions.reserve(std::max(count, 1U));
     deal(growth, 0, {0, 0, 0}, std::max(count, 1U));
@@ -195,7 +204,7 @@ void SeedTree::deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::
 
     const std::int64_t position_shift = coarse_bits - level;
     const glm::i64vec3 place_at_level =
-        (growth.block.index << std::int64_t{level}) + (corner >> position_shift);
+        (original(growth.block.index) << std::int64_t{level}) + (corner >> position_shift);
     const CounterHash hash(recipe_seed_, level, place_at_level.x, place_at_level.y, place_at_level.z);
     if (here.first_child < 0) {
         place(growth, hash, level, corner, count);

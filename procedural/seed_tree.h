@@ -74,9 +74,10 @@ struct SeedBlock {
 class SeedTree {
   public:
     /// `jitter` in [0, 1] moves the seeds of a pattern at random, by up to that share of a quarter of the
-    /// leaf's side along each axis. Throws InputError unless the side is positive and finite.
+    /// leaf's side along each axis. Where `period` is above 0, seeds repeat after so many coarse cells along
+    /// each axis, as far as the density does. Throws InputError unless the side is positive and finite.
     SeedTree(std::shared_ptr<const Density> density, double coarse_side, std::uint64_t recipe_seed,
-             SeedPattern pattern = SeedPattern::jittered, double jitter = 0);
+             SeedPattern pattern = SeedPattern::jittered, double jitter = 0, std::int64_t period = 0);
 
     double coarse_side() const { return side_; }
     /// The coarse cell that holds the point. Throws InputError beyond 2^24 coarse cells from the origin.
@@ -91,6 +92,8 @@ class SeedTree {
 
   private:
     struct Growth;
+    /// The coarse cell whose random numbers one has.
+    glm::i64vec3 original(glm::i64vec3 index) const;
     SeedBlock make_block(glm::i64vec3 index) const;
     double split(Growth& growth, std::size_t node, glm::i64vec3 corner) const;
     void deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const;
@@ -103,6 +106,7 @@ class SeedTree {
     std::uint64_t recipe_seed_;
     SeedPattern pattern_;
     std::int64_t jitter_;  ///< in 2^-20
+    std::int64_t period_;  ///< coarse cells; 0: none
     mutable CellCache<SeedBlock> blocks_;
 };
 
