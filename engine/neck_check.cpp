@@ -36,7 +36,7 @@ NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
 
 CheckGrid NeckCheck::Sampling::of(CheckGrid grid) const {
     // The sampled row is the middle of those that it stands for.
-    grid.band.across_origin += (rows / 2 + 0.5 - 0.5 * rows) * grid.band.across_pitch;
+    grid.band.across_origin += rows % 2 == 0 ? 0.5 * grid.band.across_pitch : 0;
     grid.band.across_pitch *= rows;
     grid.band.count = (grid.band.count + rows - 1) / rows;
     grid.layer_height *= layers;

@@ -193,7 +193,7 @@ void ElasticMultigrid::Level::factorise() {
             for (std::size_t i = 0; i < 3; ++i) {
                 for (std::size_t j = 0; j < 3; ++j) {
                     k(static_cast<Eigen::Index>(3 * node + i),
-                      3 * neighbours[n] + static_cast<Eigen::Index>(j)) +=
+                      3 * Eigen::Index{neighbours[n]} + static_cast<Eigen::Index>(j)) +=
                         static_cast<double>(stencil_of(node)[9 * n + 3 * i + j]);
                 }
             }
