@@ -21,7 +21,7 @@ namespace lamella {
 namespace {
 
 constexpr double most_rows = 1 << 15;  // along a side
-// An odd number finds the most: walls along the rows of up to three pitches for sure, and of four mostly.
+// An odd number finds the most: walls of up to four pitches whichever way they run.
 constexpr double pitches_in_a_thickness = 5;
 constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
 
@@ -48,9 +48,8 @@ struct CheckedLayer : LayerProduct {
     bool has_supports = false;
 };
 
-/// Faults that reach over several layers, from the rows that come of each. Those are none whose bounds have a
-/// shorter diagonal than `least`, mm, or that fill less than half of a cube of that side: specks where
-/// outlines graze layers and rows.
+/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
+/// diagonal than `least`, mm, are none.
 class PassingFaults {
   public:
     PassingFaults(const CheckGrid& grid, double least, std::size_t most)
@@ -72,9 +71,8 @@ class PassingFaults {
         for (const EndedComponent& ended : ended_) {
             Fault fault = grid_.fault(ended.component);
             const dvec3 size = fault.box.size();
-            fault.size = grid_.volume(ended.component.extent.length);
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
-            if (fault.size < 0.5 * least_ * least_ * least_) continue;
+            fault.size = grid_.volume(ended.component.extent.length);
             faults_.add(std::move(fault));
         }
         ended_.clear();

@@ -44,9 +44,9 @@ PrintLimits filament_limits(const PrinterProfile& profile) {
     return limits;
 }
 
-/// What hangs over the plate is peeled off the film with each layer: pieces must hold, while slopes are a
-/// question of finish. Resin stays in closed voids, and a cup sucks itself to the film. A gap that closes
-/// costs a detail, not the print: where two struts of a foam meet there always is one.
+/// What hangs over the plate is peeled off the film with each layer: pieces must hold. Resin stays in closed
+/// voids, and a cup sucks itself to the film. A gap that closes costs a detail, not the print: where two
+/// struts of a foam meet there always is one.
 PrintLimits resin_limits(const PrinterProfile& profile) {
     PrintLimits limits;
     apply(limits, {{Check::connectivity, fail},
@@ -55,6 +55,7 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
                    {Check::thickness, fail},
                    {Check::build_volume, fail},
                    {Check::empty_layers, fail},
+                   {Check::overhangs, warn},
                    {Check::necks, warn},
                    {Check::gaps, warn},
                    {Check::cups, warn}});

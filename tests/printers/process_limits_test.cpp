@@ -76,7 +76,7 @@ TEST_CASE("what matters is decided by the process, and by the profile over it", 
     // connectivity, sheets, islands, overhangs, bridges, thickness, necks, gaps, cavities, cups, build
     // volume, empty layers
     CHECK(verdicts(machine("gcode")) == "F-FFFFww--FF");
-    CHECK(verdicts(machine("sl1")) == "F-F--FwwFwFF");
+    CHECK(verdicts(machine("sl1")) == "F-Fw-FwwFwFF");
     CHECK(verdicts(machine("cli")) == "F----FwwF-FF");
     CHECK(verdicts(machine("dxf")) == "wF---FwFw-Fw");
     PrinterProfile tied = machine("dxf");
