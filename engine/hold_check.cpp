@@ -49,6 +49,11 @@ std::size_t layers_in(double height, double layer_height) {
     return static_cast<std::size_t>(std::max(std::ceil(height / layer_height - 1e-6), 0.0));
 }
 
+std::size_t layers_of_slope(const CheckGrid& grid, const PrintLimits& limits) {
+    const std::size_t layers = layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang);
+    return std::clamp<std::size_t>(layers, 1, most_slope_layers);
+}
+
 }  // namespace
 
 HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
@@ -57,9 +62,9 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       follows_overhangs_(limits.verdict(Check::overhangs) != Verdict::off ||
                          limits.verdict(Check::bridges) != Verdict::off),
       step_(limits.overhang / grid.band.along_pitch),
-      slope_layers_(std::clamp<std::size_t>(layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang),
-                                            1, most_slope_layers)),
+      slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
+      slope_stride_(std::max(static_cast<int>(slope_layers_ / 4), 1)),
       supports_(grid, limits.support_spacing, limits.support_gap),
       islands_(most),
       overhangs_(most),
@@ -89,7 +94,7 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const SpanRows& islan
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
     below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
-    const SpanRows steep = too_steep(layer, held);
+    const SpanRows steep = too_steep(layer, held, index);
     below_.pop_back();
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
@@ -115,9 +120,12 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
     return floating;
 }
 
-/// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) const {
-    if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
+/// What went out further over several layers than it may, but for what lies above things that may hang. Looks
+/// over neighbouring layers tell much the same: it is looked for now and then, and followed once it is found.
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held, int index) {
+    const bool looks = was_too_steep_ || index % slope_stride_ == 0;
+    was_too_steep_ = false;
+    if (!looks || below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     SpanRows steep = without(beyond(layer.part, below_[first].rows.part, far), held);
@@ -128,7 +136,9 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) co
     }
     if (steep.runs().empty()) return steep;
     const LabelledLayer labelled = label_layer(steep, 0, Growth{});
-    return rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
+    SpanRows found = rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
+    was_too_steep_ = !found.runs().empty();
+    return found;
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
