@@ -61,7 +61,6 @@ NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double 
       sampling_(sampling),
       large_part_(large_part),
       thin_(thin_layers(sampled_ball(sampled.band, sampled.layer_height, thickness, thickness))),
-      parts_(Growth{}, 0),
       necks_(most) {}
 
 void NeckCheck::push(const SpanRows& layer) {
@@ -78,15 +77,14 @@ void NeckCheck::carry_on() {
 
 void NeckCheck::split(SpanRows thin) {
     Split fresh;
-    fresh.parts = label_layer(without(solid_.front(), thin), layers_, Growth{});
+    fresh.parts = parts_.add(label_layer(without(solid_.front(), thin), layers_, Growth{}));
     fresh.rest = std::move(thin);
     solid_.pop_front();
-    const std::vector<std::uint32_t> numbers = parts_.add(fresh.parts, layers_);
-    for (LabelledRun& run : fresh.parts.runs) run.component = numbers[run.component];
     recent_.push_back(std::move(fresh));
     ++layers_;
     if (recent_.size() > 1) join_rest(recent_.size() - 2);
     if (recent_.size() > 2) recent_.pop_front();
+    if (parts_.size() > most_parts_) forget_what_is_settled();
 }
 
 /// Joins the rest of a recent layer to those before it, with the parts that it touches as marks.
@@ -114,6 +112,39 @@ void NeckCheck::join_rest(std::size_t of) {
     ended_.clear();
 }
 
+/// How many parts a rest touches that are large or, as the sorted ones of `growing`, may be yet.
+std::size_t NeckCheck::count_parts(const PassingComponent& candidate,
+                                   const std::vector<std::uint32_t>& growing) {
+    std::vector<std::uint32_t> parts;
+    for (const std::uint32_t mark : candidate.marks) {
+        const std::uint32_t part = parts_.find(mark);
+        if (grid_.volume(parts_.length(part)) >= large_part_ || std::ranges::binary_search(growing, part))
+            parts.push_back(part);
+    }
+    std::ranges::sort(parts);
+    return static_cast<std::size_t>(std::unique(parts.begin(), parts.end()) - parts.begin());
+}
+
+/// Drops the candidates that have become none, and the parts that nothing refers to.
+void NeckCheck::forget_what_is_settled() {
+    std::vector<std::uint32_t> used;
+    for (const Split& layer : recent_) {
+        for (const LabelledRun& run : layer.parts.runs) used.push_back(run.component);
+    }
+    std::vector<std::uint32_t> growing;
+    for (const LabelledRun& run : recent_.back().parts.runs) growing.push_back(parts_.find(run.component));
+    std::ranges::sort(growing);
+    std::erase_if(candidates_,
+                  [&](const PassingComponent& candidate) { return count_parts(candidate, growing) < 2; });
+    const auto refer = [&](const PassingComponent& rest) {
+        used.insert(used.end(), rest.marks.begin(), rest.marks.end());
+    };
+    std::ranges::for_each(candidates_, refer);
+    std::ranges::for_each(rests_.live(), refer);
+    parts_.forget_all_but(std::move(used));
+    most_parts_ = std::max<std::size_t>(1024, 2 * parts_.size());
+}
+
 void NeckCheck::finish() {
     thin_.finish();
     carry_on();
@@ -121,14 +152,7 @@ void NeckCheck::finish() {
     rests_.finish(ended_);
     for (EndedComponent& ended : ended_) candidates_.push_back(std::move(ended.component));
     for (const PassingComponent& candidate : candidates_) {
-        std::vector<std::uint32_t> large;
-        for (const std::uint32_t mark : candidate.marks) {
-            const auto& part = parts_.component(mark);
-            if (grid_.volume(part.extent.length) >= large_part_) large.push_back(parts_.find(mark));
-        }
-        std::ranges::sort(large);
-        if (std::unique(large.begin(), large.end()) - large.begin() < 2) continue;
-        necks_.add(neck(candidate));
+        if (count_parts(candidate, {}) >= 2) necks_.add(neck(candidate));
     }
 }
 

@@ -5,13 +5,14 @@
 
 #include "engine/fault_list.h"
 #include "engine/layer_thinness.h"
+#include "engine/passing_parts.h"
 
 namespace lamella {
 
 /// Finds what joins large parts and is thinner than a ball. The solid is opened by the ball; what stays falls
 /// into parts, and a piece of what that takes away is a neck where it touches two large ones that
 /// nothing else as thick joins. Where rows or layers lie much closer than a neck is thick, one of several is
-/// looked at. Memory: the layers that the ball reaches, and a record for each part.
+/// looked at. Memory: the layers that the ball reaches, and what may be a neck still.
 class NeckCheck {
   public:
     /// `thickness` of a neck that carries, mm; `large_part`, the volume from which a part counts, mm^3.
@@ -41,6 +42,8 @@ class NeckCheck {
     void carry_on();
     void split(SpanRows thin);
     void join_rest(std::size_t of);
+    std::size_t count_parts(const PassingComponent& candidate, const std::vector<std::uint32_t>& growing);
+    void forget_what_is_settled();
     Fault neck(const PassingComponent& rest) const;
 
     CheckGrid grid_;  // of what is looked at
@@ -51,7 +54,8 @@ class NeckCheck {
     std::deque<SpanRows> solid_;  // layers of which it is not known yet what is thin
     std::deque<Split> recent_;    // three at most: a rest touches parts below, beside and above it
     int layers_ = 0;              // that were split
-    RunComponents parts_;
+    PassingParts parts_;
+    std::size_t most_parts_ = 1024;  // at which those are forgotten that no rest can join any more
     PassingComponents rests_;
     std::vector<EndedComponent> ended_;
     std::vector<PassingComponent> candidates_;  // rests that touch several parts

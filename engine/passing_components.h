@@ -67,6 +67,8 @@ class PassingComponents {
     void add(LabelledLayer layer, int index, const ComponentTags& tags, std::vector<EndedComponent>& ended);
     /// No more layers will come: ends all.
     void finish(std::vector<EndedComponent>& ended);
+    /// Those that go through the last layer.
+    const std::vector<PassingComponent>& live() const { return live_; }
 
   private:
     LabelledLayer last_;                  // components are places in live_
