@@ -3,20 +3,12 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
-
 #include "engine/grading.h"
+#include "procedural/table_curve.h"
 
 namespace lamella {
 
-/// Rows of (position, number).
-using Table = std::vector<std::pair<double, double>>;
-
-/// The number that the table gives at the position `along` has: straight between rows, or smooth (the
-/// monotone cubic of Fritsch and Carlson 1980, which never leaves the span of its two rows), constant beyond
-/// the ends. Throws InputError for an empty table, for numbers beyond 1e100 and for positions that do not
-/// increase strictly.
+/// The number that the table gives at the position `along` has; see TableCurve, and for what is thrown.
 GradingPtr make_table_grading(GradingPtr along, Table rows, bool smooth);
 
 /// Reads two numbers a line, parted by a comma, semicolon or white space; empty lines and what follows a # do
