@@ -112,35 +112,33 @@ void NeckCheck::join_rest(std::size_t of) {
     ended_.clear();
 }
 
-/// How many parts a rest touches that are large or, as the sorted ones of `growing`, may be yet.
-std::size_t NeckCheck::count_parts(const PassingComponent& candidate,
-                                   const std::vector<std::uint32_t>& growing) {
-    std::vector<std::uint32_t> parts;
-    for (const std::uint32_t mark : candidate.marks) {
-        const std::uint32_t part = parts_.find(mark);
-        if (grid_.volume(parts_.length(part)) >= large_part_ || std::ranges::binary_search(growing, part))
-            parts.push_back(part);
-    }
-    std::ranges::sort(parts);
-    return static_cast<std::size_t>(std::unique(parts.begin(), parts.end()) - parts.begin());
+/// Leaves of the marks those parts, once each, that are large or, being among the sorted `growing`, may be
+/// yet.
+void NeckCheck::settle(std::vector<std::uint32_t>& marks, const std::vector<std::uint32_t>& growing) {
+    for (std::uint32_t& mark : marks) mark = parts_.find(mark);
+    std::erase_if(marks, [&](std::uint32_t mark) {
+        const bool is_large = grid_.volume(parts_.length(mark)) >= large_part_;
+        return !is_large && !std::ranges::binary_search(growing, mark);
+    });
+    std::ranges::sort(marks);
+    marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
 }
 
-/// Drops the candidates that have become none, and the parts that nothing refers to.
+/// Drops the candidates that have become none, and the parts that nothing can refer to.
 void NeckCheck::forget_what_is_settled() {
-    std::vector<std::uint32_t> used;
+    std::vector<std::uint32_t> used, growing;
     for (const Split& layer : recent_) {
         for (const LabelledRun& run : layer.parts.runs) used.push_back(run.component);
     }
-    std::vector<std::uint32_t> growing;
     for (const LabelledRun& run : recent_.back().parts.runs) growing.push_back(parts_.find(run.component));
     std::ranges::sort(growing);
-    std::erase_if(candidates_,
-                  [&](const PassingComponent& candidate) { return count_parts(candidate, growing) < 2; });
-    const auto refer = [&](const PassingComponent& rest) {
-        used.insert(used.end(), rest.marks.begin(), rest.marks.end());
+    const auto keep = [&](std::vector<std::uint32_t>& marks) {
+        settle(marks, growing);
+        used.insert(used.end(), marks.begin(), marks.end());
     };
-    std::ranges::for_each(candidates_, refer);
-    std::ranges::for_each(rests_.live(), refer);
+    for (PassingComponent& candidate : candidates_) keep(candidate.marks);
+    std::erase_if(candidates_, [](const PassingComponent& candidate) { return candidate.marks.size() < 2; });
+    rests_.change_marks(keep);
     parts_.forget_all_but(std::move(used));
     most_parts_ = std::max<std::size_t>(1024, 2 * parts_.size());
 }
@@ -151,8 +149,9 @@ void NeckCheck::finish() {
     if (!recent_.empty()) join_rest(recent_.size() - 1);
     rests_.finish(ended_);
     for (EndedComponent& ended : ended_) candidates_.push_back(std::move(ended.component));
-    for (const PassingComponent& candidate : candidates_) {
-        if (count_parts(candidate, {}) >= 2) necks_.add(neck(candidate));
+    for (PassingComponent& candidate : candidates_) {
+        settle(candidate.marks, {});
+        if (candidate.marks.size() > 1) necks_.add(neck(candidate));
     }
 }
 

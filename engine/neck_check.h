@@ -42,7 +42,7 @@ class NeckCheck {
     void carry_on();
     void split(SpanRows thin);
     void join_rest(std::size_t of);
-    std::size_t count_parts(const PassingComponent& candidate, const std::vector<std::uint32_t>& growing);
+    void settle(std::vector<std::uint32_t>& marks, const std::vector<std::uint32_t>& growing);
     void forget_what_is_settled();
     Fault neck(const PassingComponent& rest) const;
 

@@ -67,8 +67,11 @@ class PassingComponents {
     void add(LabelledLayer layer, int index, const ComponentTags& tags, std::vector<EndedComponent>& ended);
     /// No more layers will come: ends all.
     void finish(std::vector<EndedComponent>& ended);
-    /// Those that go through the last layer.
-    const std::vector<PassingComponent>& live() const { return live_; }
+    /// Lets the marks of those that go through the last layer be changed; they have to stay sorted.
+    template <typename Change>
+    void change_marks(Change change) {
+        for (PassingComponent& component : live_) change(component.marks);
+    }
 
   private:
     LabelledLayer last_;                  // components are places in live_
