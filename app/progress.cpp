@@ -43,23 +43,36 @@ double ProgressDisplay::seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+bool ProgressDisplay::is_due(bool last, double now) {
+    if (quiet_ || (!last && now - last_shown_ < (terminal_ ? bar_interval : line_interval))) return false;
+    last_shown_ = now;
+    return true;
+}
+
 void ProgressDisplay::show(const Progress& progress) {
     const double now = seconds();
     if (first_layer_ == 0) first_layer_ = now;
-    if (quiet_) return;
-    const bool last = progress.done == progress.total;
-    if (!last && now - last_shown_ < (terminal_ ? bar_interval : line_interval)) return;
-    last_shown_ = now;
-    const std::string text = what_ + progress_text(progress, now);
+    if (!is_due(progress.done == progress.total, now)) return;
+    draw(progress.total > 0 ? static_cast<double>(progress.done) / progress.total : 0,
+         progress_text(progress, now));
+}
+
+void ProgressDisplay::show(double share) {
+    const double now = seconds();
+    if (!is_due(share >= 1, now)) return;
+    std::string text = fmt::format("{:3.0f} %", std::floor(share * 100));
+    if (share > 0.01) text += fmt::format("  {} left", clock_text(now / share - now));
+    draw(share, text);
+}
+
+void ProgressDisplay::draw(double share, const std::string& text) {
     if (terminal_) {
-        const int full =
-            progress.total > 0 ? static_cast<int>(1LL * progress.done * bar_width / progress.total) : 0;
-        const std::string bar(static_cast<std::size_t>(full), '#');
-        std::fputs(fmt::format("\r[{:.<{}}] {}\x1b[K", bar, bar_width, text).c_str(), stderr);
+        const std::string bar(static_cast<std::size_t>(share * bar_width), '#');
+        std::fputs(fmt::format("\r[{:.<{}}] {}{}\x1b[K", bar, bar_width, what_, text).c_str(), stderr);
         std::fflush(stderr);
         line_open_ = true;
     } else {
-        std::fputs((text + "\n").c_str(), stderr);
+        std::fputs((what_ + text + "\n").c_str(), stderr);
     }
 }
 

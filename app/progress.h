@@ -18,6 +18,8 @@ class ProgressDisplay {
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void show(const Progress& progress);
+    /// The same for work that is no layers: how much of all is done, 0 to 1.
+    void show(double share);
     /// Ends the bar's line.
     void finish();
     /// Time from construction to the first layer; 0 before it.
@@ -25,6 +27,9 @@ class ProgressDisplay {
     double seconds() const;
 
   private:
+    bool is_due(bool last, double now);
+    void draw(double share, const std::string& text);
+
     bool quiet_;
     std::string what_;
     bool terminal_;

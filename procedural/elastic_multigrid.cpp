@@ -79,7 +79,42 @@ struct ElasticMultigrid::Elements {
     const Stiffness* at(std::size_t element) const {
         return kind[element] < 0 ? nullptr : &kinds[static_cast<std::size_t>(kind[element])];
     }
+    /// Elements twice as large, each the sum of its children: `children` says which octants are present.
+    Elements summed(const ElementMask& mask, glm::ivec3 size,
+                    const std::vector<std::uint8_t>& children) const;
 };
+
+ElasticMultigrid::Elements ElasticMultigrid::Elements::summed(
+    const ElementMask& mask, glm::ivec3 size, const std::vector<std::uint8_t>& children) const {
+    Elements larger;
+    larger.kind.assign(children.size(), -1);
+    // While elements are alike, so are those of the same children.
+    const bool alike = kinds.size() == 1;
+    std::vector<std::int32_t> known(256, -1);
+    std::vector<std::size_t> of;  // an element of each kind
+    for (std::size_t e = 0; e < children.size(); ++e) {
+        if (children[e] == 0) continue;
+        std::int32_t& same = known[children[e]];
+        if (!alike || same < 0) {
+            same = static_cast<std::int32_t>(of.size());
+            of.push_back(e);
+        }
+        larger.kind[e] = same;
+    }
+    larger.kinds.resize(of.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t k) {
+        const int x = static_cast<int>(of[k]) % size.x, y = static_cast<int>(of[k]) / size.x % size.y,
+                  z = static_cast<int>(of[k]) / (size.x * size.y);
+        larger.kinds[k] = {};
+        for (std::size_t c = 0; c < 8; ++c) {
+            const Stiffness* child =
+                at(mask.place(2 * x + static_cast<int>(c & 1), 2 * y + static_cast<int>(c >> 1 & 1),
+                              2 * z + static_cast<int>(c >> 2 & 1)));
+            if (child != nullptr) add_child(*child, c, larger.kinds[k]);
+        }
+    });
+    return larger;
+}
 
 struct ElasticMultigrid::Level {
     explicit Level(const ElementMask& mask) : grid(mask) {}
@@ -294,34 +329,7 @@ ElasticMultigrid::ElasticMultigrid(const ElementMask& fine, const HexElement& el
     add_level(mask, elements);
     while (can_halve(mask.size)) {
         Coarser coarse = coarsened(mask);
-        Elements larger;
-        std::vector<std::int32_t> known(256,
-                                        -1);  // kinds of elements by their children, while these are alike
-        const bool alike = elements.kinds.size() == 1;
-        larger.kind.assign(coarse.children.size(), -1);
-        std::vector<std::size_t> of;  // an element of each kind
-        for (std::size_t e = 0; e < coarse.children.size(); ++e) {
-            if (coarse.children[e] == 0) continue;
-            std::int32_t& same = known[coarse.children[e]];
-            if (!alike || same < 0) {
-                same = static_cast<std::int32_t>(of.size());
-                of.push_back(e);
-            }
-            larger.kind[e] = same;
-        }
-        larger.kinds.resize(of.size());
-        const glm::ivec3 size = coarse.mask.size;
-        oneapi::tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t k) {
-            const int x = static_cast<int>(of[k]) % size.x, y = static_cast<int>(of[k]) / size.x % size.y,
-                      z = static_cast<int>(of[k]) / (size.x * size.y);
-            larger.kinds[k] = {};
-            for (std::size_t c = 0; c < 8; ++c) {
-                const Stiffness* child = elements.at(mask.place(2 * x + static_cast<int>(c & 1),
-                                                                2 * y + static_cast<int>(c >> 1 & 1),
-                                                                2 * z + static_cast<int>(c >> 2 & 1)));
-                if (child != nullptr) add_child(*child, c, larger.kinds[k]);
-            }
-        });
+        Elements larger = elements.summed(mask, coarse.mask.size, coarse.children);
         mask = std::move(coarse.mask);
         elements = std::move(larger);
         add_level(mask, elements);

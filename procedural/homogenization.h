@@ -19,9 +19,9 @@ struct HomogenizationOptions {
 
 struct Homogenized {
     ElasticTensor stiffness{};
-    double density = 0;  ///< share of solid elements
-    int iterations = 0;
-    std::size_t nodes = 0;
+    double density = 0;     ///< share of solid elements
+    int iterations = 0;     ///< of conjugate gradients, for the slowest load case
+    std::size_t nodes = 0;  ///< that elements touch
 };
 
 /// The effective stiffness of a periodic sample of cubic elements, solid or void: finite elements under six
