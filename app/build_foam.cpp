@@ -28,7 +28,7 @@ FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
     settings.seed = static_cast<std::uint64_t>(foam.seed);
     settings.pattern = pattern;
     settings.jitter = foam.jitter;
-    settings.repeats_after = foam.repeats_after;
+    settings.repeats_after = making.repeats_after;
     settings.region = making.region;
     const dvec3 stretch = constant(foam.stretch).value_or(dvec3(1));
     if (stretch != dvec3(1)) {
@@ -94,7 +94,7 @@ void nearest_seeds(FoamMaking& making) {
     settings.foam.cell = making.built.cell.made;
     settings.foam.beam_radius = making.built.member.made;
     settings.foam.seed = static_cast<std::uint64_t>(foam.seed);
-    settings.foam.repeats_after = foam.repeats_after;
+    settings.foam.repeats_after = making.repeats_after;
     settings.foam.region = making.region;
     settings.neighbours = static_cast<int>(foam.neighbours);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -157,17 +157,24 @@ std::span<const FoamBuilder> foam_builders() {
     return list;
 }
 
-BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings) {
+std::string member_of(const FoamRecipe& foam) {
+    for (const FoamBuilder& builder : foam_builders()) {
+        if (builder.kind.word == foam.kind) return builder.member;
+    }
+    throw InputError("foam.kind: " + foam.kind + " is unknown");
+}
+
+BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings,
+                     std::int64_t repeats_after) {
     BuiltFoam built;
-    built.cell = graded("foam.cell", foam.cell, {foam.cell_min, foam.cell_max}, gradings);
+    FoamSizes sizes = foam_sizes(foam, gradings, built.modulus);
+    built.cell = std::move(sizes.cell);
+    built.member = std::move(sizes.member);
     const std::map<std::string, GradingPtr> cell{{std::string(cell_name), built.cell.made}};
     for (const FoamBuilder& builder : foam_builders()) {
         if (builder.kind.word != foam.kind) continue;
-        built.member = builder.member == "wall"
-                           ? graded("foam.wall", foam.wall, {foam.wall_min, foam.wall_max}, gradings, cell)
-                           : graded("foam.beam", foam.beam, {foam.beam_min, foam.beam_max}, gradings, cell);
         try {
-            FoamMaking making{foam, region, gradings, cell, built};
+            FoamMaking making{foam, region, gradings, cell, repeats_after, built};
             builder.make(making);
         } catch (const PlacedError&) {
             throw;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/build_gradings.h"
+#include "app/foam_modulus.h"
 #include "engine/beam.h"
 #include "procedural/seed_tree.h"
 
@@ -23,12 +24,14 @@ struct BuiltFoam {
     std::function<std::vector<Seed>(const Box&)> seeds_in;
     /// After which the foam repeats along x, y and z, mm; 0: it does not.
     double period = 0;
+    std::optional<BuiltModulus> modulus;  ///< where the material and the foam's law are known
     /// The share of space that is solid about a point; null where no law is known.
     std::function<double(dvec3)> volume_fraction;
 };
 
-/// The foam, cells filling at least the region.
-BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings);
+/// The foam, cells filling at least the region. Seeds repeat after so many coarse cells; 0: never.
+BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings,
+                     std::int64_t repeats_after = 0);
 
 /// A foam in the making: what its cells and members have become of already, and what its kind adds.
 struct FoamMaking {
@@ -36,6 +39,7 @@ struct FoamMaking {
     const Box& region;
     Gradings& gradings;
     const std::map<std::string, GradingPtr>& names;  ///< that formulas may use besides the recipe's
+    std::int64_t repeats_after;
     BuiltFoam& built;
 };
 
@@ -46,5 +50,8 @@ struct FoamBuilder {
     void (*make)(FoamMaking&);
 };
 std::span<const FoamBuilder> foam_builders();
+
+/// The key of the foam that says how thick its members are: "beam" or "wall".
+std::string member_of(const FoamRecipe& foam);
 
 }  // namespace lamella

@@ -7,6 +7,7 @@
 
 #include "app/build_process.h"
 #include "app/identity.h"
+#include "app/modulus_report.h"
 #include "engine/box_solid.h"
 #include "engine/csg.h"
 #include "engine/error.h"
@@ -150,6 +151,8 @@ BuiltJob build_job(const Recipe& recipe) {
     }
     job.name = recipe.part.name;
     job.identity = job_identity(recipe);
+    if (built.foam && built.foam->modulus)
+        job.notes = modulus_lines(modulus_report(*built.foam->modulus, *built.body));
     built.job = make_processed(recipe, job);
     return built;
 }
@@ -171,7 +174,7 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
     built.job = make_processed(recipe, built.designed);
 }
 
-BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {
+BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region, std::int64_t repeats_after) {
     if (recipe.frame) {
         throw InputError(
             recipe.frame->beam.where +
@@ -179,7 +182,7 @@ BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region) {
     }
     Gradings gradings(recipe);
     build_regions(recipe, region, gradings);
-    return build_foam(*recipe.foam, region, gradings);
+    return build_foam(*recipe.foam, region, gradings, repeats_after);
 }
 
 }  // namespace lamella

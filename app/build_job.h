@@ -53,8 +53,8 @@ BuiltJob build_job(const Recipe& recipe);
 /// Throws InputError when a pitch of the recipe does not suit the part, Interrupted when cancelled.
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options);
 
-/// The foam of a recipe without its part, cells filling at least the region. Throws InputError when it has a
-/// frame, which needs the part.
-BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region);
+/// The foam of a recipe without its part, as build_foam makes it. Throws InputError when it has a frame,
+/// which needs the part.
+BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region, std::int64_t repeats_after = 0);
 
 }  // namespace lamella

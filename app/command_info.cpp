@@ -13,6 +13,7 @@
 #include "app/island_report.h"
 #include "app/job_report.h"
 #include "app/memory_bound.h"
+#include "app/modulus_report.h"
 #include "app/recipe_options.h"
 #include "app/recipe_regions.h"
 #include "app/settings_rows.h"
@@ -51,9 +52,14 @@ Json graded_json(const GradedNumber& number) {
 
 Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bounds) {
     const FoamStatistics sums = foam_statistics(foam, bounds);
-    Json json{{"kind", recipe.kind}, {"cell_mm", graded_json(recipe.cell)}};
-    if (foam.member.key == "foam.beam") json["beam_mm"] = graded_json(recipe.beam);
-    if (foam.member.key == "foam.wall" || recipe.kind == "closed") json["wall_mm"] = graded_json(recipe.wall);
+    Json json{{"kind", recipe.kind}};
+    const auto add = [&](const char* key, const GradedNumber& number) {
+        if (number.is_formula() || number.number() > 0) json[key] = graded_json(number);
+    };
+    add("cell_mm", recipe.cell);
+    add("beam_mm", recipe.beam);
+    add("wall_mm", recipe.wall);
+    add("modulus_MPa", recipe.modulus);
     if (recipe.kind == "closed") json["window"] = graded_json(recipe.window);
     if (recipe.kind == "k-nearest") json["neighbours"] = recipe.neighbours;
     if (foam.seeds_in) {
@@ -137,6 +143,8 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
     if (!built.regions.list.empty()) info["regions"] = regions_json(recipe, built.regions);
     if (!built.regions.warnings.empty()) info["region_warnings"] = built.regions.warnings;
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
+    if (built.foam && built.foam->modulus)
+        info["modulus"] = modulus_json(modulus_report(*built.foam->modulus, *built.body));
     if (built.islands) info["islands"] = islands_json(*built.islands);
     info["printer"] = {{"profile", recipe.printer.name}, {"kind", recipe.printer.backend}};
     info["memory"] = memory_json(memory_bound(recipe, built, threads));
@@ -171,8 +179,9 @@ std::string graded_text(const Json& number) {
 }
 
 std::string foam_text(const Json& foam) {
-    std::string text = fmt::format("foam      {}: cells of {} mm", foam["kind"].get<std::string>(),
-                                   graded_text(foam["cell_mm"]));
+    std::string text = fmt::format("foam      {}: ", foam["kind"].get<std::string>());
+    text += foam.contains("cell_mm") ? "cells of " + graded_text(foam["cell_mm"]) + " mm" : "cells that suit";
+    if (foam.contains("modulus_MPa")) text += ", a modulus of " + graded_text(foam["modulus_MPa"]) + " MPa";
     if (foam.contains("beam_mm")) text += ", beams of radius " + graded_text(foam["beam_mm"]) + " mm";
     if (foam.contains("wall_mm")) text += ", walls of " + graded_text(foam["wall_mm"]) + " mm";
     if (foam.contains("window")) text += ", windows " + graded_text(foam["window"]);
@@ -260,6 +269,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     if (info.contains("graded")) {
         for (const Json& grading : info["graded"]) text += grading_text(grading);
     }
+    for (const std::string& note : built.job.notes) text += "          " + note + "\n";
     if (islands)
         text += fmt::format("islands   {}; the part has {:.1f} mm3\n", islands_text(*islands),
                             islands->part_volume);

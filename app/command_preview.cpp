@@ -10,6 +10,7 @@
 #include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/job_picture.h"
+#include "app/modulus_paint.h"
 #include "app/recipe_options.h"
 #include "app/repair_job.h"
 #include "app/text_output.h"
@@ -25,6 +26,7 @@ struct PreviewCommand {
     PreviewOptions picture;
     std::string output;
     std::string cut = "x";
+    std::string paint = "none";
     int size = 1024;
     bool quiet = false;
 };
@@ -51,6 +53,18 @@ void save(const Picture& image, const std::string& path) {
     if (error) throw FaultError(path + ": cannot be given its name: " + error.message());
 }
 
+void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
+    if (!built.foam || !built.foam->modulus) {
+        throw InputError(
+            "--paint modulus: how stiff the foam gets is not known; accepted: a foam with [material], and "
+            "with "
+            "foam.law where no law of it ships");
+    }
+    const ModulusReport report = modulus_report(*built.foam->modulus, *built.body);
+    options.picture.paint = modulus_paint(*built.foam->modulus, report);
+    if (!options.quiet) std::fputs((modulus_legend(report) + "\n").c_str(), stderr);
+}
+
 void run(PreviewCommand& options) {
     const auto start = std::chrono::steady_clock::now();
     const Recipe recipe = options.recipe.read();
@@ -61,6 +75,7 @@ void run(PreviewCommand& options) {
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
+    if (options.paint == "modulus") paint_modulus(built, options);
     const auto added = add_supports(recipe, built, {});
     add_shield(recipe, built.job, {});
     save(render_job(recipe, built, added, options.picture), path);
@@ -87,6 +102,11 @@ void add_preview_command(CLI::App& root) {
     command
         .add_option("--cut", options->cut, "Axis along which the nearer part is cut away: x, y, z, or none")
         ->check(CLI::IsMember({"x", "y", "z", "none"}))
+        ->type_name("WORD");
+    command
+        .add_option("--paint", options->paint,
+                    "modulus: colours for how stiff the foam gets, and for where it is not as asked")
+        ->check(CLI::IsMember({"none", "modulus"}))
         ->type_name("WORD");
     command.add_option("--cut-at", options->picture.cut_at, "Where it is cut, as a share of the part")
         ->check(CLI::Range(0.0, 1.0))

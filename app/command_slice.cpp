@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/base_material.h"
 #include "app/beam_output.h"
 #include "app/check_outputs.h"
 #include "app/commands.h"
@@ -47,6 +48,12 @@ struct Written {
     std::vector<CheckOutcome> checks;  ///< by output; empty where none was asked for
 };
 
+/// Of a part's volume (mm^3), g; 0 where the material's density is not known.
+double mass_of(const Recipe& recipe, double volume) {
+    constexpr double mm3_per_cm3 = 1000;
+    return recipe.material ? base_material(*recipe.material).density * volume / mm3_per_cm3 : 0;
+}
+
 void summarise(const SliceOptions& options, const std::vector<Output>& outputs, const BuiltJob& built,
                const StreamReport& report, const ProgressDisplay& display, const Written& written,
                const Recipe& recipe) {
@@ -62,6 +69,8 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
                                        {"peak_memory_bytes", peak_memory_bytes()},
                                        {"volume_mm3", report.volume}};
         for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
+        if (const double mass = mass_of(recipe, report.volume); mass > 0) summary["mass_g"] = mass;
+        if (!built.job.notes.empty()) summary["job_notes"] = built.job.notes;
         if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
         if (built.drains) summary["drains"] = drains_json(*built.drains);
         if (built.cavities) summary["cavities"] = cavities_json(*built.cavities);
@@ -86,14 +95,16 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
     const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
     const std::string supports =
         built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
+    const double grams = mass_of(recipe, report.volume);
+    const std::string mass = grams > 0 ? fmt::format(", {:.3g} g", grams) : "";
     std::string paths;
     for (const Output& output : outputs)
         paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
-    std::fputs(
-        fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}, {} MiB at most\n", paths,
-                    report.layers_written, kept, seconds, report.volume, supports, peak_memory_bytes() >> 20)
-            .c_str(),
-        stderr);
+    std::fputs(fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}{}, {} MiB at most\n", paths,
+                           report.layers_written, kept, seconds, report.volume, mass, supports,
+                           peak_memory_bytes() >> 20)
+                   .c_str(),
+               stderr);
     for (const Output& output : outputs) {
         if (const char* warning = find_backend(output.printer.backend).warning)
             std::fputs(fmt::format("{}: {}\n", output.path, warning).c_str(), stderr);

@@ -21,6 +21,7 @@ void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
 void add_homogenize_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
+void add_materials_command(CLI::App& root);
 void add_keys_command(CLI::App& root);
 
 }  // namespace lamella

@@ -103,6 +103,9 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
         }
     }
     if (!options.quiet) {
+        for (const std::string& line : built.job.notes) std::fputs((line + "\n").c_str(), stderr);
+    }
+    if (!options.quiet) {
         for (const std::string& line : built.regions.warnings) std::fputs((line + "\n").c_str(), stderr);
     }
     if (built.drains && !options.quiet)

@@ -132,6 +132,8 @@ class Scene {
 
     /// Gives the second solid another colour than supports have.
     void paint_second(dvec3 colour) { second_ = second_cut_ = colour; }
+    /// Gives the part another colour at every point; empty for its own.
+    void paint_part(std::function<dvec3(dvec3)> paint) { paint_ = std::move(paint); }
 
     /// Linear light at a point of the picture.
     dvec3 colour(double x, double y) const {
@@ -233,13 +235,17 @@ class Scene {
         return sum / 4;
     }
 
+    dvec3 colour_of(const Hit& hit) const {
+        if (hit.on_support) return hit.on_cut ? second_cut_ : second_;
+        if (paint_) return paint_(hit.point);
+        return hit.on_cut ? cut_colour : part_colour;
+    }
+
     double lit(dvec3 p, dvec3 n) const { return grid_.cone(grid_.to_grid(p) + n * 2.0, key_, 0.16, reach_); }
 
     dvec3 shade(const Hit& hit, dvec3 direction) const {
         const dvec3 n = glm::dot(hit.normal, direction) > 0 ? -hit.normal : hit.normal;
-        const dvec3 albedo = hit.on_support ? (hit.on_cut ? second_cut_ : second_)
-                             : hit.on_cut   ? cut_colour
-                                            : part_colour;
+        const dvec3 albedo = colour_of(hit);
         const double open = openness(hit.point, n, reach_ * 0.15);
         const double facing = glm::dot(n, key_);
         const double sun = facing > 0 ? facing * lit(hit.point, n) : 0;
@@ -273,6 +279,7 @@ class Scene {
     dvec3 key_;
     double reach_;
     dvec3 second_ = support_colour, second_cut_ = support_cut_colour;
+    std::function<dvec3(dvec3)> paint_;
 };
 
 /// Linear light to sRGB, 0 to 1.
@@ -356,6 +363,7 @@ Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box
         zoom_to(camera, grid.solid_places(), options);
         Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
         if (options.faults) scene.paint_second(fault_colour);
+        scene.paint_part(options.paint);
         return Painter(scene, options.width, options.height).render();
     });
 }

@@ -1,6 +1,8 @@
 // A shaded picture of an implicit solid, straight from the field: no mesh is made.
 #pragma once
 
+#include <functional>
+
 #include "engine/field.h"
 #include "engine/picture.h"
 
@@ -15,6 +17,8 @@ struct PreviewOptions {
     double cut_at = 0.5;    ///< where, as a share of the bounds along that axis
     int threads = 0;        ///< 0: one a core
     bool faults = false;    ///< the second solid is what is wrong with the part, not its supports
+    /// The colour (linear light) of the part at a point, mm; empty: the same everywhere.
+    std::function<dvec3(dvec3)> paint{};
 };
 
 /// Perspective view of the part and, in a colour of their own, its supports (null for none) within `bounds`

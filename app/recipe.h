@@ -96,6 +96,7 @@ struct RegionRecipe {
     GradedNumber beam;
     GradedNumber wall;
     GradedNumber window{-1.0, ""};
+    GradedNumber modulus;
     GradedNumber thickness;  ///< instead of the skin's
 };
 
@@ -143,12 +144,23 @@ struct FoamRecipe {
     std::int64_t neighbours = 5;  ///< k-nearest: beams of each seed, about
     /// Factors on the cells along three axes at right angles; formulas for k-nearest alone.
     GradedTriple stretch{GradedNumber{1.0, ""}, GradedNumber{1.0, ""}, GradedNumber{1.0, ""}};
-    GradedTriple turn{};             ///< of these axes about x, then y, then z, degrees
-    std::string unit_cell;           ///< lattice: the name of a cell
-    NumberRows struts;               ///< lattice: ends in the unit cube, six numbers each
-    std::int64_t repeats_after = 0;  ///< no key: coarse cells of seeds, for samples that repeat; 0: never
+    GradedTriple turn{};    ///< of these axes about x, then y, then z, degrees
+    std::string unit_cell;  ///< lattice: the name of a cell
+    NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
+    GradedNumber modulus;   ///< Young's modulus, MPa, that cells or members are chosen for; 0: none
+    std::string law;        ///< path of laws of foams; empty: those that ship
     bool drop_islands = false;
     double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
+};
+
+/// What the part is made of.
+struct MaterialRecipe {
+    std::string name;     ///< of a table's material; empty where numbers say it all
+    std::string table;    ///< path of materials; empty: those that ship
+    double young = 0;     ///< Young's modulus, MPa; 0: the table's
+    double poisson = -1;  ///< ratio of Poisson; -1: the table's
+    double density = 0;   ///< g/cm^3; 0: the table's
+    std::string tests;    ///< path of compression tests of foams that the law is fitted to; empty: none
 };
 
 /// Beams where the foam's Voronoi faces meet the surface.
@@ -247,6 +259,7 @@ struct Recipe {
     std::vector<GradingRecipe> gradings;
     std::vector<RegionRecipe> regions;
     std::optional<FoamRecipe> foam;
+    std::optional<MaterialRecipe> material;
     std::optional<FrameRecipe> frame;
     std::optional<SkinRecipe> skin;
     std::optional<CavityRecipe> cavity;

@@ -140,6 +140,12 @@ void RecipeDraft::check_need(const Part& part, const std::string& need, const st
     }
 }
 
+/// Whether a foam's modulus decides how large its cells, or members, are.
+bool RecipeDraft::is_chosen_for_modulus(const KindSection& section, const std::string& need) const {
+    return section.section == "foam" && entry("foam", "modulus") != nullptr &&
+           (need == "cell" || need == "beam" || need == "wall");
+}
+
 void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
     const Entry* chosen = entry(section.section, section.key, number);
     if (chosen && !chosen->value) return;
@@ -150,7 +156,9 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
     const auto kind = std::find_if(section.kinds.begin(), section.kinds.end(),
                                    [&](const Kind& k) { return k.word == word; });
     const std::string why = section.key + " " + word;
-    for (const std::string& need : kind->needs) check_need({section.section, number}, need, why);
+    for (const std::string& need : kind->needs) {
+        if (!is_chosen_for_modulus(section, need)) check_need({section.section, number}, need, why);
+    }
     const std::vector<std::string> wanted = keys_of(*kind);
     for (const std::string& key : keys_of(section)) {
         const Entry* given = entry(section.section, key, number);

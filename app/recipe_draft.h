@@ -90,6 +90,7 @@ class RecipeDraft {
     void drop_overridden_body();
     bool check_bodies();
     void check_kind(const KindSection& section, std::size_t number);
+    bool is_chosen_for_modulus(const KindSection& section, const std::string& need) const;
     void check_need(const Part& part, const std::string& need, const std::string& why);
     void check_structure();
     void check_printer();
@@ -110,6 +111,8 @@ class RecipeDraft {
                       double least, double most);
     void check_stretch(const FoamRecipe& foam);
     void check_foam(const FoamRecipe& foam);
+    void check_modulus(const Recipe& recipe);
+    void check_material(const Recipe& recipe);
 
     std::map<Place, Entry> entries_;
     std::map<Part, std::string> sections_;  ///< those present in the file: where they begin

@@ -48,11 +48,18 @@ struct Use {
 
 /// All numbers of a foam that may be formulas.
 std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
-    std::vector<const GradedNumber*> numbers{&foam.cell, &foam.beam, &foam.wall, &foam.window};
+    std::vector<const GradedNumber*> numbers{&foam.cell, &foam.beam, &foam.wall, &foam.window, &foam.modulus};
     for (const GradedTriple* triple : {&foam.stretch, &foam.turn}) {
         for (const GradedNumber& number : *triple) numbers.push_back(&number);
     }
     return numbers;
+}
+
+/// Cells come first, and members, windows and stretches may follow them, but not where a modulus decides.
+bool may_use_cell(const FoamRecipe& foam, const GradedNumber& number) {
+    if (&number == &foam.cell || &number == &foam.modulus) return false;
+    const bool cell_is_solved = !foam.cell.is_formula() && foam.cell.number() == 0;
+    return !cell_is_solved || (&number != &foam.beam && &number != &foam.wall);
 }
 
 /// Checks one recipe.
@@ -117,7 +124,7 @@ class FormulaCheck {
         }
         if (recipe_.foam) {
             for (const GradedNumber* number : numbers_of(*recipe_.foam)) {
-                check_formula({number, true, number != &recipe_.foam->cell});
+                check_formula({number, true, may_use_cell(*recipe_.foam, *number)});
             }
         }
         if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
@@ -127,8 +134,9 @@ class FormulaCheck {
         }
         for (const RegionRecipe& region : recipe_.regions) {
             for (const RegionNumber& given : numbers_of(region)) {
-                check_formula(
-                    {given.number, true, given.number != &region.cell && given.number != &region.thickness});
+                const bool may_use_cell = given.number != &region.cell && given.number != &region.modulus &&
+                                          given.number != &region.thickness;
+                check_formula({given.number, true, may_use_cell});
             }
         }
     }

@@ -38,7 +38,7 @@ const std::vector<KindSection>& kind_sections() {
          "",
          {{"solid", {"field"}, {"blend"}},
           {"empty", {"field"}, {"blend"}},
-          {"foam", {"field"}, {"blend", "cell", "beam", "wall", "window"}},
+          {"foam", {"field"}, {"blend", "cell", "beam", "wall", "window", "modulus"}},
           {"skin", {"field", "thickness"}, {"blend"}},
           {"blocker", {"field"}, {}},
           {"enforcer", {"field"}, {}}}},

@@ -32,6 +32,10 @@ std::string unknown_field(const Recipe& recipe, const RegionRecipe& region) {
 std::optional<Interval> limits_of(const Recipe& recipe, const std::string& key) {
     if (key == "skin.thickness") return Interval{recipe.skin->thickness_min, recipe.skin->thickness_max};
     const FoamRecipe& foam = *recipe.foam;
+    // Of a foam's modulus, cells and members the one that is not given follows from the others.
+    if (key == "foam.modulus" && !is_given(foam.modulus, false)) return std::nullopt;
+    if (key == "foam.modulus") return Interval{0, infinity};
+    if (key == "foam.cell" && !is_given(foam.cell, false)) return std::nullopt;
     for (const KindSection& section : kind_sections()) {
         if (section.section != "foam") continue;
         const auto kind = std::find_if(section.kinds.begin(), section.kinds.end(),
@@ -43,6 +47,8 @@ std::optional<Interval> limits_of(const Recipe& recipe, const std::string& key) 
         if (!has(kind->needs) && !has(kind->takes)) return std::nullopt;
     }
     if (key == "foam.cell") return Interval{foam.cell_min, foam.cell_max};
+    if (key == "foam.beam" && !is_given(foam.beam, false)) return std::nullopt;
+    if (key == "foam.wall" && !is_given(foam.wall, false)) return std::nullopt;
     if (key == "foam.beam") return Interval{foam.beam_min, foam.beam_max};
     if (key == "foam.wall") return Interval{foam.wall_min, foam.wall_max};
     return Interval{0, 1};
@@ -81,8 +87,8 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
         }
         if (numbers.empty()) {
             mistakes.push_back(
-                fmt::format("{}: changes no number of the foam; accepted: cell, beam, wall or "
-                            "window, one of them or more",
+                fmt::format("{}: changes no number of the foam; accepted: cell, beam, wall, window "
+                            "or modulus, one of them or more",
                             region.where));
         }
     }
@@ -99,6 +105,7 @@ std::vector<RegionNumber> numbers_of(const RegionRecipe& region) {
     if (is_given(region.beam, false)) numbers.push_back({"foam.beam", &region.beam});
     if (is_given(region.wall, false)) numbers.push_back({"foam.wall", &region.wall});
     if (is_given(region.window, true)) numbers.push_back({"foam.window", &region.window});
+    if (is_given(region.modulus, false)) numbers.push_back({"foam.modulus", &region.modulus});
     return numbers;
 }
 

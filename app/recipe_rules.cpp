@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/build_foam.h"
 #include "app/recipe_draft.h"
 #include "app/settings_rows.h"
 #include "printers/cut_sheets.h"
@@ -57,16 +58,64 @@ void RecipeDraft::check_limits(const std::string& section, const std::string& ke
 /// Rules between the numbers of a foam.
 void RecipeDraft::check_foam(const FoamRecipe& foam) {
     check_stretch(foam);
-    check_limits("foam", "cell", foam.cell, foam.cell_min, foam.cell_max);
+    if (entry("foam", "cell")) check_limits("foam", "cell", foam.cell, foam.cell_min, foam.cell_max);
     if (entry("foam", "wall")) check_limits("foam", "wall", foam.wall, foam.wall_min, foam.wall_max);
     if (!entry("foam", "beam")) return;
     check_limits("foam", "beam", foam.beam, foam.beam_min, foam.beam_max);
-    if (foam.cell.is_formula() || foam.beam.is_formula()) return;
+    if (foam.cell.is_formula() || foam.beam.is_formula() || !entry("foam", "cell")) return;
     if (foam.beam.number() >= foam.cell.number() / 2) {
         refuse(0, fmt::format("{}: {} mm fills cells of {} mm; accepted: less than half the cell, {} mm",
                               where("foam", "beam"), foam.beam.number(), foam.cell.number(),
                               foam.cell.number() / 2));
     }
+}
+
+/// A modulus takes the place of the cells or of the members.
+void RecipeDraft::check_modulus(const Recipe& recipe) {
+    const FoamRecipe& foam = *recipe.foam;
+    if (!entry("foam", "modulus")) {
+        if (!entry("foam", "law")) return;
+        return refuse(0, fmt::format("{}: nothing follows it; accepted: foam.modulus / --modulus with it",
+                                     where("foam", "law")));
+    }
+    const std::string member = member_of(foam);
+    const bool closed = entry("foam", "wall") && member == "beam";
+    const bool has_cell = entry("foam", "cell") != nullptr, has_member = entry("foam", member) != nullptr;
+    if (has_cell && has_member) {
+        refuse(0, fmt::format("{}: cells and members decide how stiff the foam is; accepted: {}",
+                              where("foam", "modulus"),
+                              foam.kind == "closed" ? "without foam.cell"
+                                                    : "foam.cell or foam." + member + ", one of them"));
+    } else if (!has_cell && !has_member) {
+        refuse(0, fmt::format("{}: it decides cells or members, and neither is given; accepted: foam.{} / "
+                              "--{} with it{}",
+                              where("foam", "modulus"), member, member,
+                              foam.kind == "closed" ? "" : ", or foam.cell / --cell"));
+    } else if (foam.kind == "closed" && (has_cell || !closed)) {
+        refuse(0, fmt::format("{}: of closed cells it decides how large they are; accepted: foam.beam and "
+                              "foam.wall with it, and no foam.cell",
+                              where("foam", "modulus")));
+    }
+    if (constant(foam.stretch) != dvec3(1)) {
+        refuse(0, fmt::format("{}: no law is known of stretched cells; accepted: foam.modulus without it",
+                              where("foam", "stretch")));
+    }
+    if (recipe.material && (!recipe.material->name.empty() || recipe.material->young > 0)) return;
+    refuse(0, fmt::format("{}: what of? accepted: material.name / --material or material.young / --young "
+                          "with it",
+                          where("foam", "modulus")));
+}
+
+/// Rules between the keys of a material.
+void RecipeDraft::check_material(const Recipe& recipe) {
+    const MaterialRecipe& material = *recipe.material;
+    const auto refuse_idle = [&](const char* key, const char* wanted) {
+        if (!entry("material", key)) return;
+        refuse(0,
+               fmt::format("{}: nothing follows it; accepted: {} with it", where("material", key), wanted));
+    };
+    if (material.name.empty()) refuse_idle("table", "material.name / --material");
+    if (!recipe.foam) refuse_idle("tests", "[foam]");
 }
 
 void RecipeDraft::check_frame(const Recipe& recipe) {
@@ -192,6 +241,8 @@ void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Si
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam) check_foam(*recipe.foam);
+    if (recipe.foam) check_modulus(recipe);
+    if (recipe.material) check_material(recipe);
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
     check_enclosures(recipe);

@@ -84,6 +84,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_check_command(root);
         add_homogenize_command(root);
         add_printers_command(root);
+        add_materials_command(root);
         add_keys_command(root);
         return parse_and_run(root, arguments);
     } catch (const ReaderGone& gone) {

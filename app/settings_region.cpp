@@ -115,6 +115,8 @@ void add_region_settings(std::vector<Setting>& t) {
                                            "Thickness of the foam's walls there.");
     number.operator()<&RegionRecipe::window>("window", "", {0, 1}, "the foam's",
                                              "Share of a closed foam's walls that is a window there.");
+    number.operator()<&RegionRecipe::modulus>("modulus", "MPa", {1e-6, 1e6}, "the foam's",
+                                              "Young's modulus of the foam there.");
     number.operator()<&RegionRecipe::thickness>("thickness", "mm", {0, 1000}, "required by skin",
                                                 "Thickness of the skin there; 0 for none.");
 }

@@ -34,6 +34,10 @@ const std::vector<std::string>& words(Concern);
 void add_field_settings(std::vector<Setting>& table);
 void add_region_settings(std::vector<Setting>& table);
 
+/// The rows of the [foam] section about stiffness, and of the [material] section.
+void add_stiffness_settings(std::vector<Setting>& table);
+void add_material_settings(std::vector<Setting>& table);
+
 /// The rows of the [frame] section.
 void add_frame_settings(std::vector<Setting>& table);
 

@@ -277,6 +277,7 @@ void add_foam(std::vector<Setting>& t) {
          .fallback = "a third of the thinnest beam's radius, at most 16 layers",
          .help = "Distance of the rows in which that survey looks; what lies within two counts as "
                  "connected."});
+    add_stiffness_settings(t);
 }
 
 void add_layers(std::vector<Setting>& t) {
@@ -307,6 +308,7 @@ std::vector<Setting> make_table() {
     add_field_settings(table);
     add_gradings(table);
     add_foam(table);
+    add_material_settings(table);
     add_frame_settings(table);
     add_skin_settings(table);
     add_region_settings(table);
@@ -369,6 +371,7 @@ std::span<const Section> sections() {
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
+        {"material", "what the part is made of, where it matters how stiff it gets"},
         {"frame",
          "beams along the surface that the foam grows out of; without this section the part has none"},
         {"skin",

@@ -24,6 +24,7 @@ struct Job {
     /// The part with its supports, seen from the front in a square of so many pixels, for files that carry
     /// such a picture; may be empty.
     std::function<Picture(int size)> picture{};
+    std::vector<std::string> notes{};  ///< lines for people, for files that carry some
     std::string identity;  ///< hash of recipe and inputs: two jobs with equal identity make the same bytes
 
     double z0() const { return bounds.lo.z; }

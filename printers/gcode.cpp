@@ -287,6 +287,7 @@ class Gcode : public Backend {
         text.line("; identity: " + comment_text(job.identity));
         text.line("; printer: " + comment_text(profile_.name));
         text.line(fmt::format("; layers {}:{} of {}", range_.first, range_.last, layer_count_));
+        for (const std::string& note : job.notes) text.line("; " + comment_text(note));
         if (gcode_.thumbnails) text.lines(gcode_thumbnails(job.picture));
         text.line(start_progress(gcode_.flavour, layer_count_));
         text.lines(expand_script(start_script(gcode_), values(range_.first)));

@@ -241,6 +241,7 @@ class LaserGcode : public Backend {
               fmt::format("layers {}:{} of {}", range_.first, range_.last, job_.layer_count)}) {
             text += "; " + comment + "\n";
         }
+        for (const std::string& note : job_.notes) text += "; " + comment_text(note) + "\n";
         text += expand_script(start_script(gcode_), values(range_.first));
         for (const char* mode : {"G21", "G90", "G94", "G17", "M5"}) (text += mode) += '\n';
         return text;

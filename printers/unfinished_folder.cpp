@@ -212,18 +212,21 @@ void UnfinishedFolder::end(nlohmann::ordered_json job) {
 
 nlohmann::ordered_json describe_job(const Job& job, LayerRange range, const std::string& extension) {
     const auto point = [](dvec3 p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
-    return {{"format", "lamella-layers"},
-            {"version", 1},
-            {"name", job.name},
-            {"identity", job.identity},
-            {"unit", "mm"},
-            {"layer_height", job.layer_height},
-            {"layer_count", job.layer_count},
-            {"first_layer", range.first},
-            {"last_layer", range.last},
-            {"files", "%05d" + extension},
-            {"first_plane", job.plane(0) - job.z0()},
-            {"part_bounds", {{"lo", point(job.bounds.lo)}, {"hi", point(job.bounds.hi)}}}};
+    nlohmann::ordered_json json{
+        {"format", "lamella-layers"},
+        {"version", 1},
+        {"name", job.name},
+        {"identity", job.identity},
+        {"unit", "mm"},
+        {"layer_height", job.layer_height},
+        {"layer_count", job.layer_count},
+        {"first_layer", range.first},
+        {"last_layer", range.last},
+        {"files", "%05d" + extension},
+        {"first_plane", job.plane(0) - job.z0()},
+        {"part_bounds", {{"lo", point(job.bounds.lo)}, {"hi", point(job.bounds.hi)}}}};
+    if (!job.notes.empty()) json["notes"] = job.notes;
+    return json;
 }
 
 }  // namespace lamella

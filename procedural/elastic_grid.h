@@ -1,6 +1,7 @@
 // The nodes of a periodic grid of cubic elements that something stiff touches, and the forces between them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,11 @@ struct ElementMask {
     glm::ivec3 size{0};
     std::vector<std::uint8_t> present;  ///< not 0
 
+    /// Of all elements, those that are present.
+    double share() const {
+        const auto there = std::count_if(present.begin(), present.end(), [](auto p) { return p != 0; });
+        return static_cast<double>(there) / static_cast<double>(std::max<std::size_t>(present.size(), 1));
+    }
     bool at(int x, int y, int z) const { return present[place(x, y, z)] != 0; }
     std::size_t place(int x, int y, int z) const {
         return static_cast<std::size_t>(x) +

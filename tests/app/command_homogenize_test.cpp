@@ -86,7 +86,7 @@ TEST_CASE("units come from the material, and sizes do not matter", "[elasticity]
     CHECK(text.code == 0);
     CHECK(mentions(text.out, "voronoi foam: a sample of 4 mm, 32 elements along a side"));
     CHECK(mentions(text.out, "Hashin and Shtrikman"));
-    CHECK(mentions(text.err, "iteration"));
+    CHECK(mentions(text.err, "100 %"));
 }
 
 TEST_CASE("foams without a stiffness of their own are refused with what would be right", "[elasticity]") {
@@ -103,7 +103,7 @@ TEST_CASE("foams without a stiffness of their own are refused with what would be
     refused("[foam]\ncell = \"2 + 0.1 * x\"\nbeam = 0.2\n", "", "foam.cell: it varies in space");
     refused("[foam]\ncell = 2\nbeam = \"0.2 + 0.01 * z\"\n", "", "foam.beam: it varies in space");
     refused("[foam]\ncell = 2\nbeam = 0.2\nstretch = [1, 1, 2]\n", "", "it does not repeat");
-    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--poisson 0.5", "Poisson ratio is 0.5");
-    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--young 0", "Young modulus is 0");
+    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--poisson 0.5", "--poisson: 0.5 is too large");
+    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--young 0", "--young: 0 is too small");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--rve 1000", "--rve");
 }
