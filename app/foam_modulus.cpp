@@ -105,8 +105,11 @@ GradedUse member_use(const FoamRecipe& foam, Gradings& gradings,
 }
 
 /// What a modulus asks for instead of a number of the recipe.
-GradedUse solved(const std::string& key, const GradingPtr& asked, Interval limits) {
-    return {key, asked, make_clamped_grading(asked, limits), limits, "mm"};
+GradedUse solved(const std::string& key, GradingPtr asked, Interval limits) {
+    // Ranges are widened for rounding; a foam that is the same everywhere has to be known as such.
+    if (const auto same = asked->constant()) asked = make_constant_grading(*same);
+    GradingPtr made = make_clamped_grading(asked, limits);
+    return {key, std::move(asked), std::move(made), limits, "mm"};
 }
 
 FoamSizes sizes_for_modulus(const FoamRecipe& foam, Gradings& gradings, const BuiltModulus& modulus) {

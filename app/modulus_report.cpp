@@ -11,9 +11,13 @@ namespace {
 
 constexpr int points_per_side = 48;
 
+std::string number_text(double modulus) {
+    return modulus < 1000 ? fmt::format("{:.3g}", modulus) : fmt::format("{:.0f}", modulus);
+}
+
 std::string range_text(Interval range) {
-    if (range.hi <= range.lo * (1 + modulus_tolerance)) return fmt::format("{:.3g} MPa", range.hi);
-    return fmt::format("{:.3g} to {:.3g} MPa", range.lo, range.hi);
+    const std::string high = number_text(range.hi) + " MPa";
+    return range.hi > range.lo * (1 + modulus_tolerance) ? number_text(range.lo) + " to " + high : high;
 }
 
 void include(Interval& range, double number) {
@@ -33,12 +37,12 @@ ModulusReport modulus_report(const BuiltModulus& modulus, const Field& body) {
     report.asked = report.predicted = {infinity, -infinity};
     report.material = material_name(modulus.material);
     report.fit = modulus.foam->fit();
+    report.band = modulus.foam->band();
     const std::vector<dvec3> points = points_inside(body, points_per_side);
     const double weight = 1 / std::max(static_cast<double>(points.size()), 1.0);
     for (const dvec3& p : points) {
         const double made = modulus.made->at(p);
         include(report.predicted, made);
-        report.band = std::max(report.band, modulus.foam->band_of(modulus.foam->ratio_of(made)));
         if (!report.is_asked) continue;
         const double asked = modulus.asked->asked->at(p);
         if (std::isnan(asked)) continue;

@@ -19,7 +19,7 @@ struct ModulusReport {
     Interval predicted;  ///< likewise
     double softer = 0;   ///< share of the volume that gets less than 99 % of what is asked
     double stiffer = 0;  ///< ... more than 101 %
-    double band = 0;     ///< how far off a prediction may be at most, over it
+    double band = 0;     ///< how far off a prediction may be, over it
     std::string material;
     LawFit fit;
 };

@@ -74,9 +74,11 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
 void RecipeDraft::check_modulus(const Recipe& recipe) {
     const FoamRecipe& foam = *recipe.foam;
     if (!entry("foam", "modulus")) {
-        if (!entry("foam", "law")) return;
-        return refuse(0, fmt::format("{}: nothing follows it; accepted: foam.modulus / --modulus with it",
-                                     where("foam", "law")));
+        if (!entry("foam", "law") || recipe.material) return;
+        return refuse(0,
+                      fmt::format("{}: nothing follows it; accepted: [material] with it, or foam.modulus / "
+                                  "--modulus",
+                                  where("foam", "law")));
     }
     const std::string member = member_of(foam);
     const bool closed = entry("foam", "wall") && member == "beam";

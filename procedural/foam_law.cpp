@@ -74,6 +74,12 @@ FoamLawPoint point_of(const std::vector<double>& numbers) {
 FoamLaw::FoamLaw(const FoamLawTable& table, double material_poisson)
     : points_(points_for(table, material_poisson)), log_ratio_(logarithms(points_), true) {}
 
+double FoamLaw::spread() const {
+    double sum = 0;
+    for (const FoamLawPoint& point : points_) sum += point.spread * point.spread;
+    return std::sqrt(sum / static_cast<double>(points_.size()));
+}
+
 double FoamLaw::ratio_of(double young) const {
     if (std::isnan(young)) return young;
     if (young <= points_.front().young) return points_.front().ratio;

@@ -44,6 +44,8 @@ class FoamLaw {
     /// The ratios that were computed, and the moduli at their ends, over the material's.
     Interval ratios() const { return {points_.front().ratio, points_.back().ratio}; }
     Interval moduli() const { return {points_.front().young, points_.back().young}; }
+    /// Of all samples: the root of the mean square of the points' spreads.
+    double spread() const;
     /// The ratio whose foam has a modulus, over the material's: beyond moduli() that of its nearest end; NaN
     /// for NaN.
     double ratio_of(double young) const;

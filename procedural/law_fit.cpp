@@ -98,8 +98,9 @@ double FoamModulus::modulus_of(double ratio) const {
     return fit_.scale * (fit_.exponent == 1 ? share : power(share, fit_.exponent));
 }
 
-double FoamModulus::band_of(double ratio) const {
-    return fit_.band > 0 ? fit_.band : 2 * law_.at(ratio).spread;
+double FoamModulus::band() const {
+    constexpr double of_elements = 0.02;  // two to four of them along a radius
+    return fit_.band > 0 ? fit_.band : std::hypot(2 * law_.spread(), of_elements);
 }
 
 }  // namespace lamella

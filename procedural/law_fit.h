@@ -41,9 +41,9 @@ class FoamModulus {
     double ratio_of(double modulus) const;
     /// MPa; of the nearest end outside the law's ratios.
     double modulus_of(double ratio) const;
-    /// How far off a modulus may be, over it: the fit's band, or twice the law's spread: of samples of some
-    /// 64 cells, 19 of 20 differ less from the mean.
-    double band_of(double ratio) const;
+    /// How far off a modulus may be, over it: the fit's band, or what is known of the law: twice the spread
+    /// of its samples (19 of 20 pieces of 64 cells differ less from the mean) and what elements leave wrong.
+    double band() const;
 
   private:
     FoamLaw law_;
