@@ -71,6 +71,7 @@ class Sl1 : public Backend {
         layer_height_ = job.layer_height;
         range_ = range;
         if (profile_.resin.preview) picture_ = job.picture;
+        for (const std::string& note : job.notes) notes_ += (notes_.empty() ? "" : "; ") + one_line(note);
         height_ = job.layer_count * job.layer_height;
         const std::string settings = "sl1 " + mask_settings(profile_, job) + " " + profile_.name + " " +
                                      describe_resin(profile_.resin);
@@ -157,7 +158,7 @@ class Sl1 : public Backend {
                 {"initial_exposure_time", format_number(r.first_exposure, 4)},
                 {"initial_layer_height", layer},
                 {"layer_height", layer},
-                {"material_notes", ""},
+                {"material_notes", notes_},
                 {"max_print_height", format_number(height_, 6)},
                 {"printer_model", one_line(machine_name(profile_))},
                 {"printer_notes", one_line(r.notes)},
@@ -171,7 +172,7 @@ class Sl1 : public Backend {
     StoredZip zip_;
     std::optional<MaskLayout> layout_;
     std::function<Picture(int)> picture_;
-    std::string folder_;
+    std::string folder_, notes_;
     double layer_height_ = 0, height_ = 0;  ///< mm
     LayerRange range_;
     double volume_ = 0;  ///< mm^3

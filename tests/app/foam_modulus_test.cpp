@@ -115,6 +115,10 @@ TEST_CASE("a modulus that varies is predicted as it is asked for, and told with 
     CHECK(png.code == 0);
     CHECK(mentions(png.err, "modulus: the foam gets 20"));
     CHECK(mentions(contents(folder / "masks/job.json"), "modulus: the foam gets 20"));
+    const Outcome sl1 = run_lamella("slice -q " + folder / "part.toml" +
+                                    " --layers 0:2 --printer prusa-sl1s -o " + folder / "a.sl1s");
+    CHECK(sl1.code == 0);
+    CHECK(mentions(contents(folder / "a.sl1s"), "material_notes = modulus: the foam gets 20"));
     const Outcome gcode =
         run_lamella("slice -q " + folder / "part.toml" +
                     " --layers 0:2 --layer-height 0.2 --printer marlin -o " + folder / "a.gcode");

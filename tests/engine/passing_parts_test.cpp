@@ -39,6 +39,7 @@ TEST_CASE("parts that pass by are those of the whole, and what is not used can b
                 used[placed.runs[i].component] = numbers[labelled.runs[i].component];
             if (l % 5 == 4) {
                 std::vector<std::uint32_t> kept;
+                kept.reserve(used.size());
                 for (const auto& [number, same] : used) kept.push_back(number);
                 passing.forget_all_but(kept);
                 CHECK(passing.size() <= 2 * kept.size() + labelled.runs.size());
