@@ -65,6 +65,7 @@ std::vector<FoamLawPoint> known_law(const FoamRecipe& foam) {
 /// Writes a law, a point as soon as it is known.
 void write_table(const HomogenizeCommand& command, const Recipe& recipe, StiffnessOptions options,
                  TextOutput& out) {
+    check_uniform(*recipe.foam);
     const std::string name = law_name(*recipe.foam);
     const std::vector<double> ratios = ratios_of(command.ratios);
     out.write(law_heading());

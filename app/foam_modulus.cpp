@@ -61,12 +61,6 @@ std::string law_name(const FoamRecipe& foam) {
     if (has("jitter")) name += fmt::format("/jitter={}", foam.jitter);
     if (has("neighbours")) name += fmt::format("/neighbours={}", foam.neighbours);
     if (has("window")) {
-        for (const GradedNumber* number : {&foam.beam, &foam.wall, &foam.window}) {
-            if (!number->is_formula()) continue;
-            throw InputError(number->where +
-                             ": the law of closed cells holds for beams, walls and windows "
-                             "that are the same everywhere; accepted: a number");
-        }
         name += fmt::format("/wall={:.4g}beam/window={}", foam.wall.number() / foam.beam.number(),
                             foam.window.number());
     }
@@ -112,6 +106,26 @@ GradedUse solved(const std::string& key, GradingPtr asked, Interval limits) {
     return {key, std::move(asked), std::move(made), limits, "mm"};
 }
 
+/// Closed cells have a law for one proportion of beams, walls and windows.
+bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
+    if (foam.kind != "closed") return true;
+    const bool same = !foam.beam.is_formula() && !foam.wall.is_formula() && !foam.window.is_formula();
+    const auto overridden = [&](const char* key) { return !gradings.overrides(key).empty(); };
+    return same && !overridden("foam.beam") && !overridden("foam.wall") && !overridden("foam.window");
+}
+
+/// Whether one law can hold for the whole foam.
+bool has_one_shape(const FoamRecipe& foam, const Gradings& gradings) {
+    return constant(foam.stretch) == dvec3(1) && is_proportioned(foam, gradings);
+}
+
+void check_shape(const FoamRecipe& foam, const Gradings& gradings) {
+    if (is_proportioned(foam, gradings)) return;
+    throw InputError(foam.modulus.where +
+                     ": the law of closed cells holds for beams, walls and windows that are the same "
+                     "everywhere; accepted: numbers for them, and no region that changes one");
+}
+
 FoamSizes sizes_for_modulus(const FoamRecipe& foam, Gradings& gradings, const BuiltModulus& modulus) {
     const GradingPtr& wanted = modulus.asked->made;
     const bool has_cell = foam.cell.is_formula() || foam.cell.number() > 0;
@@ -137,20 +151,20 @@ FoamSizes foam_sizes(const FoamRecipe& foam, Gradings& gradings, std::optional<B
     const bool asks = foam.modulus.is_formula() || foam.modulus.number() > 0;
     const bool has_material =
         recipe.material && (!recipe.material->name.empty() || recipe.material->young > 0);
-    if (has_material) {
-        BuiltModulus built;
-        built.material = base_material(*recipe.material);
-        if (asks || !foam.window.is_formula()) built.foam = foam_modulus(recipe, built.material);
-        if (built.foam) modulus = std::move(built);
+    if (asks) check_shape(foam, gradings);
+    if (has_material && has_one_shape(foam, gradings)) {
+        const BaseMaterial material = base_material(*recipe.material);
+        if (auto known = foam_modulus(recipe, material))
+            modulus = BuiltModulus{{}, nullptr, std::move(known), material};
+    }
+    if (!modulus && (asks || (recipe.material && !recipe.material->tests.empty()))) {
+        throw InputError(
+            fmt::format("{}: no law of this foam ({}) is known; accepted: foam.law / --foam-law with a file "
+                        "that `lamella homogenize --table` writes for it",
+                        asks ? foam.modulus.where : "material.tests / --material-tests", law_name(foam)));
     }
     FoamSizes sizes;
     if (asks) {
-        if (!modulus) {
-            throw InputError(fmt::format(
-                "{}: no law of this foam ({}) is known; accepted: foam.law / --foam-law with a file that "
-                "`lamella homogenize --table` writes for it",
-                foam.modulus.where, law_name(foam)));
-        }
         modulus->asked = graded("foam.modulus", foam.modulus, {0, infinity}, gradings);
         sizes = sizes_for_modulus(foam, gradings, *modulus);
     } else {

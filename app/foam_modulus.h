@@ -19,7 +19,7 @@ struct BuiltModulus {
 };
 
 /// The words that a law's file has for a foam: its kind and the numbers that shape it, but for the sizes of
-/// cells and members and the seed. Throws InputError where one of them varies in space.
+/// cells and members, the seed, and what stretches it. All have to be the same everywhere.
 std::string law_name(const FoamRecipe& foam);
 
 /// The laws that a foam's is looked for in: of the recipe's file, or those that ship. Throws InputError.

@@ -35,14 +35,6 @@ void refuse_formula(const char* key, const GradedNumber& number) {
                     number.where.empty() ? key : number.where));
 }
 
-void refuse_formulas(const FoamRecipe& foam) {
-    refuse_formula("foam.cell", foam.cell);
-    refuse_formula("foam.beam", foam.beam);
-    refuse_formula("foam.wall", foam.wall);
-    refuse_formula("foam.window", foam.window);
-    refuse_formula("foam.modulus", foam.modulus);
-}
-
 /// A kind whose sample would look another way with another seed.
 bool is_random(const FoamRecipe& foam) {
     for (const FoamBuilder& builder : foam_builders()) {
@@ -134,8 +126,16 @@ double poisson_of(const Homogenized& sample) { return closest_isotropic(sample.s
 double shear_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).shear(); }
 double bulk_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).bulk(); }
 
+void check_uniform(const FoamRecipe& foam) {
+    refuse_formula("foam.cell", foam.cell);
+    refuse_formula("foam.beam", foam.beam);
+    refuse_formula("foam.wall", foam.wall);
+    refuse_formula("foam.window", foam.window);
+    refuse_formula("foam.modulus", foam.modulus);
+}
+
 FoamStiffness foam_stiffness(const Recipe& recipe, const StiffnessOptions& options) {
-    refuse_formulas(*recipe.foam);
+    check_uniform(*recipe.foam);
     check_material(options.material);
     FoamStiffness found;
     found.period = period_of(recipe);
@@ -154,9 +154,13 @@ FoamStiffness foam_stiffness(const Recipe& recipe, const StiffnessOptions& optio
 
 FoamLawPoint law_point(Recipe recipe, double ratio, StiffnessOptions options) {
     FoamRecipe& foam = *recipe.foam;
-    refuse_formulas(foam);
-    const double member = (member_of(foam) == "beam" ? foam.beam : foam.wall).number();
+    check_uniform(foam);
+    GradedNumber& thickness = member_of(foam) == "beam" ? foam.beam : foam.wall;
+    if (thickness.number() == 0) thickness.value = 1.0;  // a modulus would have chosen it
+    const double member = thickness.number();
     foam.cell.value = member / ratio;
+    foam.modulus = {};
+    recipe.material.reset();
     foam.cell_min = 0;
     foam.cell_max = infinity;
     options.material = {1, law_poisson};

@@ -42,6 +42,9 @@ double poisson_of(const Homogenized& sample);
 double shear_of(const Homogenized& sample);
 double bulk_of(const Homogenized& sample);
 
+/// Throws InputError where a number of the foam is a formula: a sample stands for one place.
+void check_uniform(const FoamRecipe& foam);
+
 /// Homogenises samples of the recipe's foam, one period each; a random foam is made to repeat for it, each
 /// sample with a seed of its own. Throws InputError where the foam varies in space or cannot repeat.
 FoamStiffness foam_stiffness(const Recipe& recipe, const StiffnessOptions& options);

@@ -39,6 +39,14 @@ void check_refused(const Folder& folder, const std::string& recipe, const std::s
     CHECK(mentions(run.err, why));
 }
 
+void check_refused_table(const Folder& folder) {
+    write(folder / "graded.toml",
+          "[foam]\nkind = \"closed\"\ncell = 2\nbeam = 0.2\nwall = \"0.2 + 0.01 * x\"\n");
+    const Outcome run = run_lamella("homogenize --table " + folder / "graded.toml");
+    CHECK(run.code == 2);
+    CHECK(mentions(run.err, "foam.wall: it varies in space"));
+}
+
 }  // namespace
 
 TEST_CASE("laws that ship stiffen with the ratio, and stay below the bounds", "[elasticity]") {
@@ -184,6 +192,12 @@ TEST_CASE("a law of one's own is found by what shapes the foam", "[elasticity]")
         "--samples 1 --ratios 0.08,0.12,0.18 -o " +
         folder / "mine.csv" + " --plot " + folder / "mine.svg");
     REQUIRE(table.code == 0);
+    // Sizes do not matter, nor does a modulus that would choose them.
+    const Outcome again = run_lamella(
+        "homogenize -q --foam kelvin --jitter 0.3 --cell 2 --modulus 5 --material pla --table --rve 32 "
+        "--samples 1 --ratios 0.08,0.12,0.18");
+    CHECK(again.out == contents(folder / "mine.csv"));
+    check_refused_table(folder);
     CHECK(mentions(contents(folder / "mine.svg"), "the foam's law"));
     const Json info = info_of(folder, bar + stuff + foam + "law = \"mine.csv\"\n");
     CHECK(info["modulus"]["predicted_MPa"][0].get<double>() == Approx(20));
@@ -206,6 +220,29 @@ TEST_CASE("a modulus without what it needs is refused with what would be right",
                   "material.name: \"plaa\" is unknown, did you mean `pla`?");
     check_refused(folder, bar + stuff + "[foam]\nmodulus = 20\nbeam = \"cell / 10\"\n", "cell");
     check_refused(folder, bar + "[foam]\ncell = 2\nbeam = 0.2\nlaw = \"x.csv\"\n", "nothing follows it");
+}
+
+TEST_CASE("nothing is predicted of a foam that no one law holds for", "[elasticity]") {
+    const Folder folder;
+    for (const std::string foam :
+         {"[foam]\ncell = 3\nbeam = 0.3\nstretch = [1, 1, 2]\n",
+          "[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = \"0.3 + 0.01 * x\"\n",
+          "[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.2\n"}) {
+        CHECK_FALSE(info_of(folder, bar + stuff + foam).contains("modulus"));
+    }
+    CHECK(info_of(folder, bar + stuff + "[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.3\n")
+              .contains("modulus"));
+    check_refused(
+        folder,
+        bar + stuff + "[foam]\nkind = \"closed\"\nbeam = 0.3\nwall = \"0.3 + 0.01 * x\"\nmodulus = 50\n",
+        "the law of closed cells holds for beams, walls and windows that are the same everywhere");
+    write(folder / "tests.csv", "3,0.3,30\n");
+    check_refused(
+        folder,
+        bar +
+            "[material]\nyoung = 2000\ntests = \"tests.csv\"\n[foam]\nkind = \"kelvin\"\njitter = 0.4\n"
+            "cell = 3\nbeam = 0.3\n",
+        "material.tests / --material-tests: no law of this foam");
 }
 
 TEST_CASE("materials are listed with their sources, and one's own are read", "[elasticity]") {
@@ -275,7 +312,6 @@ TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity]"
         const double found =
             closest_isotropic(homogenize(mirrored(sample), {2000, law_poisson}, {1e-4}).stiffness).young;
         const double asked = 20 + 1.5 * (piece + 0.5) * side;
-        printf("%g %g density %g\n", asked, found, sample.share());
         CHECK(found == Approx(asked).epsilon(0.15));
     }
 }
