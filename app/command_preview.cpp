@@ -56,9 +56,8 @@ void save(const Picture& image, const std::string& path) {
 void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
     if (!built.foam || !built.foam->modulus) {
         throw InputError(
-            "--paint modulus: how stiff the foam gets is not known; accepted: a foam with [material], and "
-            "with "
-            "foam.law where no law of it ships");
+            "--paint modulus: how stiff the foam gets is not known; accepted: [material] with the foam, and "
+            "foam.law where none ships");
     }
     const ModulusReport report = modulus_report(*built.foam->modulus, *built.body);
     options.picture.paint = modulus_paint(*built.foam->modulus, report);

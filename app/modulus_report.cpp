@@ -50,6 +50,9 @@ ModulusReport modulus_report(const BuiltModulus& modulus, const Field& body) {
         if (made < asked * (1 - modulus_tolerance)) report.softer += weight;
         if (made > asked * (1 + modulus_tolerance)) report.stiffer += weight;
     }
+    const Interval known = modulus.foam->moduli();
+    report.leaves_law = !report.is_asked && !report.predicted.empty() &&
+                        (report.predicted.lo <= known.lo || report.predicted.hi >= known.hi);
     return report;
 }
 
@@ -60,6 +63,10 @@ std::vector<std::string> modulus_lines(const ModulusReport& report) {
                                                     : "made of " + report.material;
     lines.push_back(fmt::format("modulus: the foam gets {}, give or take {:.0f} %, {}",
                                 range_text(report.predicted), 100 * report.band, source));
+    if (report.leaves_law)
+        lines.emplace_back(
+            "modulus: some of the foam is thinner or thicker than its law knows; the law's end is told of "
+            "it");
     const auto short_of = [&](double share, const char* how) {
         if (share > 0) {
             lines.push_back(fmt::format("modulus: {:.3g} % of the part gets {} than the {} asked for",

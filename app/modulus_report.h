@@ -20,6 +20,8 @@ struct ModulusReport {
     double softer = 0;   ///< share of the volume that gets less than 99 % of what is asked
     double stiffer = 0;  ///< ... more than 101 %
     double band = 0;     ///< how far off a prediction may be, over it
+    /// Whether some foam that is given by its sizes lies beyond the law, whose end is told of it.
+    bool leaves_law = false;
     std::string material;
     LawFit fit;
 };

@@ -156,6 +156,13 @@ TEST_CASE("what cannot be had is kept in range, counted and painted", "[elastici
     CHECK(mentions(none.err, "--paint modulus: how stiff the foam gets is not known"));
 }
 
+TEST_CASE("sizes beyond the law are told of", "[elasticity]") {
+    const Folder folder;
+    const Json info = info_of(folder, bar + stuff + "[foam]\ncell = 20\nbeam = 0.1\n");
+    CHECK(mentions(info["modulus"]["notes"][1].get<std::string>(), "thinner or thicker than its law knows"));
+    CHECK(info_of(folder, bar + stuff + "[foam]\ncell = 3\nbeam = 0.3\n")["modulus"]["notes"].size() == 1);
+}
+
 TEST_CASE("a region can be stiffer than the rest", "[elasticity]") {
     const Folder folder;
     const Json info =
