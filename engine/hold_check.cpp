@@ -64,7 +64,6 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       step_(limits.overhang / grid.band.along_pitch),
       slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
-      slope_stride_(std::max(static_cast<int>(slope_layers_ / 4), 1)),
       supports_(grid, limits.support_spacing, limits.support_gap),
       islands_(most),
       overhangs_(most),
@@ -94,7 +93,7 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const SpanRows& islan
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
     below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
-    const SpanRows steep = too_steep(layer, held, index);
+    const SpanRows steep = too_steep(layer, held);
     below_.pop_back();
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
@@ -120,12 +119,9 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
     return floating;
 }
 
-/// What went out further over several layers than it may, but for what lies above things that may hang. Looks
-/// over neighbouring layers tell much the same: it is looked for now and then, and followed once it is found.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held, int index) {
-    const bool looks = was_too_steep_ || index % slope_stride_ == 0;
-    was_too_steep_ = false;
-    if (!looks || below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
+/// What went out further over several layers than it may, but for what lies above things that may hang.
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) const {
+    if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     SpanRows steep = without(beyond(layer.part, below_[first].rows.part, far), held);
@@ -136,9 +132,7 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held, in
     }
     if (steep.runs().empty()) return steep;
     const LabelledLayer labelled = label_layer(steep, 0, Growth{});
-    SpanRows found = rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
-    was_too_steep_ = !found.runs().empty();
-    return found;
+    return rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.

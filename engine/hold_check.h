@@ -20,9 +20,8 @@ struct HoldingRows {
 /// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
 /// supports keep. A region hangs where it stands out by more than `overhang` and a pitch over the layer
 /// below; slopes are followed over several layers, so that one is found that is steeper by a quarter than
-/// what is allowed (its tangent), where it lasts for a quarter more of those layers. What hangs is excused
-/// where it is smaller than `free_stretch`, or where one direction leads everywhere from hold to hold within
-/// the length of a bridge.
+/// what is allowed (its tangent). What hangs is excused where it is smaller than `free_stretch`, or where one
+/// direction leads everywhere from hold to hold within the length of a bridge.
 class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
@@ -43,7 +42,7 @@ class HoldCheck {
     };
     void follow_overhangs(const HoldingRows& layer, const SpanRows& islands, Below& next, int index);
     SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index);
-    SpanRows too_steep(const HoldingRows& layer, const SpanRows& held, int index);
+    SpanRows too_steep(const HoldingRows& layer, const SpanRows& held) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);
@@ -54,8 +53,6 @@ class HoldCheck {
     double step_;                 // by which a layer may stand out, pitches
     std::size_t slope_layers_;    // over which a slope is followed
     std::size_t support_layers_;  // back, whose supports an island may stand on
-    int slope_stride_;            // layers from one look at slopes to the next, where none was too steep
-    bool was_too_steep_ = false;  // at the last look
     std::deque<Below> below_;     // newest last
     SupportHold supports_;
     PassingComponents hanging_;
