@@ -1,8 +1,8 @@
 // The machine's limits, the job's layers, and what changes verdicts.
 #include "app/check_limits.h"
 
-#include "app/build_supports.h"
 #include "printers/registry.h"
+#include "recipe/build_supports.h"
 
 namespace lamella {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/recipe.h"
 #include "engine/print_check.h"
 #include "printers/process_limits.h"
+#include "recipe/recipe.h"
 
 namespace lamella {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/check_report.h"
-#include "app/outputs.h"
+#include "recipe/outputs.h"
 
 namespace lamella {
 

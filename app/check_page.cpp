@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/check_words.h"
 #include "app/fault_picture.h"
 #include "printers/thumbnail.h"
+#include "recipe/check_words.h"
 
 namespace lamella {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/check_words.h"
+#include "recipe/check_words.h"
 
 namespace lamella {
 namespace {

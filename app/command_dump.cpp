@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/beam_output.h"
-#include "app/build_job.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
-#include "app/settings.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "recipe/beam_output.h"
+#include "recipe/build_job.h"
+#include "recipe/settings.h"
 
 namespace lamella {
 

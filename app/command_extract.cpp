@@ -8,15 +8,15 @@
 #include <numeric>
 
 #include "app/commands.h"
-#include "app/identity.h"
 #include "app/interrupt.h"
-#include "app/layer_range.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
 #include "engine/error.h"
 #include "printers/png_writer.h"
 #include "printers/read_job.h"
 #include "printers/unfinished_folder.h"
+#include "recipe/identity.h"
+#include "recipe/layer_range.h"
 
 namespace lamella {
 

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/base_material.h"
 #include "app/commands.h"
-#include "app/foam_modulus.h"
-#include "app/foam_stiffness.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
-#include "app/settings.h"
 #include "app/stiffness_plot.h"
 #include "app/stiffness_report.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "recipe/base_material.h"
+#include "recipe/foam_modulus.h"
+#include "recipe/foam_stiffness.h"
+#include "recipe/settings.h"
 
 namespace lamella {
 
@@ -55,19 +55,13 @@ void draw(const HomogenizeCommand& command, const StiffnessPlot& plot) {
     out.close();
 }
 
-/// The known law of a foam, for the drawing; empty where there is none.
-std::vector<FoamLawPoint> known_law(const FoamRecipe& foam) {
-    const std::vector<FoamLawTable> laws = foam_laws(foam);
-    const auto known = std::ranges::find(laws, law_name(foam), &FoamLawTable::foam);
-    return known == laws.end() ? std::vector<FoamLawPoint>() : known->points;
-}
-
-/// Writes a law, a point as soon as it is known.
+/// Writes a law. What cannot be made is found out before anything is computed.
 void write_table(const HomogenizeCommand& command, const Recipe& recipe, StiffnessOptions options,
                  TextOutput& out) {
     check_uniform(*recipe.foam);
     const std::string name = law_name(*recipe.foam);
     const std::vector<double> ratios = ratios_of(command.ratios);
+    for (const double ratio : ratios) check_law_point(recipe, ratio);
     out.write(law_heading());
     StiffnessPlot plot{name, {}, options.material, {}};
     for (std::size_t i = 0; i < ratios.size(); ++i) {
@@ -86,11 +80,14 @@ void write_stiffness(const HomogenizeCommand& command, const Recipe& recipe, Sti
     options.on_progress = [&](double share) { display.show(share); };
     const FoamStiffness found = foam_stiffness(recipe, options);
     display.finish();
-    const ElasticTensor stiffness = found.stiffness();
-    draw(command,
-         {fmt::format("{} foam, {:.3g} mm a sample", law_name(*recipe.foam), found.period),
-          known_law(*recipe.foam), options.material,
-          StiffnessPlot::Sample{found.mean(density_of), closest_isotropic(stiffness).young, stiffness}});
+    if (!command.plot.empty()) {
+        const ElasticTensor stiffness = found.stiffness();
+        const StiffnessPlot::Sample sample{found.mean(density_of), closest_isotropic(stiffness).young,
+                                           stiffness};
+        const auto law = known_law(*recipe.foam);
+        draw(command, {fmt::format("{} foam, {:.3g} mm a sample", law_name(*recipe.foam), found.period),
+                       law ? law->points : std::vector<FoamLawPoint>(), options.material, sample});
+    }
     out.write(command.json ? stiffness_json(*recipe.foam, options.material, found).dump(2) + "\n"
                            : stiffness_text(*recipe.foam, options.material, found));
 }

@@ -6,19 +6,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/build_job.h"
 #include "app/commands.h"
 #include "app/foam_statistics.h"
 #include "app/grading_report.h"
 #include "app/island_report.h"
 #include "app/job_report.h"
 #include "app/memory_bound.h"
-#include "app/modulus_report.h"
 #include "app/recipe_options.h"
-#include "app/recipe_regions.h"
-#include "app/settings_rows.h"
 #include "app/text_output.h"
 #include "printers/read_job.h"
+#include "recipe/build_job.h"
+#include "recipe/recipe_regions.h"
+#include "recipe/settings_rows.h"
 
 namespace lamella {
 
@@ -143,8 +142,7 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
     if (!built.regions.list.empty()) info["regions"] = regions_json(recipe, built.regions);
     if (!built.regions.warnings.empty()) info["region_warnings"] = built.regions.warnings;
     for (const GradingReport& report : grading_reports(built)) info["graded"].push_back(grading_json(report));
-    if (built.foam && built.foam->modulus)
-        info["modulus"] = modulus_json(modulus_report(*built.foam->modulus, *built.body));
+    if (built.modulus) info["modulus"] = modulus_json(*built.modulus);
     if (built.islands) info["islands"] = islands_json(*built.islands);
     info["printer"] = {{"profile", recipe.printer.name}, {"kind", recipe.printer.backend}};
     info["memory"] = memory_json(memory_bound(recipe, built, threads));

@@ -1,8 +1,8 @@
 // `lamella keys`: the reference of everything a recipe can say.
 #include "app/commands.h"
 #include "app/recipe_options.h"
-#include "app/settings.h"
 #include "app/text_output.h"
+#include "recipe/settings.h"
 
 namespace lamella {
 

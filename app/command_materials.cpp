@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "app/base_material.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
-#include "app/shipped_texts.h"
 #include "app/text_output.h"
 #include "engine/whole_file.h"
+#include "recipe/base_material.h"
+#include "recipe/shipped_texts.h"
 
 namespace lamella {
 

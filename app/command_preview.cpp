@@ -6,16 +6,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/build_process.h"
-#include "app/build_supports.h"
 #include "app/commands.h"
-#include "app/job_picture.h"
 #include "app/modulus_paint.h"
 #include "app/recipe_options.h"
-#include "app/repair_job.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "engine/image_file.h"
+#include "recipe/build_process.h"
+#include "recipe/finish_job.h"
+#include "recipe/job_picture.h"
 
 namespace lamella {
 
@@ -54,14 +53,13 @@ void save(const Picture& image, const std::string& path) {
 }
 
 void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
-    if (!built.foam || !built.foam->modulus) {
+    if (!built.modulus) {
         throw InputError(
             "--paint modulus: how stiff the foam gets is not known; accepted: [material] with the foam, and "
             "foam.law where none ships");
     }
-    const ModulusReport report = modulus_report(*built.foam->modulus, *built.body);
-    options.picture.paint = modulus_paint(*built.foam->modulus, report);
-    if (!options.quiet) std::fputs((modulus_legend(report) + "\n").c_str(), stderr);
+    options.picture.paint = modulus_paint(*built.foam->modulus, *built.modulus);
+    if (!options.quiet) std::fputs((modulus_legend(*built.modulus) + "\n").c_str(), stderr);
 }
 
 void run(PreviewCommand& options) {
@@ -69,15 +67,12 @@ void run(PreviewCommand& options) {
     const Recipe recipe = options.recipe.read();
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
-    repair_job(recipe, built, {});
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     if (options.paint == "modulus") paint_modulus(built, options);
-    const auto added = add_supports(recipe, built, {});
-    add_shield(recipe, built.job, {});
-    save(render_job(recipe, built, added, options.picture), path);
+    const Surroundings around = finish_job(recipe, built, {});
+    save(render_job(recipe, built, around.supports, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(

@@ -2,10 +2,11 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/printer_choice.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "recipe/printer_choice.h"
+#include "recipe/read_recipe.h"
 
 namespace lamella {
 

@@ -4,13 +4,12 @@
 #include <memory>
 #include <string_view>
 
-#include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/recipe_options.h"
-#include "app/repair_job.h"
 #include "app/section_writer.h"
 #include "app/text_output.h"
 #include "engine/error.h"
+#include "recipe/finish_job.h"
 
 namespace lamella {
 
@@ -37,10 +36,7 @@ std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
-    repair_job(recipe, built, {});
-    add_supports(recipe, built, {});
-    add_shield(recipe, built.job, {});
+    finish_job(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {
         throw InputError(fmt::format("--z: {} misses the part; accepted: a height from {} to {} mm",

@@ -7,21 +7,26 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/base_material.h"
-#include "app/beam_output.h"
 #include "app/check_outputs.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/island_report.h"
 #include "app/job_report.h"
-#include "app/outputs.h"
 #include "app/prepare_job.h"
 #include "app/progress.h"
-#include "app/repair_job.h"
+#include "app/ranks.h"
+#include "app/spread_layers.h"
 #include "app/text_output.h"
+#include "bindings/plugin.h"
 #include "engine/error.h"
 #include "engine/layer_stream.h"
 #include "printers/registry.h"
+#include "printers/shard_file.h"
+#include "recipe/base_material.h"
+#include "recipe/beam_output.h"
+#include "recipe/outputs.h"
+#include "recipe/render_alone.h"
+#include "recipe/repair_job.h"
 
 namespace lamella {
 
@@ -29,6 +34,8 @@ namespace {
 
 struct SliceOptions : JobOptions {
     std::vector<std::string> output;
+    std::vector<std::string> plugins;
+    std::string shard;
     bool force = false;
     bool json = false;
     bool check = false;
@@ -60,14 +67,15 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
     const std::optional<BeamLatticeReport>& beams = written.beams;
     const double seconds = display.seconds();
     if (options.json) {
-        nlohmann::ordered_json summary{{"output", outputs.front().path},
-                                       {"identity", built.job.identity},
-                                       {"layers", report.layers_written},
-                                       {"layers_kept", report.layers_kept},
-                                       {"seconds", seconds},
-                                       {"first_layer_seconds", display.first_layer_seconds()},
-                                       {"peak_memory_bytes", peak_memory_bytes()},
-                                       {"volume_mm3", report.volume}};
+        nlohmann::ordered_json summary{
+            {"output", options.shard.empty() ? outputs.front().path : options.shard},
+            {"identity", built.job.identity},
+            {"layers", report.layers_written},
+            {"layers_kept", report.layers_kept},
+            {"seconds", seconds},
+            {"first_layer_seconds", display.first_layer_seconds()},
+            {"peak_memory_bytes", peak_memory_bytes()},
+            {"volume_mm3", report.volume}};
         for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
         if (const double mass = mass_of(recipe, report.volume); mass > 0) summary["mass_g"] = mass;
         if (!built.job.notes.empty()) summary["job_notes"] = built.job.notes;
@@ -98,7 +106,8 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
     const double grams = mass_of(recipe, report.volume);
     const std::string mass = grams > 0 ? fmt::format(", {:.3g} g", grams) : "";
     std::string paths;
-    for (const Output& output : outputs)
+    if (!options.shard.empty()) paths = options.shard;
+    for (const Output& output : options.shard.empty() ? outputs : std::vector<Output>())
         paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
     std::fputs(fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}{}, {} MiB at most\n", paths,
                            report.layers_written, kept, seconds, report.volume, mass, supports,
@@ -106,6 +115,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
                    .c_str(),
                stderr);
     for (const Output& output : outputs) {
+        if (output.open) continue;
         if (const char* warning = find_backend(output.printer.backend).warning)
             std::fputs(fmt::format("{}: {}\n", output.path, warning).c_str(), stderr);
     }
@@ -123,6 +133,21 @@ void refuse_failures(const std::vector<CheckOutcome>& checks) {
     if (!text.empty()) throw ConstraintError(text + "all layers have been written all the same");
 }
 
+std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
+    std::vector<OutsideBackend> plugins;
+    plugins.reserve(options.plugins.size());
+    for (const std::string& path : options.plugins) plugins.push_back(load_plugin(path));
+    std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles(), plugins);
+    const auto is_outside = [](const Output& output) { return static_cast<bool>(output.open); };
+    if (!plugins.empty() && std::ranges::none_of(outputs, is_outside)) {
+        throw InputError(fmt::format(
+            "--plugin {}: no output is for it; accepted: -o PATH@{}{}", options.plugins.front(),
+            plugins.front().name,
+            plugins.front().ending.empty() ? "" : ", or a path that ends in " + plugins.front().ending));
+    }
+    return outputs;
+}
+
 /// Standard output takes the layers and nothing else.
 void check_standard_output(const SliceOptions& options) {
     if (options.json) {
@@ -134,14 +159,40 @@ void check_standard_output(const SliceOptions& options) {
         throw InputError("--resume: standard output cannot be continued; name a file with -o");
 }
 
-void run(const SliceOptions& options) {
+/// What cannot be shared among processes.
+void check_sharing(const SliceOptions& options, const Ranks* ranks) {
+    if (!options.shard.empty() && options.check)
+        throw InputError(
+            "--check: it looks at all layers, of which a shard has some; accepted: one of the two");
+    if (ranks == nullptr) return;
+    if (!options.shard.empty())
+        throw InputError("--shard: mpirun joins by itself what its processes make; accepted: one of the two");
+    if (options.check) {
+        throw InputError(
+            "--check: its findings go from layer to layer, which several processes do not; accepted: "
+            "`lamella "
+            "check`, or one process");
+    }
+}
+
+/// Where the layers go: the outputs, or a shard of what they would get.
+std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vector<Output>& outputs,
+                                   const Job& job) {
+    if (options.shard.empty()) return make_outputs(outputs, options.force);
+    return make_shard_writer(make_renderer(outputs, {0, job.layer_count}), options.shard,
+                             settings_of(outputs), options.force);
+}
+
+/// `ranks`: the processes that share the layers; null where there is this one alone.
+void run(const SliceOptions& options, Ranks* ranks) {
+    check_sharing(options, ranks);
     const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
     if (to_pipe) check_standard_output(options);
     ProgressDisplay display(options.quiet);
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
-    const std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles());
+    const std::vector<Output> outputs = outputs_of(options, recipe);
     if (options.check && !options.layers.empty()) {
         throw InputError(
             "--check: it looks at all layers, which --layers leaves out; accepted: one of the two");
@@ -157,13 +208,14 @@ void run(const SliceOptions& options) {
     std::vector<std::string> notes;
     std::vector<CheckOutcome> checks;
     try {
-        auto backend = make_outputs(outputs, options.force);
+        auto backend = layers_to(options, outputs, built.job);
         OutputChecks checking;
         if (options.check) {
             const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
             backend = checking.beside(std::move(backend), outputs, recipe.part.name, built.job, parts);
         }
-        report = stream_layers(built.job, *backend, stream);
+        report = ranks ? spread_layers(*ranks, built.job, backend, stream)
+                       : stream_layers(built.job, *backend, stream);
         notes = backend->notes();
         checks = checking.outcomes();
     } catch (const Interrupted&) {
@@ -176,6 +228,35 @@ void run(const SliceOptions& options) {
     if (with_beams) beams = write_beam_output(recipe, built);
     summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
     refuse_failures(checks);
+}
+
+/// What a process does that is not the first of several. What is wrong, the first one finds out as well.
+void help(const SliceOptions& given, Ranks& ranks) {
+    SliceOptions options = given;
+    options.quiet = true;
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    try {
+        const Recipe recipe = options.recipe.read();
+        const std::vector<Output> outputs = outputs_of(options, recipe);
+        const PreparedJob prepared = prepare_job(options, recipe, cancel);
+        render_blocks(ranks, prepared.built.job, outputs, prepared.stream);
+    } catch (const Error&) {
+        return;
+    }
+}
+
+void run_or_help(const SliceOptions& options) {
+    const std::unique_ptr<Ranks> ranks = started_ranks();
+    if (!ranks) return run(options, nullptr);
+    if (ranks->rank() > 0) return help(options, *ranks);
+    try {
+        run(options, ranks.get());
+    } catch (const Error& error) {
+        // The others wait for this one, and would for ever.
+        std::fputs(fmt::format("lamella: {}\n", error.what()).c_str(), stderr);
+        ranks->abort(error.exit_code());
+    }
 }
 
 }  // namespace
@@ -193,6 +274,19 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--plugin", options->plugins,
+            "A shared library with a printer of its own, for an output that ends as its files do or has "
+            "@ and its name; several, each with --plugin")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--shard", options->shard,
+            "Pack the layers of --layers into this file instead, for `lamella join` to make the outputs of")
+        ->type_name("FILE");
     add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
     command.add_flag("--force", options->force, "Replace an output that exists");
@@ -210,8 +304,10 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella slice insole.toml --layers 100:200 --json\n"
         "  lamella slice insole.toml --check -o insole.sl1\n"
         "  lamella slice insole.toml --printer ember -o - | ssh printer 'cat > insole.tar.gz'\n"
+        "  lamella slice insole.toml -o insole.sl1 --layers 0:400 --shard first.shard\n"
+        "  mpirun -n 4 lamella slice insole.toml -o insole.sl1\n"
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
-    command.callback([options] { run(*options); });
+    command.callback([options] { run_or_help(*options); });
 }
 
 }  // namespace lamella

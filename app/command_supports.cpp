@@ -5,11 +5,9 @@
 #include <map>
 #include <memory>
 
-#include "app/build_supports.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/recipe_options.h"
-#include "app/repair_job.h"
+#include "app/prepare_job.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 
@@ -19,13 +17,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct SupportsCommand {
-    RecipeOptions recipe;
+struct SupportsCommand : JobOptions {
     std::string output;
-    std::string plans = default_plan_folder();
-    int threads = 0;
     bool json = false;
-    bool quiet = false;
 };
 
 constexpr const char* reasons[] = {"overhang", "island", "span", "stability"};
@@ -142,10 +136,8 @@ void run(const SupportsCommand& options) {
     if (recipe.support == SupportKind::none) recipe.support = SupportKind::bridges;
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    if (recipe.foam && recipe.foam->drop_islands) drop_islands(recipe, built, {});
-    repair_job(recipe, built, {options.threads, {}, &cancel});
-    const BuiltSupports supports = *add_supports_with_progress(
-        recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
+    recipe.shield.reset();  // which is of no concern here
+    const BuiltSupports supports = *finish_with_progress(recipe, built, options, cancel).supports;
     TextOutput out(options.output);
     out.write(options.json ? as_json(supports, built.job) : as_text(supports, built.job));
     out.close();

@@ -10,6 +10,8 @@ namespace lamella {
 /// `arguments` is the command line as typed, for the advice on how to go on after an interruption.
 void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments);
 /// The same for `arguments`.
+void add_join_command(CLI::App& root, const std::vector<std::string>& arguments);
+/// The same for `arguments`.
 void add_print_command(CLI::App& root, const std::vector<std::string>& arguments);
 void add_ports_command(CLI::App& root);
 void add_preview_command(CLI::App& root);
@@ -19,6 +21,7 @@ void add_dump_command(CLI::App& root);
 void add_supports_command(CLI::App& root);
 void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
+void add_serve_command(CLI::App& root);
 void add_homogenize_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_materials_command(CLI::App& root);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/layer_block.h"
-#include "app/preview_render.h"
+#include "recipe/preview_render.h"
 
 namespace lamella {
 namespace {

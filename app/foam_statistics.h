@@ -1,7 +1,7 @@
 // What a graded foam amounts to over a box: seeds, sizes and solid share, by sums over a lattice.
 #pragma once
 
-#include "app/build_foam.h"
+#include "recipe/build_foam.h"
 
 namespace lamella {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/build_job.h"
+#include "recipe/build_job.h"
 
 namespace lamella {
 

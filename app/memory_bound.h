@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "app/build_job.h"
+#include "recipe/build_job.h"
 
 namespace lamella {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "app/modulus_report.h"
+#include "recipe/modulus_report.h"
 
 namespace lamella {
 

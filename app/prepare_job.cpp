@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/build_supports.h"
 #include "app/grading_report.h"
 #include "app/island_report.h"
-#include "app/job_picture.h"
 #include "app/job_report.h"
-#include "app/layer_range.h"
-#include "app/printer_choice.h"
 #include "app/progress.h"
-#include "app/repair_job.h"
 #include "engine/plate.h"
+#include "recipe/job_picture.h"
+#include "recipe/layer_range.h"
+#include "recipe/printer_choice.h"
+#include "recipe/read_recipe.h"
+#include "recipe/repair_job.h"
 
 namespace lamella {
 
@@ -25,29 +25,6 @@ std::string quoted(const std::string& argument) {
     std::string text = "'";
     for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
-}
-
-void survey(const Recipe& recipe, BuiltJob& built, const JobOptions& options, const CancelToken& cancel) {
-    ProgressDisplay display(options.quiet, "survey for islands: ");
-    IslandSurveyOptions survey;
-    survey.threads = options.threads;
-    survey.cancel = &cancel;
-    survey.on_progress = [&](const Progress& progress) { display.show(progress); };
-    drop_islands(recipe, built, survey);
-    display.finish();
-    if (!options.quiet) std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
-}
-
-void repair(const Recipe& recipe, BuiltJob& built, const JobOptions& options, const CancelToken& cancel) {
-    if (!recipe.repair) return;
-    ProgressDisplay display(options.quiet, "survey for repairs: ");
-    RepairOptions repairs;
-    repairs.threads = options.threads;
-    repairs.cancel = &cancel;
-    repairs.on_progress = [&](const Progress& progress) { display.show(progress); };
-    repair_job(recipe, built, repairs);
-    display.finish();
-    if (!options.quiet) std::fputs(("repairs:\n" + repairs_text(*built.repairs)).c_str(), stderr);
 }
 
 /// The recipes of what stands beside the part, with its machine, layers and supports.
@@ -69,17 +46,33 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
     std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
     for (const Recipe& other : others) {
         BuiltJob beside = build_job(other);
-        if (other.foam && other.foam->drop_islands) survey(other, beside, options, cancel);
-        repair(other, beside, options, cancel);
-        add_supports_with_progress(other, beside, {options.plans, options.threads, {}, &cancel},
-                                   options.quiet);
-        add_shield(other, beside.job, {options.threads, &cancel});
+        finish_with_progress(other, beside, options, cancel);
         items.push_back({beside.job, other.plate.copies});
     }
     built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
 }
 
 }  // namespace
+
+Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
+                                  const CancelToken& cancel) {
+    std::optional<ProgressDisplay> display;
+    std::string shown;
+    const auto show = [&](const std::string& what, const Progress& progress) {
+        if (what != shown) display.emplace(options.quiet, "survey for " + what + ": ");
+        shown = what;
+        display->show(progress);
+    };
+    Surroundings around = finish_job(recipe, built, {options.plans, options.threads, show, &cancel});
+    display.reset();
+    if (options.quiet) return around;
+    if (built.islands && recipe.foam && recipe.foam->drop_islands)
+        std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
+    if (built.repairs) std::fputs(("repairs:\n" + repairs_text(*built.repairs)).c_str(), stderr);
+    if (around.supports) std::fputs(("supports: " + supports_text(*around.supports)).c_str(), stderr);
+    if (around.shield) std::fputs(("shield: " + shield_text(*around.shield) + "\n").c_str(), stderr);
+    return around;
+}
 
 std::string resuming(const std::vector<std::string>& arguments) {
     std::string line = "lamella";
@@ -117,14 +110,8 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     std::vector<Recipe> others = read_beside(options, recipe);
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
-    if (recipe.foam && recipe.foam->drop_islands) survey(recipe, built, options, cancel);
-    repair(recipe, built, options, cancel);
-    const auto supports = add_supports_with_progress(
-        recipe, built, {options.plans, options.threads, {}, &cancel}, options.quiet);
-    if (supports && !options.quiet) std::fputs(("supports: " + supports_text(*supports)).c_str(), stderr);
-    const auto shield = add_shield(recipe, built.job, {options.threads, &cancel});
-    if (shield && !options.quiet) std::fputs(("shield: " + shield_text(*shield) + "\n").c_str(), stderr);
-    add_picture(recipe, built, supports, options.threads);
+    const Surroundings around = finish_with_progress(recipe, built, options, cancel);
+    add_picture(recipe, built, around.supports, options.threads);
     if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layer_count);

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/build_job.h"
 #include "app/recipe_options.h"
-#include "app/support_plan.h"
 #include "engine/layer_stream.h"
+#include "recipe/build_job.h"
+#include "recipe/finish_job.h"
 
 namespace lamella {
 
@@ -36,6 +36,11 @@ struct PreparedJob {
 /// Builds the job of a recipe with all that stands beside it, and says on standard error what a user should
 /// know of it. Throws InputError for what cannot be made, Interrupted when cancelled.
 PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel);
+
+/// Finishes a built job, with the progress of its surveys and what they led to on standard error unless
+/// quiet.
+Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
+                                  const CancelToken& cancel);
 
 /// The command line that continues this run.
 std::string resuming(const std::vector<std::string>& arguments);

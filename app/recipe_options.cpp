@@ -3,24 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 
-#include "app/recipe_draft.h"
-#include "app/recipe_formulas.h"
-#include "app/settings.h"
+#include "recipe/read_recipe.h"
+#include "recipe/recipe_formulas.h"
+#include "recipe/settings.h"
 
 namespace lamella {
 
 namespace {
-
-bool names_recipe(std::string_view path) {
-    if (path.size() < 5) return false;
-    std::string ending(path.substr(path.size() - 5));
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return ending == ".toml";
-}
 
 std::string value_hint(const Setting& setting) {
     switch (setting.type) {
@@ -55,14 +46,6 @@ std::string value_hint(const Setting& setting) {
 std::string option_help(const Setting& setting) {
     return fmt::format("{} Accepts {}; default: {}. Recipe key: {}", setting.help, accepted(setting),
                        setting.fallback, setting.name());
-}
-
-void read_input(RecipeDraft& draft, const std::string& input) {
-    if (names_recipe(input)) {
-        draft.read_file(input);
-    } else if (!input.empty()) {
-        draft.assign_flag(*find_setting("part", "mesh"), input);
-    }
 }
 
 }  // namespace
@@ -101,26 +84,12 @@ Recipe RecipeOptions::read(bool needs_body) const {
 
 MachineProfiles RecipeOptions::profiles() const { return machine_profiles(profile_folder_); }
 
-Recipe read_recipe(const std::string& input, const MachineProfiles& profiles) {
-    RecipeDraft draft;
-    draft.use_profiles(profiles);
-    read_input(draft, input);
-    return draft.finish();
-}
-
 void add_profile_folder_option(CLI::App& command, std::string& folder) {
     command
         .add_option("--printers", folder,
                     "Folder of machine profiles (.toml) besides the built-in ones and those in "
                     "~/.config/lamella/printers")
         ->type_name("DIR");
-}
-
-MachineProfiles machine_profiles(const std::string& folder) {
-    MachineProfiles profiles;
-    if (const std::string users = user_profile_folder(); !users.empty()) profiles.add_folder(users, false);
-    if (!folder.empty()) profiles.add_folder(folder, true);
-    return profiles;
 }
 
 void note_unused(const RecipeOptions& options, const Recipe& recipe) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/machine_profiles.h"
-#include "app/recipe.h"
+#include "recipe/machine_profiles.h"
+#include "recipe/recipe.h"
 
 namespace lamella {
 
@@ -34,15 +34,8 @@ class RecipeOptions {
     std::vector<CLI::Option*> options_;  ///< by row of the table; null for rows without a flag
 };
 
-/// The recipe of a file, or of a model without foam and skin. Throws InputError with all mistakes at once.
-Recipe read_recipe(const std::string& input, const MachineProfiles& profiles);
-
 /// Adds --printers to a subcommand.
 void add_profile_folder_option(CLI::App& command, std::string& folder);
-
-/// The profiles that a run knows: those in `folder` (none when empty), then the user's, then the built-in
-/// ones. Throws InputError when the folder does not exist.
-MachineProfiles machine_profiles(const std::string& folder);
 
 /// Says in a line on standard error which entries of the recipe nothing uses, if there are any.
 void note_unused(const RecipeOptions& options, const Recipe& recipe);

@@ -73,6 +73,7 @@ int run_command(const std::vector<std::string>& arguments) {
             "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
             "130 interrupted.");
         add_slice_command(root, arguments);
+        add_join_command(root, arguments);
         add_print_command(root, arguments);
         add_ports_command(root);
         add_preview_command(root);
@@ -82,6 +83,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_dump_command(root);
         add_supports_command(root);
         add_check_command(root);
+        add_serve_command(root);
         add_homogenize_command(root);
         add_printers_command(root);
         add_materials_command(root);

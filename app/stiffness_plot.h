@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/foam_stiffness.h"
+#include "recipe/foam_stiffness.h"
 
 namespace lamella {
 

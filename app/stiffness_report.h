@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/foam_stiffness.h"
+#include "recipe/foam_stiffness.h"
 
 namespace lamella {
 

@@ -40,8 +40,12 @@ void TextOutput::write(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("written");
 }
 
-void TextOutput::close() {
+void TextOutput::flush() {
     if (std::fflush(file_) != 0) fail("written");
+}
+
+void TextOutput::close() {
+    flush();
     if (path_.empty()) return;
     std::FILE* file = file_;
     file_ = nullptr;

@@ -28,6 +28,8 @@ class TextOutput {
 
     /// Throws ReaderGone on a closed pipe, FaultError when the disk is full.
     void write(std::string_view bytes);
+    /// Hands over what was written so far.
+    void flush();
     void close();
     bool to_terminal() const;
 

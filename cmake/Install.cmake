@@ -1,10 +1,27 @@
-foreach(folder engine procedural printers)
+foreach(folder engine procedural printers recipe)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lamella
             FILES_MATCHING PATTERN "*.h")
 endforeach()
-install(TARGETS lamella lamella_engine lamella_procedural lamella_printers EXPORT lamella_targets
+install(TARGETS lamella lamella_engine lamella_procedural lamella_printers lamella_recipe EXPORT lamella_targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS lamella_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lamella)
+if(TARGET lamella_mpi)
+    install(TARGETS lamella_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lamella)
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/lamella.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS lamella_c EXPORT lamella_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# Where things go is known when they are installed: --prefix may say otherwise than the build did.
+set(lamella_pc_input ${PROJECT_SOURCE_DIR}/cmake/lamella.pc.in)
+install(CODE "
+    set(PROJECT_VERSION ${PROJECT_VERSION})
+    set(CMAKE_INSTALL_FULL_INCLUDEDIR \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR})
+    set(CMAKE_INSTALL_FULL_LIBDIR \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR})
+    configure_file(${lamella_pc_input} ${PROJECT_BINARY_DIR}/lamella.pc @ONLY)")
+install(FILES ${PROJECT_BINARY_DIR}/lamella.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+set(LAMELLA_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package is installed to")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/python/lamella DESTINATION ${LAMELLA_PYTHON_FOLDER}
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed")
 install(EXPORT lamella_targets NAMESPACE lamella:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)
 configure_package_config_file(cmake/lamellaConfig.cmake.in ${PROJECT_BINARY_DIR}/lamellaConfig.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)
@@ -12,6 +29,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lamellaConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/lamellaConfig.cmake ${PROJECT_BINARY_DIR}/lamellaConfigVersion.cmake
               cmake/Dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)
-if(TARGET lamella_command)
-    install(TARGETS lamella_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+install(TARGETS lamella_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

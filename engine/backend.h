@@ -7,15 +7,23 @@
 #include <vector>
 
 #include "engine/layer.h"
+#include "engine/parcel.h"
 
 namespace lamella {
 
 /// What a back-end made of one layer, ready to be written. Back-ends derive their own payload.
 struct LayerProduct {
     virtual ~LayerProduct() = default;
+    /// Packs or unpacks what is written of the layer, the areas not included.
+    virtual void carry(Parcel& /*parcel*/) { throw FaultError("what was made of a layer cannot be carried"); }
+
     double area = 0;          ///< solid area of the layer's part, mm^2
     double support_area = 0;  ///< of its supports, mm^2
 };
+
+/// A product as bytes for another process, and back.
+std::string pack(LayerProduct& product);
+void unpack(std::string bytes, LayerProduct& product);
 
 /// The range of layers a run makes: [first, last).
 struct LayerRange {
@@ -36,6 +44,9 @@ class Backend {
     virtual int begin(const Job& job, LayerRange range, bool resume) = 0;
     /// Computes what will be written of a layer. Thread-safe, pure.
     virtual std::unique_ptr<LayerProduct> render(const Layer& layer) const = 0;
+    /// An empty product, to unpack into what `render` of another process packed. Null where layers cannot be
+    /// carried.
+    virtual std::unique_ptr<LayerProduct> empty_product() const { return nullptr; }
     /// Writes one layer. Throws FaultError when that fails.
     virtual void write(const Layer& layer, LayerProduct& product) = 0;
     /// Completes the output and gives it its final name.

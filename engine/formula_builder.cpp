@@ -40,6 +40,11 @@ const double* FormulaBuilder::value_of(Node node) const {
     return i.op == FormulaOp::constant ? &constants_[i.a] : nullptr;
 }
 
+std::optional<double> FormulaBuilder::number_of(Node node) const {
+    const double* const value = value_of(node);
+    return value == nullptr ? std::nullopt : std::optional(*value);
+}
+
 FormulaBuilder::Node FormulaBuilder::input(int number) {
     if (number < 0 || number >= most_inputs)
         throw InputError("a formula has at most " + std::to_string(most_inputs) + " inputs");

@@ -1,6 +1,7 @@
 // FormulaBuilder: makes formulas from operations; equal parts are made once and constant parts worked out.
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 
 #include "engine/formula.h"
@@ -27,6 +28,8 @@ class FormulaBuilder {
     Node select(Node condition, Node yes, Node no);
     /// The result of a formula that is part of this one; its inputs keep their numbers.
     Node include(const Formula& formula);
+    /// The number of a node that is constant.
+    std::optional<double> number_of(Node node) const;
     /// The formula whose number is `result`, less what it does not use. The builder may go on.
     Formula finish(Node result) const;
 

@@ -186,6 +186,12 @@ Range equal_to(const Range& a, const Range& b) {
     return points ? Range{{1, 1}, false} : zero_or_one;
 }
 
+/// Whether a number equals itself: it is not NaN.
+Range is_itself(const Range& a) {
+    if (a.values.empty()) return {{0, 0}, false};
+    return a.maybe_nan ? zero_or_one : Range{{1, 1}, false};
+}
+
 Range three_way(const Interval& x, const Interval& y, bool nan) {
     const bool less = x.lo < y.hi, greater = y.lo < x.hi;
     const bool equal = x.lo <= y.hi && y.lo <= x.hi;
@@ -361,6 +367,8 @@ bool interval_run(std::span<const FormulaInstruction> instructions, std::span<co
             ranges[i] = std::isnan(v) ? nothing : Range{{v, v}, false};
         } else if (arity(step.op) == 1) {
             ranges[i] = interval_apply(step.op, ranges[step.a]);
+        } else if (step.op == FormulaOp::equal && step.a == step.b) {
+            ranges[i] = is_itself(ranges[step.a]);
         } else if (arity(step.op) == 2) {
             if (!plain_apply(step.op, ranges[step.a], ranges[step.b], ranges[i], choice))
                 ranges[i] = interval_apply(step.op, ranges[step.a], ranges[step.b], choice);

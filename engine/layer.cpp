@@ -19,12 +19,7 @@ int count_layers(double part_height, double h) {
 }
 
 Layer::Layer(const Job& job, int index)
-    : job_(&job),
-      index_(index),
-      z_(job.plane(index)),
-      thickness_(job.layer_height),
-      part_(&context_.slice(*job.part, z_)),
-      supports_(job.supports ? &context_.slice(*job.supports, z_) : nullptr) {}
+    : job_(&job), index_(index), z_(job.plane(index)), thickness_(job.layer_height) {}
 
 const SliceField& Layer::part_at(double share) const { return context_.slice(*job_->part, height_of(share)); }
 

@@ -45,24 +45,26 @@ class Layer {
     double thickness() const { return thickness_; }  ///< mm
     /// Height of the layer's top over the build plate, mm.
     double top() const { return (index_ + 1) * thickness_; }
-    const SliceField& part() const { return *part_; }
+    /// Cut when it is first asked for.
+    const SliceField& part() const { return part_at(middle); }
     /// Null where the job has no supports.
-    const SliceField* supports() const { return supports_; }
+    const SliceField* supports() const { return supports_at(middle); }
     /// Both cut elsewhere within the layer, at a share of its thickness: 0 its lower side, 1 its upper one.
     const SliceField& part_at(double share) const;
     const SliceField* supports_at(double share) const;
 
-    void spans(const RowBand& band, SpanRows& out) const { part_->spans(band, scratch_, out); }
+    void spans(const RowBand& band, SpanRows& out) const { part().spans(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
-        return trace_contours(*part_, tolerance, scratch_);
+        return trace_contours(part(), tolerance, scratch_);
     }
     /// Empty where there are no supports.
     std::vector<Contour> support_contours(double tolerance) const {
-        return supports_ ? trace_contours(*supports_, tolerance, scratch_) : std::vector<Contour>();
+        return supports() ? trace_contours(*supports(), tolerance, scratch_) : std::vector<Contour>();
     }
 
   private:
-    double height_of(double share) const { return z_ + (share - 0.5) * thickness_; }
+    static constexpr double middle = 0.5;
+    double height_of(double share) const { return z_ + (share - middle) * thickness_; }
 
     const Job* job_;
     int index_;
@@ -70,8 +72,6 @@ class Layer {
     double thickness_;
     mutable SliceContext context_;
     mutable Scratch scratch_;
-    const SliceField* part_;
-    const SliceField* supports_;
 };
 
 }  // namespace lamella

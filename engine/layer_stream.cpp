@@ -43,6 +43,20 @@ void check_range(const Job& job, const LayerRange& range) {
 
 }  // namespace
 
+std::string pack(LayerProduct& product) {
+    Parcel parcel;
+    parcel(product.area, product.support_area);
+    product.carry(parcel);
+    return parcel.bytes();
+}
+
+void unpack(std::string bytes, LayerProduct& product) {
+    Parcel parcel(std::move(bytes));
+    parcel(product.area, product.support_area);
+    product.carry(parcel);
+    parcel.finish();
+}
+
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options) {
     namespace tbb = oneapi::tbb;
     check_range(job, options.range);
@@ -65,6 +79,7 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
         return slots[static_cast<std::size_t>(index) % slots.size()];
     };
     int next = start;
+    bool stopped = false;
     const auto issue = [&](tbb::flow_control& control) -> int {
         const std::lock_guard lock(in_order);
         if (next >= options.range.last || cancelled()) {
@@ -76,6 +91,7 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     const auto render = [&](int index) {
         Slot& slot = slot_of(index);
         const std::lock_guard lock(slot.busy);
+        if (cancelled()) return index;  // nobody waits for what is not begun yet
         slot.layer.emplace(job, index);
         slot.product = backend.render(*slot.layer);
         return index;
@@ -83,6 +99,12 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     const auto write = [&](int index) {
         Slot& slot = slot_of(index);
         const std::lock_guard lock(slot.busy);
+        stopped = stopped || !slot.product;
+        if (stopped) {  // what comes behind a layer that is missing cannot be written
+            slot.product.reset();
+            slot.layer.reset();
+            return;
+        }
         backend.write(*slot.layer, *slot.product);
         ++report.layers_written;
         report.volume += slot.product->area * slot.layer->thickness();
@@ -107,7 +129,7 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
                                    tbb::make_filter<int, int>(tbb::filter_mode::parallel, render) &
                                    tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order, write));
     });
-    if (cancelled() && next < options.range.last) {
+    if (cancelled() && (stopped || next < options.range.last)) {
         throw Interrupted("stopped after " + std::to_string(report.layers_kept + report.layers_written) +
                           " of " + std::to_string(options.range.count()) + " layers");
     }

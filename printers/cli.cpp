@@ -95,6 +95,8 @@ class CliText {
 };
 
 struct CliProduct : LayerProduct {
+    void carry(Parcel& parcel) override { parcel(commands); }
+
     std::string commands;
 };
 
@@ -127,6 +129,8 @@ class Cli : public Backend {
         product->commands = text.take();
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<CliProduct>(); }
 
     void write(const Layer& layer, LayerProduct& product) override {
         output_.commit(dynamic_cast<CliProduct&>(product).commands, layer.index() + 1);

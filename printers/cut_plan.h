@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/layer.h"
+#include "engine/parcel.h"
 #include "printers/profile.h"
 #include "printers/sheet.h"
 
@@ -11,6 +12,10 @@ namespace lamella {
 
 /// The paths of a layer and what became of it on the way.
 struct CutPlan {
+    void carry(Parcel& parcel) {
+        parcel(paths, extent, area, pieces, closed_holes, merged_pieces, unnumbered);
+    }
+
     std::vector<SheetPath> paths;  ///< in the part's coordinates, mm; ordered as they are to be done
     Rect extent;                   ///< of all paths, mm; empty for an empty layer
     double area = 0;               ///< of the layer's section, untouched by ties and kerf, mm^2

@@ -18,6 +18,8 @@ namespace lamella {
 namespace {
 
 struct CutProduct : LayerProduct {
+    void carry(Parcel& parcel) override { plan.carry(parcel); }
+
     CutPlan plan;
 };
 
@@ -73,6 +75,8 @@ class CutBackend : public Backend {
         product->area = product->plan.area;
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<CutProduct>(); }
 
     std::vector<std::string> notes() const override { return notes_.texts(profile_.cutting); }
 

@@ -64,6 +64,8 @@ class Ember : public Backend {
         return mask;
     }
 
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<MaskFile>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         const auto& piece = dynamic_cast<MaskFile&>(product).file;
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text for the archive

@@ -36,6 +36,10 @@ double reach_beside(const PrinterProfile& profile, double layer_height) {
 }
 
 struct GcodeProduct : LayerProduct {
+    void carry(Parcel& parcel) override {
+        parcel(text, first, last, trail, filament, support_filament, slowed, seconds, islands_left_out);
+    }
+
     std::string text;  ///< from the first bead on; empty for an empty layer
     dvec2 first{0};    ///< on the bed, mm
     dvec2 last{0};
@@ -100,6 +104,8 @@ class Gcode : public Backend {
         if (!paths.beads.empty()) lay(paths, layer, *product);
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<GcodeProduct>(); }
 
     void write(const Layer& layer, LayerProduct& any) override {
         const auto& product = dynamic_cast<GcodeProduct&>(any);

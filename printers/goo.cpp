@@ -83,6 +83,8 @@ class Goo : public Backend {
         return product;
     }
 
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<MaskFile>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         const auto& code = dynamic_cast<MaskFile&>(product).file;
         volume_ += (product.area + product.support_area) * layer.thickness();

@@ -21,6 +21,11 @@ namespace lamella {
 namespace {
 
 struct LaserProduct : LayerProduct {
+    void carry(Parcel& parcel) override {
+        plan.carry(parcel);
+        parcel(text, seconds, length, slowed);
+    }
+
     CutPlan plan;
     std::string text;  ///< empty for an empty layer
     std::vector<double> seconds;
@@ -161,6 +166,8 @@ class LaserGcode : public Backend {
         product->text = writer.text();
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<LaserProduct>(); }
 
     void write(const Layer& layer, LayerProduct& any) override {
         const auto& product = dynamic_cast<LaserProduct&>(any);

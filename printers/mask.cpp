@@ -209,6 +209,18 @@ std::vector<double> shares_of(const ImageProfile& profile) {
     return shares;
 }
 
+/// The layer's solid in the planes whose masks are averaged; none for supports that are not there.
+std::vector<const SliceField*> planes_of(const Layer& layer, MaskedSolid which, const ImageProfile& profile) {
+    const bool part = which == MaskedSolid::part;
+    std::vector<const SliceField*> planes;
+    if (!part && layer.supports() == nullptr) return planes;
+    // The plane that contours and checks use is the layer's own one, not one that is equal to it.
+    if (profile.sub_layers == 1) return {part ? &layer.part() : layer.supports()};
+    for (const double share : shares_of(profile))
+        planes.push_back(part ? &layer.part_at(share) : layer.supports_at(share));
+    return planes;
+}
+
 }  // namespace
 
 dvec2 display_room(const ImageProfile& profile) {
@@ -266,15 +278,8 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
 
 MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
                     double support_grey, const BandSink& sink) {
-    std::vector<const SliceField*> part_planes, support_planes;
-    for (const double share : shares_of(profile)) {
-        // The plane that contours and checks use is the layer's own one, not one that is equal to it.
-        const bool own = profile.sub_layers == 1;
-        part_planes.push_back(own ? &layer.part() : &layer.part_at(share));
-        if (layer.supports() != nullptr)
-            support_planes.push_back(own ? layer.supports() : layer.supports_at(share));
-    }
-    SolidMask part(part_planes, layout, profile);
+    SolidMask part(planes_of(layer, MaskedSolid::part, profile), layout, profile);
+    const auto support_planes = planes_of(layer, MaskedSolid::supports, profile);
     std::optional<SolidMask> supports;
     if (!support_planes.empty()) supports.emplace(support_planes, layout, profile);
     const GreyTable of_part = grey_table(profile, 1), of_supports = grey_table(profile, support_grey);
@@ -299,6 +304,21 @@ MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImagePro
     }
     const double pixel = layout.column_pitch() * layout.row_pitch();
     return {part.pixels() * pixel, supports ? supports->pixels() * pixel : 0};
+}
+
+double mask_solid(const Layer& layer, MaskedSolid which, const MaskLayout& layout,
+                  const ImageProfile& profile, const BandSink& sink) {
+    SolidMask solid(planes_of(layer, which, profile), layout, profile);
+    const GreyTable greys = grey_table(profile, 1);
+    std::vector<GreyRun> runs, spare;
+    for (int row = 0; row < layout.height(); row += png_band_rows) {
+        const int count = std::min(png_band_rows, layout.height() - row);
+        runs.clear();
+        solid.add_rows(row, count, runs);
+        apply(greys, layout.width(), runs, spare);
+        sink(runs, count);
+    }
+    return solid.pixels() * layout.column_pitch() * layout.row_pitch();
 }
 
 }  // namespace lamella

@@ -55,4 +55,12 @@ struct MaskArea {
 MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
                     double support_grey, const BandSink& sink);
 
+/// One of the two solids of a layer.
+enum class MaskedSolid : unsigned char { part, supports };
+
+/// The same for one solid alone, not dimmed; the supports only where the layer has some. Returns its area,
+/// mm^2.
+double mask_solid(const Layer& layer, MaskedSolid which, const MaskLayout& layout,
+                  const ImageProfile& profile, const BandSink& sink);
+
 }  // namespace lamella

@@ -24,6 +24,11 @@ using Json = nlohmann::ordered_json;
 constexpr int most_layers = 100'000;
 
 struct NanoMask : MaskFile {
+    void carry(Parcel& parcel) override {
+        MaskFile::carry(parcel);
+        parcel(figures);
+    }
+
     LayerFigures figures;
 };
 
@@ -112,6 +117,8 @@ class NanoDlp : public Backend {
         mask->figures = areas.figures();
         return mask;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<NanoMask>(); }
 
     void write(const Layer& layer, LayerProduct& product) override {
         const auto& mask = dynamic_cast<NanoMask&>(product);

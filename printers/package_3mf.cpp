@@ -1,9 +1,13 @@
-// Characters of XML.
+// Boxes, and characters of XML.
 #include "printers/package_3mf.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "engine/number_format.h"
 
 namespace lamella {
 namespace {
@@ -26,6 +30,24 @@ std::size_t character_length(std::string_view text) {
 }
 
 }  // namespace
+
+std::string box_mesh(const Box& box, int plane_decimals, int height_decimals) {
+    std::string text = "<mesh>\n<vertices>\n";
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        text += fmt::format("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n",
+                            format_number(corner & 1U ? box.hi.x : box.lo.x, plane_decimals),
+                            format_number(corner & 2U ? box.hi.y : box.lo.y, plane_decimals),
+                            format_number(corner & 4U ? box.hi.z : box.lo.z, height_decimals));
+    }
+    text += "</vertices>\n<triangles>\n";
+    // Corners are numbered by their sides: 1 for the far one in x, 2 in y, 4 in z.
+    for (const char* triangle :
+         {"023", "031", "457", "476", "015", "054", "267", "273", "046", "062", "137", "175"}) {
+        text +=
+            fmt::format("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", triangle[0], triangle[1], triangle[2]);
+    }
+    return text + "</triangles>\n</mesh>\n";
+}
 
 std::string xml_attribute(std::string_view text) {
     std::string out;

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/geometry.h"
+
 namespace lamella {
 
 /// [Content_Types].xml
@@ -20,6 +22,18 @@ inline constexpr std::string_view package_relationships =
     "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
     "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
     "</Relationships>\n";
+
+/// The same of a package with PNG images.
+inline constexpr std::string_view package_content_types_with_png =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+    "<Default Extension=\"png\" ContentType=\"image/png\"/>\n"
+    "</Types>\n";
+
+/// A box as a <mesh> of 12 triangles, its coordinates with so many decimals in the plane and along z.
+std::string box_mesh(const Box& box, int plane_decimals, int height_decimals);
 
 /// The text as the value of an XML attribute: what no attribute can hold is left out.
 std::string xml_attribute(std::string_view text);

@@ -13,6 +13,8 @@
 namespace lamella {
 
 struct MaskFile : LayerProduct {
+    void carry(Parcel& parcel) override { parcel(file); }
+
     std::vector<std::byte> file;
 };
 

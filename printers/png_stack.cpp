@@ -38,6 +38,8 @@ class PngStack : public Backend {
         return product;
     }
 
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<MaskFile>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         output_.write(layer.index(), dynamic_cast<MaskFile&>(product).file, product);
     }

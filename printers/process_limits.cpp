@@ -131,7 +131,7 @@ Process process_of(const PrinterProfile& profile) {
     if (backend == "gcode") {
         return profile.gcode.flavour == Flavour::grbl ? Process::cutting : Process::filament;
     }
-    if (backend == "cli" || backend == "3mf") return Process::powder;
+    if (backend == "cli" || backend == "3mf" || backend == "image3d") return Process::powder;
     const bool slices = backend == "svg" && profile.cutting.dialect == SvgDialect::slic3r;
     if (backend == "dxf" || (backend == "svg" && !slices)) return Process::cutting;
     return Process::resin;

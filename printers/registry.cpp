@@ -12,6 +12,7 @@
 #include "printers/ember.h"
 #include "printers/gcode.h"
 #include "printers/goo.h"
+#include "printers/image3d.h"
 #include "printers/mask.h"
 #include "printers/nanodlp.h"
 #include "printers/png_stack.h"
@@ -49,6 +50,9 @@ constexpr std::array backend_table = {
                 make_slice_3mf, Medium::contours, true,
                 "programs that do not know 3MF slices show a plain box instead of the part, most of them "
                 "without a word"},
+    BackendInfo{"image3d", "grey sheets as an image stack in a 3MF package, for programs that read volumes",
+                ".3mf", OutputKind::file, make_image3d, Medium::voxels, true,
+                "programs that do not know 3MF volumes refuse the file or show a plain box"},
 };
 
 /// Edits (insertions, deletions, replacements) that turn one word into the other (Levenshtein 1966).

@@ -14,8 +14,8 @@ namespace lamella {
 /// What a back-end leaves behind.
 enum class OutputKind : unsigned char { file, folder, file_or_folder };
 
-/// What a back-end makes of a layer.
-enum class Medium : unsigned char { pixels, contours, beads };
+/// What a back-end makes of a layer: pixels of a display, those of a grid about the part, contours or beads.
+enum class Medium : unsigned char { pixels, voxels, contours, beads };
 
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend

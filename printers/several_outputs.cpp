@@ -8,6 +8,22 @@ namespace {
 
 /// Null where a back-end has the layer already.
 struct Products : LayerProduct {
+    explicit Products(const std::vector<std::unique_ptr<Backend>>& to) : outputs(to) {}
+
+    void carry(Parcel& parcel) override {
+        each.resize(outputs.size());
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            bool is_there = each[i] != nullptr;
+            parcel(is_there);
+            if (!is_there) continue;
+            if (!each[i]) each[i] = outputs[i]->empty_product();
+            if (!each[i]) throw FaultError("what was made of a layer cannot be carried");
+            parcel(each[i]->area, each[i]->support_area);
+            each[i]->carry(parcel);
+        }
+    }
+
+    const std::vector<std::unique_ptr<Backend>>& outputs;
     std::vector<std::unique_ptr<LayerProduct>> each;
 };
 
@@ -22,7 +38,7 @@ class SeveralOutputs : public Backend {
     }
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
-        auto products = std::make_unique<Products>();
+        auto products = std::make_unique<Products>(outputs_);
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
             auto product = layer.index() < next_[i] ? nullptr : outputs_[i]->render(layer);
             if (product && products->area == 0) {
@@ -34,10 +50,14 @@ class SeveralOutputs : public Backend {
         return products;
     }
 
+    std::unique_ptr<LayerProduct> empty_product() const override {
+        return std::make_unique<Products>(outputs_);
+    }
+
     void write(const Layer& layer, LayerProduct& product) override {
         const auto& products = dynamic_cast<Products&>(product).each;
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
-            if (products[i]) outputs_[i]->write(layer, *products[i]);
+            if (products[i] && layer.index() >= next_[i]) outputs_[i]->write(layer, *products[i]);
         }
     }
 

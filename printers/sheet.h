@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/geometry.h"
+#include "engine/parcel.h"
 
 namespace lamella {
 
@@ -18,6 +19,8 @@ enum class CutPurpose : unsigned char {
 inline constexpr int cut_purposes = 4;
 
 struct SheetPath {
+    void carry(Parcel& parcel) { parcel(purpose, layer, closed, points); }
+
     CutPurpose purpose = CutPurpose::outer;
     int layer = 0;
     bool closed = true;         ///< without a repeated last point

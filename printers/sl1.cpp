@@ -89,6 +89,8 @@ class Sl1 : public Backend {
         return render_png_mask(layer, *layout_, profile_);
     }
 
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<MaskFile>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         const auto& file = dynamic_cast<MaskFile&>(product).file;
         volume_ += (product.area + product.support_area) * layer.thickness();

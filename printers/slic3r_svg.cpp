@@ -12,6 +12,8 @@ namespace lamella {
 namespace {
 
 struct SliceProduct : LayerProduct {
+    void carry(Parcel& parcel) override { parcel(polygons); }
+
     std::string polygons;
 };
 
@@ -65,6 +67,8 @@ class Slic3rSvg : public Backend {
         }
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<SliceProduct>(); }
 
     void write(const Layer& layer, LayerProduct& product) override {
         output_.commit(

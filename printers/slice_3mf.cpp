@@ -59,6 +59,10 @@ std::string slice_text(double top, const std::vector<GridPolygon>& polygons) {
 }
 
 struct SliceProduct : LayerProduct {
+    void carry(Parcel& parcel) override {
+        parcel(part.bytes, part.size, part.crc, supports.bytes, supports.size, supports.crc);
+    }
+
     DeflatedPiece part;
     DeflatedPiece supports;  ///< empty for a job without
 };
@@ -108,6 +112,8 @@ class Slice3mf : public Backend {
         product->supports = deflate_piece(slice_text(layer.top(), on_grid(supports)));
         return product;
     }
+
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<SliceProduct>(); }
 
     void write(const Layer& layer, LayerProduct& product) override {
         auto& slice = dynamic_cast<SliceProduct&>(product);
@@ -180,26 +186,14 @@ class Slice3mf : public Backend {
 
     /// The box around the job as a mesh that stands in for the slices.
     std::string object(int id, const char* type, int stack_id, const std::string& name) const {
-        const auto number = [](double v) { return format_number(v, grid_decimals); };
-        std::string text = fmt::format(
-            "<object id=\"{}\" type=\"{}\" name=\"{}\" s:slicestackid=\"{}\" "
-            "s:meshresolution=\"lowres\">\n<mesh>\n<vertices>\n",
-            id, type, xml_attribute(name), stack_id);
         const double top = range_.last * layer_height_;
-        for (unsigned corner = 0; corner < 8; ++corner) {
-            text += fmt::format("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n",
-                                number(corner & 1U ? bounds_.hi.x : bounds_.lo.x),
-                                number(corner & 2U ? bounds_.hi.y : bounds_.lo.y),
-                                format_number(corner & 4U ? top : bottom(), height_decimals));
-        }
-        text += "</vertices>\n<triangles>\n";
-        // Corners are numbered by their sides: 1 for the far one in x, 2 in y, 4 in z.
-        for (const char* triangle :
-             {"023", "031", "457", "476", "015", "054", "267", "273", "046", "062", "137", "175"}) {
-            text += fmt::format("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", triangle[0], triangle[1],
-                                triangle[2]);
-        }
-        return text + "</triangles>\n</mesh>\n</object>\n";
+        return fmt::format(
+                   "<object id=\"{}\" type=\"{}\" name=\"{}\" s:slicestackid=\"{}\" "
+                   "s:meshresolution=\"lowres\">\n",
+                   id, type, xml_attribute(name), stack_id) +
+               box_mesh({{bounds_.lo.x, bounds_.lo.y, bottom()}, {bounds_.hi.x, bounds_.hi.y, top}},
+                        grid_decimals, height_decimals) +
+               "</object>\n";
     }
 
     std::string item(int id) const {

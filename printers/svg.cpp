@@ -20,6 +20,8 @@ namespace lamella {
 namespace {
 
 struct SvgProduct : LayerProduct {
+    void carry(Parcel& parcel) override { parcel(path, supports); }
+
     std::string path;      ///< path data; empty for an empty layer
     std::string supports;  ///< the same of what holds the part
 };
@@ -133,6 +135,8 @@ class SvgFile : public Svg {
         if (!output_.resumed()) output_.commit(svg_start({page().width, page().height}), next);
         return next;
     }
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<SvgProduct>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         output_.commit(group(layer, dynamic_cast<SvgProduct&>(product), filled), layer.index() + 1);
     }
@@ -157,6 +161,8 @@ class SvgFolder : public Svg {
         description_["tolerance"] = profile().vector.tolerance;
         return output_.begin(stamp, resume);
     }
+    std::unique_ptr<LayerProduct> empty_product() const override { return std::make_unique<SvgProduct>(); }
+
     void write(const Layer& layer, LayerProduct& product) override {
         const std::string text = svg_start({page().width, page().height}) +
                                  group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;

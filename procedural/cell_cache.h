@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/geometry.h"
@@ -34,10 +35,11 @@ std::size_t hash_value(const PlaceKey& key);
 /// mm).
 ///
 /// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below that,
-/// what is kept beyond `idle` bytes is at most four times what lay near the request in z that last met a
-/// limit, so that a job that goes upwards needs no more memory the higher it gets. When a limit is reached,
-/// the values farthest in z from the last request, and among those the least recently used, go first, until
-/// three quarters are left. Values still held by callers live on until released.
+/// what is kept beyond `idle` bytes is at most twice what lay near the request in z that last met a limit, so
+/// that a job that goes upwards needs no more memory the higher it gets. Where most of what is made had just
+/// gone, as by rays that cross the part in any order, the limit doubles. When a limit is reached, the
+/// values farthest in z from the last request, and among those the least recently used, go first, until three
+/// quarters are left. Values still held by callers live on until released.
 template <typename Value>
 class CellCache {
   public:
@@ -70,6 +72,8 @@ class CellCache {
         if (!fresh) return entry->second.value;
         entry->second.value = value;
         shard.bytes += cost(*value);
+        shard.came_back += shard.gone.erase(key);
+        ++shard.made;
         if (shard.bytes > shard.limit) evict(shard);
         return value;
     }
@@ -105,9 +109,13 @@ class CellCache {
         std::size_t bytes = 0;
         std::uint64_t clock = 0;
         double wanted_z = 0;
-        std::size_t limit = 0;  ///< of bytes
+        std::size_t limit = 0;                       ///< of bytes
+        std::unordered_set<PlaceKey, KeyHash> gone;  ///< evicted of late, and not wanted since
+        std::size_t made = 0;                        ///< inserted since the last eviction
+        std::size_t came_back = 0;                   ///< of these, how many had been evicted
     };
     static constexpr std::size_t shard_count = 16;
+    static constexpr std::size_t remembered = 8;  ///< of those gone, for each that is held
     static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;  // and its node
 
     static std::size_t cost(const Value& value) { return value.bytes() + entry_bytes; }
@@ -129,16 +137,21 @@ class CellCache {
             if (distance <= z.width()) near += cost(*entry.value);
             candidates.push_back({distance, entry.used, key});
         }
-        shard.limit = std::min(shard_capacity_, std::max(shard_idle_, 4 * near));
+        const bool missed = shard.came_back > shard.made / 2;
+        const std::size_t kept = missed ? 2 * shard.limit : shard.limit / 2;
+        shard.limit = std::min(shard_capacity_, std::max({shard_idle_, 2 * near, kept}));
         if (shard.bytes <= shard.limit) return;
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
             return a.z_distance != b.z_distance ? a.z_distance > b.z_distance : a.used < b.used;
         });
+        if (shard.gone.size() > remembered * shard.entries.size()) shard.gone.clear();
+        shard.made = shard.came_back = 0;
         for (const Candidate& candidate : candidates) {
             if (shard.bytes <= shard.limit / 4 * 3) break;
             const auto entry = shard.entries.find(candidate.key);
             shard.bytes -= cost(*entry->second.value);
             shard.entries.erase(entry);
+            shard.gone.insert(candidate.key);
         }
     }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array columns{"foam",      "ratio",  "density",    "E",        "nu",     "E_low_nu",
                              "E_high_nu", "spread", "anisotropy", "elements", "samples"};
 
-/// What the material's ratio of Poisson makes of the modulus: the parabola through the three that were
+/// What the material's Poisson's ratio makes of the modulus: the parabola through the three that were
 /// computed.
 double poisson_factor(const FoamLawPoint& point, double poisson) {
     const auto weight = [&](double here, double other, double third) {
@@ -30,7 +30,7 @@ double poisson_factor(const FoamLawPoint& point, double poisson) {
 
 std::vector<FoamLawPoint> points_for(const FoamLawTable& table, double poisson) {
     if (!(poisson > -1 && poisson < 0.5))
-        throw InputError("a material's ratio of Poisson lies between -1 and 0.5");
+        throw InputError("a material's Poisson's ratio lies between -1 and 0.5");
     const std::string whose = "the law of " + table.foam + ": ";
     if (table.points.size() < 2) throw InputError(whose + "it needs two points or more");
     std::vector<FoamLawPoint> points = table.points;

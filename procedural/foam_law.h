@@ -53,7 +53,7 @@ class FoamLaw {
     FoamLawPoint at(double ratio) const;
 
   private:
-    std::vector<FoamLawPoint> points_;  // for the material's ratio of Poisson
+    std::vector<FoamLawPoint> points_;  // for the material's Poisson's ratio
     TableCurve log_ratio_;              // along the modulus' logarithm
 };
 

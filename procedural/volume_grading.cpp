@@ -3,173 +3,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <type_traits>
 
 #include "engine/error.h"
+#include "procedural/block_pyramid.h"
 
 namespace lamella {
 namespace {
-
-using Index = std::array<std::size_t, 3>;
-
-/// A span of indices along each axis, both ends included.
-struct IndexBox {
-    Index lo, hi;
-
-    std::size_t longest() const { return std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}) + 1; }
-    bool encloses(const IndexBox& other) const {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (other.lo[i] < lo[i] || hi[i] < other.hi[i]) return false;
-        }
-        return true;
-    }
-};
-
-/// Calls visit(i, j, k) for every place of a box, x fastest.
-template <class Visit>
-void for_each(const IndexBox& box, const Visit& visit) {
-    for (std::size_t k = box.lo[2]; k <= box.hi[2]; ++k) {
-        for (std::size_t j = box.lo[1]; j <= box.hi[1]; ++j) {
-            for (std::size_t i = box.lo[0]; i <= box.hi[0]; ++i) visit(i, j, k);
-        }
-    }
-}
-
-/// Least and greatest sample; a NaN is kept apart because it has no place in an order.
-template <class T>
-struct Extremes {
-    T lo, hi;
-    bool undefined = false;  ///< a NaN or an infinity is among them, between which numbers are NaN
-
-    void include(const Extremes& other) {
-        lo = std::min(lo, other.lo);
-        hi = std::max(hi, other.hi);
-        undefined = undefined || other.undefined;
-    }
-};
-
-template <class T>
-bool is_finite(T value) {
-    if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
-    return true;
-}
-
-/// Nothing yet: what every sample widens.
-template <class T>
-Extremes<T> no_extremes() {
-    if constexpr (std::is_floating_point_v<T>) return {static_cast<T>(infinity), static_cast<T>(-infinity)};
-    return {std::numeric_limits<T>::max(), std::numeric_limits<T>::lowest()};
-}
-
-template <class T>
-void include(Extremes<T>& extremes, T sample) {
-    extremes.undefined = extremes.undefined || !is_finite(sample);
-    if (sample < extremes.lo) extremes.lo = sample;
-    if (sample > extremes.hi) extremes.hi = sample;
-}
-
-/// The samples' extremes over blocks of 8 x 8 x 8, over 8 of these, and so on up to one block.
-template <class T>
-class BlockPyramid {
-  public:
-    BlockPyramid(const Index& size, const std::vector<T>& samples) : size_(size), samples_(samples) {
-        add_level(size, block_side, [this](const IndexBox& inside) { return of_samples(inside); });
-        while (levels_.back().values.size() > 1) {
-            const Level& below = levels_.back();
-            add_level(below.size, 2, [&below](const IndexBox& inside) {
-                auto extremes = no_extremes<T>();
-                for_each(inside, [&](std::size_t i, std::size_t j, std::size_t k) {
-                    extremes.include(below.at({i, j, k}));
-                });
-                return extremes;
-            });
-        }
-    }
-
-    /// Encloses the samples of a box: exact where it is a few blocks long, within a quarter of its length
-    /// beyond where it is longer.
-    Extremes<T> over(const IndexBox& box) const {
-        auto found = no_extremes<T>();
-        const std::size_t top = levels_.size() - 1;
-        std::size_t finest = 0;  // the level whose blocks are not opened any more, counted as levels below
-        for (std::size_t side = block_side * coarse; side < box.longest(); side *= 2) ++finest;
-        visit(found, box, top, {0, 0, 0}, finest);
-        return found;
-    }
-
-  private:
-    static constexpr std::size_t block_side = 8;
-    /// Boxes of this many blocks a side are looked at sample by sample at their rim.
-    static constexpr std::size_t coarse = 4;
-
-    struct Level {
-        Index size;
-        std::size_t side;  ///< of a block, in samples
-        std::vector<Extremes<T>> values;
-        const Extremes<T>& at(const Index& i) const {
-            return values[(i[2] * size[1] + i[1]) * size[0] + i[0]];
-        }
-    };
-
-    Extremes<T> of_samples(const IndexBox& inside) const {
-        auto extremes = no_extremes<T>();
-        for_each(inside, [&](std::size_t i, std::size_t j, std::size_t k) {
-            lamella::include(extremes, samples_[(k * size_[1] + j) * size_[0] + i]);
-        });
-        return extremes;
-    }
-
-    /// The places of the level below that a block of `by` places a side covers.
-    static IndexBox children(const Index& block, std::size_t by, const Index& below) {
-        IndexBox inside;
-        for (std::size_t i = 0; i < 3; ++i) {
-            inside.lo[i] = block[i] * by;
-            inside.hi[i] = std::min(inside.lo[i] + by, below[i]) - 1;
-        }
-        return inside;
-    }
-
-    template <class Summary>
-    void add_level(const Index& below, std::size_t by, const Summary& summary) {
-        Level level;
-        level.side = levels_.empty() ? block_side : levels_.back().side * 2;
-        for (std::size_t i = 0; i < 3; ++i) level.size[i] = (below[i] + by - 1) / by;
-        level.values.reserve(level.size[0] * level.size[1] * level.size[2]);
-        for_each({{0, 0, 0}, {level.size[0] - 1, level.size[1] - 1, level.size[2] - 1}},
-                 [&](std::size_t i, std::size_t j, std::size_t k) {
-                     level.values.push_back(summary(children({i, j, k}, by, below)));
-                 });
-        levels_.push_back(std::move(level));
-    }
-
-    void visit(Extremes<T>& found, const IndexBox& box, std::size_t number, const Index& block,
-               std::size_t finest) const {
-        const Level& level = levels_[number];
-        const Extremes<T>& below = level.at(block);
-        if (found.lo <= below.lo && below.hi <= found.hi && found.undefined >= below.undefined) return;
-        const IndexBox samples = children(block, level.side, size_);
-        if (number < finest || box.encloses(samples)) return found.include(below);
-        IndexBox common;
-        for (std::size_t i = 0; i < 3; ++i) {
-            common.lo[i] = std::max(box.lo[i], samples.lo[i]);
-            common.hi[i] = std::min(box.hi[i], samples.hi[i]);
-            if (common.lo[i] > common.hi[i]) return;
-        }
-        if (number == 0) return found.include(of_samples(common));
-        const std::size_t side = levels_[number - 1].side;
-        for (std::size_t i = 0; i < 3; ++i) {
-            common.lo[i] /= side;
-            common.hi[i] /= side;
-        }
-        for_each(common, [&](std::size_t i, std::size_t j, std::size_t k) {
-            visit(found, box, number - 1, {i, j, k}, finest);
-        });
-    }
-
-    Index size_;
-    const std::vector<T>& samples_;
-    std::vector<Level> levels_;
-};
 
 /// Where a coordinate lies between the centres of two neighbouring voxels.
 struct Between {
@@ -180,7 +19,7 @@ struct Between {
 template <class T>
 class VolumeGrading : public Grading {
   public:
-    VolumeGrading(const Index& size, std::vector<T> samples, double full_scale, const Box& box)
+    VolumeGrading(const VoxelIndex& size, std::vector<T> samples, double full_scale, const Box& box)
         : size_(size),
           samples_(std::move(samples)),
           full_scale_(full_scale),
@@ -194,7 +33,7 @@ class VolumeGrading : public Grading {
 
     Interval range(const Box& box) const override {
         const dvec3 lo = in_voxels(box.lo), hi = in_voxels(box.hi);
-        IndexBox touched;
+        VoxelBox touched;
         bool is_small = true;
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);
@@ -202,7 +41,7 @@ class VolumeGrading : public Grading {
             touched.hi[i] = split(hi[axis], i).upper;
             is_small = is_small && touched.hi[i] - touched.lo[i] <= most_stops;
         }
-        const Extremes<T> samples = pyramid_.over(touched);
+        const SampleExtremes<T> samples = pyramid_.over(touched);
         Interval range{static_cast<double>(samples.lo), static_cast<double>(samples.hi)};
         if (samples.undefined) return {range.lo / full_scale_, infinity};
         if (is_small) range = at_stops(lo, hi, range);
@@ -254,7 +93,7 @@ class VolumeGrading : public Grading {
     /// each axis, so it is extreme at corners.
     Interval at_stops(dvec3 lo, dvec3 hi, Interval samples) const {
         std::array<std::array<Between, most_stops + 2>, 3> stops;
-        IndexBox all{{0, 0, 0}, {0, 0, 0}};
+        VoxelBox all{{0, 0, 0}, {0, 0, 0}};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);
             stops[i][0] = split(lo[axis], i);
@@ -265,7 +104,7 @@ class VolumeGrading : public Grading {
             stops[i][++all.hi[i]] = split(hi[axis], i);
         }
         Interval range;
-        for_each(all, [&](std::size_t i, std::size_t j, std::size_t k) {
+        for_each_voxel(all, [&](std::size_t i, std::size_t j, std::size_t k) {
             const double number = interpolated({stops[0][i], stops[1][j], stops[2][k]});
             range = {std::min(range.lo, number), std::max(range.hi, number)};
         });
@@ -273,7 +112,7 @@ class VolumeGrading : public Grading {
         return {std::max(range.lo - rounding, samples.lo), std::min(range.hi + rounding, samples.hi)};
     }
 
-    Index size_;
+    VoxelIndex size_;
     std::vector<T> samples_;
     double full_scale_;
     Box box_;

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/settings.h"
 #include "printers/registry.h"
+#include "recipe/settings.h"
 #include "tests/app/command_run.h"
 
 using namespace lamella;

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "app/build_job.h"
-#include "app/recipe_draft.h"
 #include "engine/slice_context.h"
+#include "recipe/build_job.h"
+#include "recipe/recipe_draft.h"
 
 using namespace lamella;
 

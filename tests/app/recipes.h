@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "app/build_job.h"
-#include "app/recipe_draft.h"
 #include "engine/error.h"
+#include "recipe/build_job.h"
+#include "recipe/recipe_draft.h"
 #include "tests/app/mentions.h"
 
 namespace lamella {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "app/build_supports.h"
+#include "recipe/build_supports.h"
 #include "tests/app/boxes_mesh.h"
 #include "tests/app/folder.h"
 #include "tests/app/recipes.h"

@@ -1,7 +1,5 @@
 // Fuzz target: any bytes, read as a mesh file of one format and closed, end in a closed chain or an
 // InputError.
-#include <zip.h>
-
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -10,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/mesh_reader.h"
 #include "engine/mesh_repair.h"
+#include "tests/fuzz/packed_model.h"
 
 namespace {
 
@@ -27,28 +26,11 @@ bool has_no_boundary(const lamella::TriangleMesh& mesh) {
     return true;
 }
 
-/// The bytes as the model part of a 3MF package: mutations of a package itself rarely get past its checksums.
-std::string packed(const std::uint8_t* data, std::size_t size) {
-    zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, nullptr);
-    zip_source_keep(target);
-    zip_t* zip = zip_open_from_source(target, ZIP_TRUNCATE, nullptr);
-    const zip_int64_t index = zip_file_add(zip, "3D/3dmodel.model", zip_source_buffer(zip, data, size, 0), 0);
-    zip_set_file_compression(zip, static_cast<zip_uint64_t>(index), ZIP_CM_STORE, 0);
-    if (zip_close(zip) != 0 || zip_source_open(target) != 0) std::abort();
-    zip_source_seek(target, 0, SEEK_END);
-    std::string bytes(static_cast<std::size_t>(zip_source_tell(target)), '\0');
-    zip_source_seek(target, 0, SEEK_SET);
-    zip_source_read(target, bytes.data(), bytes.size());
-    zip_source_close(target);
-    zip_source_free(target);
-    return bytes;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string bytes(reinterpret_cast<const char*>(data), size);
-    if (LAMELLA_FUZZ_PACK) bytes = packed(data, size);
+    if (LAMELLA_FUZZ_PACK) bytes = lamella::packed_model(data, size);
     try {
         const lamella::MeshFile file = lamella::read_mesh(LAMELLA_FUZZ_NAME, std::as_bytes(std::span(bytes)));
         if (file.mesh.triangles.empty()) std::abort();

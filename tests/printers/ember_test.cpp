@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "app/machine_profiles.h"
 #include "engine/error.h"
+#include "recipe/machine_profiles.h"
 #include "tests/printers/resin_job.h"
 
 using namespace lamella;

@@ -3,9 +3,9 @@
 
 #include <map>
 
-#include "app/machine_profiles.h"
 #include "printers/png_stack.h"
 #include "printers/registry.h"
+#include "recipe/machine_profiles.h"
 #include "tests/printers/decode_image.h"
 #include "tests/printers/plane_solids.h"
 

@@ -54,7 +54,7 @@ TEST_CASE("a law ends where nothing was computed", "[elasticity]") {
     CHECK(std::isnan(law.ratio_of(std::numeric_limits<double>::quiet_NaN())));
 }
 
-TEST_CASE("what the material's ratio of Poisson changes is exact where it was computed", "[elasticity]") {
+TEST_CASE("what the material's Poisson's ratio changes is exact where it was computed", "[elasticity]") {
     const double middle = FoamLaw(power_law(3), law_poisson).at(0.08).young;
     CHECK(FoamLaw(power_law(3), low_poisson).at(0.08).young == Approx(0.9 * middle));
     CHECK(FoamLaw(power_law(3), high_poisson).at(0.08).young == Approx(1.1 * middle));

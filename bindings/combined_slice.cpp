@@ -1,0 +1,37 @@
+// Runs are merged exactly; values are the lesser, or the greater.
+#include "bindings/combined_slice.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/slice_context.h"
+
+namespace lamella {
+
+void CombinedSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+    const auto a = scratch.rows(), b = scratch.rows();
+    a_.spans(band, scratch, *a);
+    b_.spans(band, scratch, *b);
+    out.clear();
+    how_ == Combine::either ? unite(*a, *b, out) : intersect(*a, *b, out);
+}
+
+Interval CombinedSlice::range(const Rect& r) const {
+    const Interval a = a_.range(r), b = b_.range(r);
+    return how_ == Combine::either ? Interval{std::min(a.lo, b.lo), std::min(a.hi, b.hi)}
+                                   : Interval{std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+void CombinedSlice::sample(const Tile& tile, std::span<float> out) const {
+    std::vector<float> other(out.size());
+    a_.sample(tile, out);
+    b_.sample(tile, other);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = how_ == Combine::either ? std::min(out[i], other[i]) : std::max(out[i], other[i]);
+}
+
+Rect CombinedSlice::bounds() const {
+    return how_ == Combine::either ? unite(a_.bounds(), b_.bounds()) : intersect(a_.bounds(), b_.bounds());
+}
+
+}  // namespace lamella

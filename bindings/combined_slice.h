@@ -1,0 +1,26 @@
+// Two slices of one plane as one.
+#pragma once
+
+#include "engine/field.h"
+
+namespace lamella {
+
+/// What lies in either slice (Combine::either), or in both of them.
+enum class Combine : unsigned char { either, both };
+
+class CombinedSlice : public SliceField {
+  public:
+    CombinedSlice(const SliceField& a, const SliceField& b, Combine how) : a_(a), b_(b), how_(how) {}
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    Interval range(const Rect& r) const override;
+    void sample(const Tile& tile, std::span<float> out) const override;
+    Rect bounds() const override;
+
+  private:
+    const SliceField& a_;
+    const SliceField& b_;
+    Combine how_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,65 @@
+// What the opaque types of lamella.h are.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/context.h"
+#include "engine/contours.h"
+#include "engine/layer_stream.h"
+#include "recipe/build_job.h"
+#include "recipe/machine_profiles.h"
+#include "recipe/recipe_draft.h"
+
+struct lamella_cancel {
+    lamella::CancelToken token;
+};
+
+struct lamella_recipe {
+    lamella::RecipeDraft draft;
+    lamella::MachineProfiles profiles;
+    std::vector<std::pair<const lamella::Setting*, std::string>> set;  ///< over what the draft says
+};
+
+struct lamella_job {
+    lamella::Recipe recipe;
+    lamella::MachineProfiles profiles;
+    lamella::Job job;
+};
+
+/// A section that was opened at a height owns its slices; one of a layer lends those of the layer.
+struct lamella_section {
+    std::vector<lamella::FieldPtr> parts;  ///< what is cut, kept alive; empty for a layer's
+    std::unique_ptr<lamella::SliceContext> context;
+    lamella::Scratch scratch;
+    const lamella::SliceField* part = nullptr;
+    const lamella::SliceField* supports = nullptr;  ///< null where there are none
+    lamella_section_info info{};
+};
+
+struct lamella_runs {
+    std::vector<std::size_t> first;
+    std::vector<std::int32_t> ends;
+};
+
+struct lamella_contours {
+    std::vector<std::size_t> first;
+    std::vector<double> points;
+    std::vector<std::int32_t> parents;
+    double area = 0;
+};
+
+namespace lamella {
+
+/// Hands progress to the caller's callback, which may stop the work; empty without one.
+std::function<void(const char* what, const Progress&)> progress_to(lamella_on_progress callback, void* user);
+
+/// The section of a layer in flight.
+void lend_layer(const Layer& layer, lamella_section& section);
+
+lamella_job_info job_info(const Job& job);
+
+}  // namespace lamella

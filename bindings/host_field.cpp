@@ -1,0 +1,240 @@
+// Callbacks as fields: asked for many points at a time, a tile of the plane by the walk that finds runs.
+#include "bindings/host_field.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "bindings/context.h"
+#include "engine/mesh_field.h"
+#include "engine/mesh_repair.h"
+#include "engine/slice_context.h"
+#include "engine/tile_walk.h"
+#include "recipe/identity.h"
+
+namespace lamella {
+namespace {
+
+/// A callback for values at points.
+struct HostValues {
+    std::int32_t (*function)(void*, const double*, std::size_t, double*);
+    lamella_range enclosing;  ///< may be null
+    void* user;
+    std::string what;  ///< for messages
+
+    /// What encloses the values in a box; everything where the program does not say.
+    Interval range(const Box& box) const {
+        Interval found{-infinity, infinity};
+        if (enclosing == nullptr) return found;
+        check_callback(enclosing(user, &box.lo.x, &box.hi.x, &found.lo, &found.hi), what);
+        if (!(found.lo <= found.hi)) throw FaultError(what + " gives a range that is none");
+        return found;
+    }
+    void operator()(std::span<const dvec3> points, std::span<double> out) const {
+        static_assert(sizeof(dvec3) == 3 * sizeof(double));
+        if (!points.empty())
+            check_callback(function(user, &points.front().x, points.size(), out.data()), what);
+    }
+    double at(dvec3 p) const {
+        double value = 0;
+        (*this)({&p, 1}, {&value, 1});
+        return value;
+    }
+};
+
+class HostField : public Field {
+  public:
+    HostField(HostValues values, const Box& box, Metric metric)
+        : values_(std::move(values)), box_(box), metric_(metric) {}
+
+    double value(dvec3 p) const override { return cut(p, values_.at(p)); }
+    /// Values at many points.
+    void values(std::span<const dvec3> points, std::span<double> out) const {
+        values_(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = cut(points[i], out[i]);
+    }
+    Interval range(const Box& box) const override {
+        const Interval told = values_.range(box), known = Field::range(box);
+        // The box's faces are the greater where the solid is cut off.
+        const Interval faces = faces_range(box);
+        return {std::max({told.lo, known.lo, faces.lo}), std::min(std::max(told.hi, faces.hi), known.hi)};
+    }
+    Metric metric() const override { return metric_; }
+    const SliceField& slice(SliceContext& context, double z) const override;
+    Box bounds() const override { return box_; }
+
+  private:
+    /// Beyond the box there is nothing.
+    double cut(dvec3 p, double value) const {
+        const dvec3 beyond = glm::max(box_.lo - p, p - box_.hi);
+        const double faces = std::max({beyond.x, beyond.y, beyond.z});
+        return std::isnan(value) ? infinity : std::max(value, faces);
+    }
+    Interval faces_range(const Box& box) const {
+        const dvec3 least = glm::max(box_.lo - box.hi, box.lo - box_.hi),
+                    most = glm::max(box_.lo - box.lo, box.hi - box_.hi);
+        return {std::max({least.x, least.y, least.z}), std::max({most.x, most.y, most.z})};
+    }
+
+    HostValues values_;
+    Box box_;
+    Metric metric_;
+};
+
+class WalkedHost : public WalkedSolid {
+  public:
+    WalkedHost(const HostField& field, double z) : field_(field), z_(z) {}
+
+    Interval enter(const Rect& tile) override { return field_.range({{tile.lo, z_}, {tile.hi, z_}}); }
+    void leave() override {}
+    void values(const WalkPoints& points, std::span<double> out) override {
+        points_.clear();
+        if (points.lattice) {
+            for (const double across : points.across) {
+                for (const double along : points.along) points_.emplace_back(points.at(along, across), z_);
+            }
+        } else {
+            for (std::size_t i = 0; i < points.along.size(); ++i)
+                points_.emplace_back(points.at(points.along[i], points.across[i]), z_);
+        }
+        field_.values(points_, out);
+    }
+
+  private:
+    const HostField& field_;
+    double z_;
+    std::vector<dvec3> points_;
+};
+
+class HostSlice : public SliceField {
+  public:
+    HostSlice(const HostField& field, double z) : field_(field), z_(z) {}
+
+    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+        WalkedHost walked(field_, z_);
+        sampled_spans(walked, field_.metric(), band, out);
+    }
+    Interval range(const Rect& r) const override { return field_.range({{r.lo, z_}, {r.hi, z_}}); }
+    void sample(const Tile& tile, std::span<float> out) const override {
+        std::vector<dvec3> points;
+        points.reserve(out.size());
+        for (int j = 0; j < tile.ny; ++j) {
+            for (int i = 0; i < tile.nx; ++i) points.emplace_back(tile.origin + dvec2(i, j) * tile.step, z_);
+        }
+        std::vector<double> values(points.size());
+        field_.values(points, values);
+        for (std::size_t i = 0; i < values.size(); ++i) out[i] = static_cast<float>(values[i]);
+    }
+    Rect bounds() const override {
+        const Box box = field_.bounds();
+        return box.lo.z < z_ && z_ < box.hi.z ? box.rect() : Rect{};
+    }
+
+  private:
+    const HostField& field_;
+    double z_;
+};
+
+const SliceField& HostField::slice(SliceContext& context, double z) const {
+    return context.make<HostSlice>(*this, z);
+}
+
+class HostGrading : public Grading {
+  public:
+    HostGrading(HostValues values, Interval range) : values_(std::move(values)), range_(range) {}
+    double at(dvec3 p) const override {
+        const double value = values_.at(p);
+        if (std::isfinite(value)) return std::clamp(value, range_.lo, range_.hi);
+        throw FaultError(
+            fmt::format("{} gives no finite number at ({}, {}, {}) mm", values_.what, p.x, p.y, p.z));
+    }
+    Interval range(const Box& box) const override {
+        const Interval told = values_.range(box);
+        return {std::clamp(told.lo, range_.lo, range_.hi), std::clamp(told.hi, range_.lo, range_.hi)};
+    }
+
+  private:
+    HostValues values_;
+    Interval range_;
+};
+
+const char* known_identity(const char* identity, const char* what) {
+    if (identity == nullptr) throw BadCall(std::string(what) + ": identity is a null pointer");
+    return identity;
+}
+
+Metric metric_of(std::int32_t metric) {
+    switch (metric) {
+        case LAMELLA_SIGN:
+            return Metric::sign;
+        case LAMELLA_BOUND:
+            return Metric::bound;
+        case LAMELLA_EXACT:
+            return Metric::exact;
+        default:
+            throw BadCall(fmt::format("field: there is no metric {}", metric));
+    }
+}
+
+}  // namespace
+
+HostGiven<FieldPtr> host_field(const lamella_field& field, const std::string& name) {
+    if (field.values == nullptr) throw BadCall("field: values is a null pointer");
+    Box box;
+    box.lo = {field.lower[0], field.lower[1], field.lower[2]};
+    box.hi = {field.upper[0], field.upper[1], field.upper[2]};
+    const dvec3 size = box.size();
+    if (!(size.x > 0 && size.y > 0 && size.z > 0) || !std::isfinite(size.x + size.y + size.z))
+        throw BadCall("field: upper must lie above lower along x, y and z, both finite");
+    const std::string identity = known_identity(field.identity, "field");
+    return {std::make_shared<HostField>(HostValues{field.values, field.range, field.user,
+                                                   fmt::format("the program's field `{}`", name)},
+                                        box, metric_of(field.metric)),
+            fmt::format("{} {} {} {} {} {} {} {}", identity, field.metric, box.lo.x, box.lo.y, box.lo.z,
+                        box.hi.x, box.hi.y, box.hi.z)};
+}
+
+HostGiven<GradingPtr> host_grading(const lamella_grading& grading, const std::string& name) {
+    if (grading.values == nullptr) throw BadCall("grading: values is a null pointer");
+    if (!(grading.least <= grading.greatest) || !std::isfinite(grading.greatest - grading.least))
+        throw BadCall("grading: greatest must be at least `least`, both finite");
+    const std::string identity = known_identity(grading.identity, "grading");
+    return {std::make_shared<HostGrading>(HostValues{grading.values, grading.range, grading.user,
+                                                     fmt::format("the program's grading `{}`", name)},
+                                          Interval{grading.least, grading.greatest}),
+            fmt::format("{} {} {}", identity, grading.least, grading.greatest)};
+}
+
+HostGiven<FieldPtr> host_mesh(const lamella_mesh& given, const std::string& name) {
+    constexpr std::size_t most = std::size_t{1} << 31;
+    if (given.vertex_count == 0 || given.vertex_count > most || given.triangle_count == 0 ||
+        given.triangle_count > most)
+        throw BadCall("mesh: vertices and triangles must be from 1 to 2^31");
+    const double* vertices = &wanted(given.vertices, "mesh: vertices");
+    const std::uint32_t* triangles = &wanted(given.triangles, "mesh: triangles");
+    TriangleMesh mesh;
+    mesh.vertices.reserve(given.vertex_count);
+    Fnv128 hash;
+    for (std::size_t i = 0; i < given.vertex_count; ++i) {
+        const dvec3 p{vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]};
+        if (!std::isfinite(p.x + p.y + p.z)) throw BadCall(fmt::format("mesh: vertex {} is not finite", i));
+        mesh.vertices.push_back(p);
+        hash.add(fmt::format("{} {} {}\n", p.x, p.y, p.z));
+    }
+    mesh.triangles.reserve(given.triangle_count);
+    for (std::size_t i = 0; i < given.triangle_count; ++i) {
+        const std::array<std::uint32_t, 3> corners{triangles[3 * i], triangles[3 * i + 1],
+                                                   triangles[3 * i + 2]};
+        for (const std::uint32_t corner : corners) {
+            if (corner >= given.vertex_count)
+                throw BadCall(
+                    fmt::format("mesh: triangle {} has vertex {} of {}", i, corner, given.vertex_count));
+        }
+        mesh.triangles.push_back(corners);
+        hash.add(fmt::format("{} {} {}\n", corners[0], corners[1], corners[2]));
+    }
+    return {make_mesh_field(close_mesh(std::move(mesh), name)), hash.hex()};
+}
+
+}  // namespace lamella

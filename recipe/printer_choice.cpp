@@ -1,0 +1,178 @@
+// Listing machines, and writing one down as a file that can be edited.
+#include "recipe/printer_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "engine/error.h"
+#include "printers/registry.h"
+#include "recipe/settings.h"
+
+namespace lamella {
+
+namespace {
+
+/// What can be made on the machine.
+std::string size_of(const PrinterProfile& p) {
+    switch (find_backend(p.backend).medium) {
+        case Medium::pixels:
+            return fmt::format("{} x {} px, {:.6g} x {:.6g} mm{}", p.image.width, p.image.height,
+                               p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
+                               p.image.portrait ? ", portrait" : "");
+        case Medium::beads:
+            if (p.gcode.flavour == Flavour::grbl)
+                return fmt::format("{:.6g} x {:.6g} mm", p.filament.bed_x, p.filament.bed_y);
+            return fmt::format("{:.6g} x {:.6g} x {:.6g} mm, nozzle {:.6g} mm", p.filament.bed_x,
+                               p.filament.bed_y, p.filament.bed_z, p.filament.nozzle);
+        case Medium::voxels:
+            return fmt::format("pixels of {:.6g} x {:.6g} mm", p.image.pixel_x, p.image.pixel_y);
+        case Medium::contours:
+            return "contours in mm";
+    }
+    return "";
+}
+
+std::string pixel_of(const PrinterProfile& p) {
+    if (find_backend(p.backend).medium != Medium::pixels) return "";
+    const auto um = [](double mm) { return fmt::format("{:.4g}", mm * 1000); };
+    return p.image.pixel_x == p.image.pixel_y ? um(p.image.pixel_x) + " um"
+                                              : um(p.image.pixel_x) + " x " + um(p.image.pixel_y) + " um";
+}
+
+std::string profile_line(const MachineProfiles& profiles, const std::string& name) {
+    try {
+        const auto found = profiles.find(name);
+        const PrinterProfile& p = found->printer;
+        std::string facts = size_of(p);
+        if (const std::string pixel = pixel_of(p); !pixel.empty()) facts += ", pixel " + pixel;
+        std::string line = fmt::format("  {:<25} {:<6}{}\n", name, p.backend, facts);
+        return line + fmt::format("  {:<32}{}{}({})\n", "", found->description,
+                                  found->description.empty() ? "" : " ", found->source);
+    } catch (const InputError& error) {
+        return fmt::format("  {:<25} cannot be used: {}\n", name, error.what());
+    }
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+/// A list of texts, one a line.
+std::string quoted_lines(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        out += (at > 0 ? ", " : "") + quoted(std::string(text.substr(at, end - at)));
+        at = end + 1;
+    }
+    return "[" + out + "]";
+}
+
+/// Keys that say again what others say, or that belong to recipes alone.
+bool is_written(const Setting& setting) {
+    static const std::set<std::string> left_out{"printer.profile", "printer.pixel", "printer.dpi",
+                                                "support.kind"};
+    return !left_out.contains(setting.name());
+}
+
+std::string setting_line(const Setting& setting, const Recipe& recipe) {
+    const Value value = setting.load(recipe, 0);
+    const bool is_text = std::holds_alternative<std::string>(value);
+    const auto* table = std::get_if<NumberRows>(&value);
+    const std::string text = table != nullptr && table->empty() ? "[]" : format_value(value);
+    // An empty text or table is no value: the key is there to be filled in.
+    const bool is_empty = text.empty() || text == "[]";
+    const std::string literal = setting.type == ValueType::lines && !is_empty ? quoted_lines(text)
+                                : is_text                                     ? quoted(text)
+                                                                              : text;
+    const std::string assignment = fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, literal);
+    return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
+                       setting.help);
+}
+
+}  // namespace
+
+std::vector<std::string> backend_words() {
+    std::vector<std::string> words;
+    for (const BackendInfo& backend : backends()) words.emplace_back(backend.name);
+    return words;
+}
+
+dvec2 plate_size(const PrinterProfile& printer) {
+    const ImageProfile& image = printer.image;
+    switch (find_backend(printer.backend).medium) {
+        case Medium::pixels:
+            return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
+        case Medium::beads:
+            return {printer.filament.bed_x, printer.filament.bed_y};
+        case Medium::voxels:
+        case Medium::contours:
+            break;
+    }
+    return {infinity, infinity};
+}
+
+std::string backend_of_ending(const std::string& path, const std::string& preferred) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    std::string found;
+    for (const BackendInfo& backend : backends()) {
+        const std::string_view endings = backend.endings;
+        for (std::size_t at = 0; at < endings.size();) {
+            const std::size_t end = std::min(endings.find(' ', at), endings.size());
+            const std::string_view ending = endings.substr(at, end - at);
+            if (name.size() > ending.size() && name.ends_with(ending)) {
+                if (backend.name == preferred) return preferred;
+                if (found.empty()) found = backend.name;
+            }
+            at = end + 1;
+        }
+    }
+    return found;
+}
+
+std::string default_output(const PrinterProfile& printer, const std::string& part_name) {
+    const OutputKind kind = find_backend(printer.backend).output;
+    const bool folder =
+        kind == OutputKind::folder ||
+        (kind == OutputKind::file_or_folder && !(printer.vector.one_file && printer.cutting.sheet.empty()));
+    if (folder) return part_name + ".layers";
+    const std::string_view endings = find_backend(printer.backend).endings;
+    return part_name + std::string(endings.substr(0, endings.find(' ')));
+}
+
+std::string printers_listing(const MachineProfiles& profiles) {
+    std::string text = "Back-ends (--printer-kind, printer.kind)\n";
+    for (const BackendInfo& backend : backends())
+        text += fmt::format("  {:<25} {}\n", backend.name, backend.description);
+    text += "\nProfiles (--printer, printer.profile)\n";
+    const std::vector<std::string> words = backend_words();
+    for (const std::string& name : profiles.names()) {
+        if (std::find(words.begin(), words.end(), name) == words.end()) text += profile_line(profiles, name);
+    }
+    return text + fmt::format("\n`lamella printers NAME` writes one as TOML, to be edited and kept in {}\n",
+                              user_profile_folder());
+}
+
+std::string profile_as_toml(const MachineProfile& profile) {
+    Recipe recipe;
+    recipe.printer = profile.printer;
+    std::string text;
+    if (!profile.description.empty()) text = "description = " + quoted(profile.description) + "\n";
+    for (const char* section : profile_sections) {
+        text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+        for (const Setting& setting : settings()) {
+            if (setting.section == section && is_written(setting)) text += setting_line(setting, recipe);
+        }
+    }
+    return text;
+}
+
+}  // namespace lamella

@@ -1,0 +1,306 @@
+// Checking names first, then every formula alone, then how gradings build on each other.
+#include "recipe/recipe_formulas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "engine/error.h"
+#include "engine/formula_functions.h"
+#include "engine/formula_parser.h"
+#include "recipe/recipe_regions.h"
+#include "recipe/settings.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> place_names{"x", "y", "z"};
+
+bool is_identifier(std::string_view name) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    return !name.empty() && name.size() <= 64 && letter(name.front()) &&
+           std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
+}
+
+/// What formulas mean by a name already; empty when it is free.
+std::string taken_by(std::string_view name) {
+    if (std::find(place_names.begin(), place_names.end(), name) != place_names.end()) return "a coordinate";
+    if (name == depth_name) return "the depth below the surface";
+    if (name == cell_name) return "the size of the foam's cell";
+    if (name == "and" || name == "or" || name == "not") return "an operator";
+    if (find_formula_function(name)) return "a function";
+    if (formula_constant(name)) return "a constant";
+    return "";
+}
+
+/// One formula of the recipe and the names it may use beyond gradings.
+struct Use {
+    const GradedNumber* number;
+    bool depth = true;
+    bool cell = false;
+};
+
+/// All numbers of a foam that may be formulas.
+std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
+    std::vector<const GradedNumber*> numbers{&foam.cell, &foam.beam, &foam.wall, &foam.window, &foam.modulus};
+    for (const GradedTriple* triple : {&foam.stretch, &foam.turn}) {
+        for (const GradedNumber& number : *triple) numbers.push_back(&number);
+    }
+    return numbers;
+}
+
+/// Cells come first, and members, windows and stretches may follow them, but not where a modulus decides.
+bool may_use_cell(const FoamRecipe& foam, const GradedNumber& number) {
+    if (&number == &foam.cell || &number == &foam.modulus) return false;
+    const bool cell_is_solved = !foam.cell.is_formula() && foam.cell.number() == 0;
+    return !cell_is_solved || (&number != &foam.beam && &number != &foam.wall);
+}
+
+/// Checks one recipe.
+class FormulaCheck {
+  public:
+    explicit FormulaCheck(const Recipe& recipe) : recipe_(recipe) {}
+
+    std::vector<std::string> run() {
+        check_names("field", recipe_.fields);
+        check_names("grading", recipe_.gradings);
+        check_body_name();
+        if (!mistakes_.empty()) return std::move(mistakes_);
+        check_formulas();
+        if (mistakes_.empty()) check_order();
+        if (mistakes_.empty()) check_field_depths();
+        return std::move(mistakes_);
+    }
+
+  private:
+    void refuse(const std::string& where, const std::string& wrong, const std::string& right) {
+        mistakes_.push_back(fmt::format("{}: {}; accepted: {}", where, wrong, right));
+    }
+
+    template <typename Entry>
+    void check_names(const std::string& section, const std::vector<Entry>& entries) {
+        std::map<std::string, std::string> seen;
+        for (const Entry& entry : entries) {
+            const std::string where = entry.where + ".name";
+            const std::string taken = taken_by(entry.name);
+            if (!is_identifier(entry.name)) {
+                refuse(where, fmt::format("\"{}\" is no name", entry.name.substr(0, 64)),
+                       "up to 64 letters, digits and _, not beginning with a digit");
+            } else if (!taken.empty()) {
+                refuse(where, fmt::format("`{}` is {} in formulas", entry.name, taken), "another name");
+            } else if (const auto [first, fresh] = seen.emplace(entry.name, entry.where); !fresh) {
+                refuse(where,
+                       fmt::format("`{}` is the name of another [[{}]] ({})", entry.name, section,
+                                   first->second),
+                       "a name of its own");
+            }
+        }
+    }
+
+    void check_body_name() {
+        const std::string& name = recipe_.part.field;
+        if (name.empty()) return;
+        std::vector<std::string> known;
+        for (const FieldRecipe& field : recipe_.fields) known.push_back(field.name);
+        if (std::find(known.begin(), known.end(), name) != known.end()) return;
+        const std::string near = nearest(name, known);
+        refuse("part.field",
+               fmt::format("no [[field]] is named \"{}\"", name.substr(0, 64)) +
+                   (near.empty() ? "" : fmt::format(", did you mean `{}`?", near)),
+               known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
+    }
+
+    void check_formulas() {
+        for (const FieldRecipe& field : recipe_.fields) check_formula({&field.formula, false});
+        for (const GradingRecipe& grading : recipe_.gradings) {
+            check_formula({&grading.formula});
+            check_formula({&grading.along});
+        }
+        if (recipe_.foam) {
+            for (const GradedNumber* number : numbers_of(*recipe_.foam)) {
+                check_formula({number, true, may_use_cell(*recipe_.foam, *number)});
+            }
+        }
+        if (recipe_.frame) check_formula({&recipe_.frame->beam, true, true});
+        if (recipe_.skin) {
+            check_formula({&recipe_.skin->thickness});
+            check_formula({&recipe_.skin->strut});
+        }
+        for (const RegionRecipe& region : recipe_.regions) {
+            for (const RegionNumber& given : numbers_of(region)) {
+                const bool may_use_cell = given.number != &region.cell && given.number != &region.modulus &&
+                                          given.number != &region.thickness;
+                check_formula({given.number, true, may_use_cell});
+            }
+        }
+    }
+
+    void check_formula(const Use& use) {
+        if (!use.number->is_formula()) return;
+        const std::string& text = use.number->formula();
+        std::vector<std::string> known(place_names.begin(), place_names.end());
+        if (use.depth) known.emplace_back(depth_name);
+        if (use.cell) known.emplace_back(cell_name);
+        for (const GradingRecipe& grading : recipe_.gradings) known.push_back(grading.name);
+        try {
+            if (!use.depth && reads(text, depth_name)) {
+                return refuse(use.number->where, "uses the depth `d` below the surface that it makes itself",
+                              "x, y, z and gradings");
+            }
+            parse_formula(text, known);
+        } catch (const InputError& error) {
+            mistakes_.push_back(use.number->where + ": " + error.what());
+        }
+    }
+
+    static bool reads(const std::string& formula, std::string_view name) {
+        const auto names = names_beyond_place(formula);
+        return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    /// The gradings and depths that a grading is made from.
+    static std::vector<std::string> needs(const GradingRecipe& grading) {
+        std::vector<std::string> names;
+        for (const GradedNumber* number : {&grading.formula, &grading.along}) {
+            if (!number->is_formula()) continue;
+            for (std::string& name : names_beyond_place(number->formula())) names.push_back(std::move(name));
+        }
+        return names;
+    }
+
+    const GradingRecipe* grading(const std::string& name) const {
+        for (const GradingRecipe& known : recipe_.gradings) {
+            if (known.name == name) return &known;
+        }
+        return nullptr;
+    }
+
+    /// What is known of a grading whose needs have been followed.
+    struct Followed {
+        int levels = 0;      ///< of gradings below and including it
+        bool depth = false;  ///< whether the depth is among them
+    };
+
+    void check_order() {
+        for (const GradingRecipe& each : recipe_.gradings) {
+            follow(each);
+            if (!mistakes_.empty()) return;
+        }
+    }
+
+    /// Follows a grading's needs down; refuses when they lead back to it or too deep.
+    Followed follow(const GradingRecipe& from) {
+        if (const auto known = followed_.find(from.name); known != followed_.end()) return known->second;
+        const auto again = std::find(path_.begin(), path_.end(), from.name);
+        if (again != path_.end()) {
+            std::string circle = "`" + from.name + "`";
+            for (auto name = again + 1; name != path_.end(); ++name)
+                circle += fmt::format(" uses `{}`, which", *name);
+            refuse(from.where, fmt::format("{} uses `{}`", circle, from.name),
+                   "gradings that do not lead back to themselves");
+            return {};
+        }
+        if (path_.size() >= deepest_grading) {
+            refuse(from.where, fmt::format("gradings build on each other more than {} deep", deepest_grading),
+                   "fewer levels");
+            return {};
+        }
+        path_.push_back(from.name);
+        Followed result;
+        for (const std::string& name : needs(from)) {
+            if (name == depth_name) result.depth = true;
+            const GradingRecipe* below = grading(name);
+            if (!below || !mistakes_.empty()) continue;
+            const Followed deeper = follow(*below);
+            result.levels = std::max(result.levels, deeper.levels);
+            result.depth = result.depth || deeper.depth;
+        }
+        path_.pop_back();
+        if (++result.levels > deepest_grading && mistakes_.empty()) {
+            refuse(from.where, fmt::format("gradings build on each other more than {} deep", deepest_grading),
+                   "fewer levels");
+        }
+        if (mistakes_.empty()) followed_[from.name] = result;
+        return result;
+    }
+
+    /// A body cannot be made from gradings that are measured from it.
+    void check_field_depths() {
+        for (const FieldRecipe& field : recipe_.fields) {
+            if (!field.formula.is_formula()) continue;
+            for (const std::string& name : names_beyond_place(field.formula.formula())) {
+                if (!followed_[name].depth) continue;
+                refuse(field.formula.where,
+                       fmt::format("`{}` depends on the depth `d` below the surface that this formula makes",
+                                   name),
+                       "x, y, z and gradings without `d`");
+            }
+        }
+    }
+
+    const Recipe& recipe_;
+    std::vector<std::string> mistakes_;
+    std::map<std::string, Followed> followed_;
+    std::vector<std::string> path_;
+};
+
+}  // namespace
+
+std::vector<std::string> names_beyond_place(std::string_view formula) {
+    std::vector<std::string> names = formula_names(formula);
+    std::erase_if(names, [](const std::string& name) {
+        return std::find(place_names.begin(), place_names.end(), name) != place_names.end();
+    });
+    return names;
+}
+
+std::string unused_entries(const Recipe& recipe) {
+    std::set<std::string> used;
+    std::vector<const GradedNumber*> open;
+    std::string unused;
+    const auto add = [&](const char* section, const std::string& name) {
+        unused += fmt::format("{}[[{}]] `{}`", unused.empty() ? "" : ", ", section, name);
+    };
+    std::set<std::string> solids{recipe.part.field};
+    for (const RegionRecipe& region : recipe.regions) {
+        solids.insert(region.field);
+        for (const RegionNumber& given : numbers_of(region)) open.push_back(given.number);
+    }
+    for (const FieldRecipe& field : recipe.fields) {
+        if (solids.contains(field.name)) {
+            open.push_back(&field.formula);
+        } else {
+            add("field", field.name);
+        }
+    }
+    if (recipe.foam) {
+        for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
+    }
+    if (recipe.frame) open.push_back(&recipe.frame->beam);
+    if (recipe.skin) open.insert(open.end(), {&recipe.skin->thickness, &recipe.skin->strut});
+    while (!open.empty()) {
+        const GradedNumber* number = open.back();
+        open.pop_back();
+        if (!number->is_formula()) continue;
+        for (const std::string& name : names_beyond_place(number->formula())) {
+            if (!used.insert(name).second) continue;
+            for (const GradingRecipe& grading : recipe.gradings) {
+                if (grading.name == name) open.insert(open.end(), {&grading.formula, &grading.along});
+            }
+        }
+    }
+    for (const GradingRecipe& grading : recipe.gradings) {
+        if (!used.contains(grading.name)) add("grading", grading.name);
+    }
+    return unused.empty() ? "" : "nothing uses " + unused;
+}
+
+std::vector<std::string> formula_mistakes(const Recipe& recipe) { return FormulaCheck(recipe).run(); }
+
+}  // namespace lamella

@@ -1,0 +1,178 @@
+// Layers over several processes: mpirun as users start it, and ranks within this process that fail.
+#include "app/spread_layers.h"
+
+#include <catch2/catch.hpp>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "recipe/build_job.h"
+#include "recipe/recipe_draft.h"
+#include "tests/app/command_run.h"
+#include "tests/app/folder.h"
+
+using namespace lamella;
+
+namespace {
+
+/// What several ranks of one process have sent each other.
+struct Post {
+    std::mutex access;
+    std::map<std::tuple<int, int, int>, std::deque<std::string>> sent;  ///< by from, to, tag
+    std::map<int, std::size_t> outstanding;                             ///< by from
+    std::size_t most_outstanding = 0;
+};
+
+class RanksInside : public Ranks {
+  public:
+    RanksInside(Post& post, int rank, int size) : post_(post), rank_(rank), size_(size) {}
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+    void send(int to, int tag, std::string bytes) override {
+        const std::lock_guard lock(post_.access);
+        post_.sent[{rank_, to, tag}].push_back(std::move(bytes));
+        const std::size_t now = ++post_.outstanding[rank_];
+        if (rank_ > 0) post_.most_outstanding = std::max(post_.most_outstanding, now);
+    }
+    std::optional<std::string> receive(int from, int tag) override {
+        const std::lock_guard lock(post_.access);
+        const auto found = post_.sent.find({from, rank_, tag});
+        if (found == post_.sent.end() || found->second.empty()) return std::nullopt;
+        std::string bytes = std::move(found->second.front());
+        found->second.pop_front();
+        --post_.outstanding[from];
+        return bytes;
+    }
+    std::size_t outstanding() override {
+        const std::lock_guard lock(post_.access);
+        return post_.outstanding[rank_];
+    }
+    [[noreturn]] void abort(int code) override { throw std::runtime_error(std::to_string(code)); }
+
+  private:
+    Post& post_;
+    int rank_, size_;
+};
+
+Recipe foam_recipe() {
+    RecipeDraft draft;
+    draft.read_text(
+        "[part]\nname = \"b\"\nshape = \"box\"\nsize = [6, 6, 10]\n[foam]\ncell = 2\nbeam = 0.3\n[layers]\n"
+        "height = 0.1\n[printer]\nprofile = \"svg\"\n",
+        "test.toml");
+    return draft.finish();
+}
+
+/// A run of so many ranks within this process, of which `failing` has no outputs that can be made.
+StreamReport spread(const Folder& folder, const std::string& output, int size, int failing, Post& post) {
+    const Recipe recipe = foam_recipe();
+    const BuiltJob built = build_job(recipe);
+    const std::vector<Output> outputs{{folder / output, recipe.printer}};
+    StreamOptions options;
+    options.range = {0, built.job.layer_count};
+    options.threads = 1;
+    std::vector<std::thread> others;
+    for (int rank = 1; rank < size; ++rank) {
+        others.emplace_back([&, rank] {
+            RanksInside ranks(post, rank, size);
+            std::vector<Output> mine = outputs;
+            if (rank == failing) mine.front().printer.vector.tolerance = -1;
+            render_blocks(ranks, built.job, mine, options);
+        });
+    }
+    RanksInside first(post, 0, size);
+    auto backend = make_outputs(outputs, true);
+    const auto join = [&] {
+        for (std::thread& other : others) other.join();
+    };
+    try {
+        const StreamReport report = spread_layers(first, built.job, backend, options);
+        join();
+        return report;
+    } catch (...) {
+        // The others wait until what they sent is taken, which an abort ends in earnest.
+        {
+            const std::lock_guard lock(post.access);
+            for (auto& [rank, count] : post.outstanding) count = 0;
+        }
+        for (int tries = 0; tries < 2000; ++tries) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            const std::lock_guard lock(post.access);
+            for (auto& [rank, count] : post.outstanding) count = 0;
+        }
+        join();
+        throw;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("any number of ranks writes what one process writes", "[ranks]") {
+    const Folder folder;
+    Post alone;
+    spread(folder, "1.svg", 1, 0, alone);
+    const std::string expected = contents(folder / "1.svg");
+    REQUIRE(expected.size() > 1000);
+    for (const int size : {2, 3, 5, 40}) {
+        Post post;
+        const std::string output = std::to_string(size) + ".svg";
+        const StreamReport report = spread(folder, output, size, 0, post);
+        CHECK(report.layers_written == 100);
+        CHECK(contents(folder / output) == expected);
+        CHECK(post.most_outstanding <= 17);
+    }
+}
+
+TEST_CASE("a rank that fails fails the run with its words", "[ranks]") {
+    const Folder folder;
+    Post post;
+    CHECK_THROWS_WITH(spread(folder, "f.svg", 3, 2, post), Catch::StartsWith("rank 2: "));
+    CHECK_FALSE(std::filesystem::exists(folder / "f.svg"));
+}
+
+#ifdef LAMELLA_MPIRUN
+namespace {
+
+Outcome mpirun(const std::string& arguments, const Folder& folder) {
+    const std::string line = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " LAMELLA_MPIRUN
+                             " --oversubscribe " +
+                             arguments + " >" + folder / "out" + " 2>" + folder / "err" + " </dev/null";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"), contents(folder / "err")};
+}
+
+const std::string foam_command =
+    std::string(LAMELLA_COMMAND) +
+    " slice --shape box --shape-size 8,8,8 --cell 2 --beam 0.3 --layer-height 0.1 "
+    "--threads 1 -q ";
+
+}  // namespace
+
+TEST_CASE("mpirun makes the same bytes with 1, 2 and 4 processes", "[ranks]") {
+    const Folder folder;
+    for (const std::string printer : {"svg", "marlin", "prusa-sl1s"}) {
+        std::string expected;
+        for (const int size : {1, 2, 4}) {
+            const std::string output = folder / printer + std::to_string(size);
+            const Outcome outcome = mpirun(
+                "-n " + std::to_string(size) + " " + foam_command + "--printer " + printer + " -o " + output,
+                folder);
+            INFO(outcome.err);
+            REQUIRE(outcome.code == 0);
+            if (size == 1) expected = contents(output);
+            CHECK(contents(output) == expected);
+            CHECK(expected.size() > 1000);
+        }
+    }
+}
+
+TEST_CASE("what mpirun is given wrongly is told once, with the exit code", "[ranks]") {
+    const Folder folder;
+    const Outcome wrong = mpirun("-n 2 " + foam_command + "--beam -1 -o " + folder / "x.svg", folder);
+    CHECK(wrong.code == 2);
+    CHECK(wrong.err.find("--beam: ") != std::string::npos);
+    CHECK(wrong.err.find("--beam: ") == wrong.err.rfind("--beam: "));
+    CHECK(mpirun("-n 2 " + foam_command + "--check -o " + folder / "x.svg", folder).code == 2);
+}
+#endif

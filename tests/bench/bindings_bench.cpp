@@ -1,0 +1,129 @@
+// What a section costs through the C interface, beside the same asked from inside.
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+#include <vector>
+
+#include "bindings/lamella.h"
+#include "engine/contours.h"
+#include "engine/coverage.h"
+#include "engine/slice_context.h"
+#include "recipe/build_job.h"
+#include "recipe/recipe_draft.h"
+
+namespace lamella {
+namespace {
+
+constexpr const char* foam_text =
+    "[part]\nshape = \"box\"\nsize = [120, 68, 40]\n[foam]\ncell = 3\nbeam = 0.3\n";
+constexpr int columns = 7680, rows = 4320;
+constexpr double pitch = 0.0165, tolerance = 0.025;
+
+/// The job of the text, inside and through the C interface; heights that no cache knows yet.
+struct Foam {
+    Foam() {
+        RecipeDraft draft;
+        draft.read_text(foam_text, "bench.toml");
+        inside = build_job(draft.finish());
+        lamella_context_create(LAMELLA_ABI_VERSION, &context);
+        lamella_recipe* recipe = nullptr;
+        lamella_recipe_create(context, &recipe);
+        lamella_recipe_add_text(context, recipe, foam_text, std::strlen(foam_text), "bench.toml");
+        lamella_job_build(context, recipe, nullptr, &job);
+        lamella_recipe_destroy(recipe);
+    }
+    ~Foam() {
+        lamella_job_destroy(job);
+        lamella_context_destroy(context);
+    }
+    Foam(const Foam&) = delete;
+    Foam& operator=(const Foam&) = delete;
+    double next_z() { return -15 + 0.05 * (calls++ % 600); }
+
+    BuiltJob inside;
+    lamella_context* context = nullptr;
+    lamella_job* job = nullptr;
+    int calls = 0;
+};
+
+void mask_inside(benchmark::State& state) {
+    Foam foam;
+    std::vector<std::uint8_t> pixels(std::size_t{columns} * rows);
+    Scratch scratch;
+    SpanRows lines;
+    std::vector<GreyRun> greys;
+    for (auto _ : state) {
+        SliceContext context;
+        const SliceField& slice = context.slice(*foam.inside.job.part, foam.next_z());
+        std::uint8_t* to = pixels.data();
+        for (int first = 0; first < rows; first += 64) {
+            RowBand band;
+            band.along_origin = -columns * pitch / 2;
+            band.across_origin = -rows * pitch / 2;
+            band.along_pitch = band.across_pitch = pitch;
+            band.first = first;
+            band.count = std::min(64, rows - first);
+            band.sub = 4;
+            band.hi = columns;
+            lines.clear();
+            greys.clear();
+            slice.spans(band, scratch, lines);
+            coverage(band, lines, greys);
+            for (const GreyRun& grey : greys) {
+                std::memset(to, grey.value, grey.length);
+                to += grey.length;
+            }
+        }
+    }
+}
+BENCHMARK(mask_inside)->Unit(benchmark::kMillisecond);
+
+void mask_by_call(benchmark::State& state) {
+    Foam foam;
+    std::vector<std::uint8_t> pixels(std::size_t{columns} * rows);
+    lamella_raster raster{};
+    raster.struct_size = sizeof raster;
+    raster.columns = columns;
+    raster.rows = rows;
+    raster.lines = 4;
+    raster.x = -columns * pitch / 2;
+    raster.y = -rows * pitch / 2;
+    raster.pitch_x = raster.pitch_y = pitch;
+    for (auto _ : state) {
+        lamella_section* section = nullptr;
+        lamella_section_open(foam.context, foam.job, foam.next_z(), &section);
+        if (lamella_section_coverage(foam.context, section, LAMELLA_PART, &raster, pixels.data(), 0) !=
+            LAMELLA_OK)
+            state.SkipWithError("no mask");
+        lamella_section_destroy(section);
+    }
+}
+BENCHMARK(mask_by_call)->Unit(benchmark::kMillisecond);
+
+void contours_inside(benchmark::State& state) {
+    Foam foam;
+    Scratch scratch;
+    for (auto _ : state) {
+        SliceContext context;
+        benchmark::DoNotOptimize(
+            trace_contours(context.slice(*foam.inside.job.part, foam.next_z()), tolerance, scratch));
+    }
+}
+BENCHMARK(contours_inside)->Unit(benchmark::kMillisecond);
+
+void contours_by_call(benchmark::State& state) {
+    Foam foam;
+    for (auto _ : state) {
+        lamella_section* section = nullptr;
+        lamella_contours* contours = nullptr;
+        lamella_section_open(foam.context, foam.job, foam.next_z(), &section);
+        if (lamella_section_contours(foam.context, section, LAMELLA_PART, tolerance, &contours) != LAMELLA_OK)
+            state.SkipWithError("no contours");
+        lamella_contours_destroy(contours);
+        lamella_section_destroy(section);
+    }
+}
+BENCHMARK(contours_by_call)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lamella

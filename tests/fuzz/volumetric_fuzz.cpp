@@ -1,0 +1,44 @@
+// Fuzz target: any bytes, read as the model part of a 3MF package with volumes and functions, end in solids
+// and numbers or an InputError.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "engine/error.h"
+#include "engine/formula_grading.h"
+#include "procedural/volumetric_model.h"
+#include "tests/fuzz/packed_model.h"
+
+namespace {
+
+/// Ranges enclose numbers, whatever the formula.
+void ask(const lamella::Grading& grading) {
+    const lamella::Box box{lamella::dvec3(-1), lamella::dvec3(2)};
+    const lamella::Interval range = grading.range(box);
+    for (const double x : {-1.0, 0.25, 2.0}) {
+        const double number = grading.at({x, 0.5, 1.0});
+        if (std::isnan(number) ? range.hi != lamella::infinity : !range.contains(number)) std::abort();
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        lamella::VolumetricModel model("fuzz.3mf", lamella::packed_model(data, size));
+        for (const char* function : {"1", "2", "3", "4", "5", "f"}) {
+            try {
+                lamella::PlacedFormula placed = model.function(function);
+                ask(*lamella::make_formula_grading(std::move(placed.formula), std::move(placed.others)));
+            } catch (const lamella::InputError&) {
+            }
+        }
+        try {
+            ask(*model.property("p", ""));
+        } catch (const lamella::InputError&) {
+        }
+        model.built()->value({0.5, 0.5, 0.5});
+    } catch (const lamella::InputError&) {
+    }
+    return 0;
+}
