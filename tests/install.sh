@@ -48,7 +48,9 @@ cmake -S examples/plugin -B "$scratch/plugin" -G Ninja -DCMAKE_BUILD_TYPE=Releas
 cmake --build "$scratch/plugin" | tail -n 1
 "$scratch/prefix/bin/lamella" slice --shape box --shape-size 4,5,3 --layer-height 1 -q \
     --plugin "$scratch/plugin/libarea_table.so" -o "$scratch/box.areas"
-tail -n 1 "$scratch/box.areas" | grep -qx '2,1.0000,20.0000,1'
+# Corners may be cut by the printer's tolerance, 0.02 mm: each by less than its square.
+tail -n 1 "$scratch/box.areas" |
+    awk -F, '{ print "area_table:", $0; exit !($1 == 2 && $2 == 1 && $3 > 20 - 4 * 0.0004 && $3 <= 20 && $4 == 1) }'
 
 "$scratch/prefix/bin/lamella" --version
 # Needs the module for images, which must be found from where the program was installed to.
