@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <mutex>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "engine/geometry.h"
@@ -26,6 +26,22 @@ struct PlaceKey {
 
 /// A hash of the key, the same in every process.
 std::size_t hash_value(const PlaceKey& key);
+
+/// Places of late, by their hashes in a table where each has one slot: a newer place may take it over.
+class RecentPlaces {
+  public:
+    /// Grows to at least so many slots.
+    void make_room(std::size_t slots);
+    /// There has to be a slot.
+    void add(const PlaceKey& key);
+    /// Whether the place was there; it is no longer.
+    bool take(const PlaceKey& key);
+
+  private:
+    std::uint64_t& slot(std::uint64_t hash) { return slots_[hash & (slots_.size() - 1)]; }
+
+    std::vector<std::uint64_t> slots_;  ///< a power of two of them, or none; free ones are 0
+};
 
 /// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds
 /// never shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock
@@ -72,7 +88,7 @@ class CellCache {
         if (!fresh) return entry->second.value;
         entry->second.value = value;
         shard.bytes += cost(*value);
-        shard.came_back += shard.gone.erase(key);
+        shard.came_back += shard.gone.take(key) ? 1U : 0U;
         ++shard.made;
         if (shard.bytes > shard.limit) evict(shard);
         return value;
@@ -103,19 +119,23 @@ class CellCache {
         Pointer value;
         std::uint64_t used = 0;
     };
+    // What lives as long as an entry stands in blocks of its own: strewn between a layer's buffers, entries
+    // would pin the holes that these leave, and memory would grow with the number of layers.
     struct Shard {
         std::mutex mutex;
-        std::unordered_map<PlaceKey, Entry, KeyHash> entries;
+        std::pmr::unsynchronized_pool_resource nodes{
+            {.max_blocks_per_chunk = 64, .largest_required_pool_block = 128}};
+        std::pmr::unordered_map<PlaceKey, Entry, KeyHash> entries{&nodes};
         std::size_t bytes = 0;
         std::uint64_t clock = 0;
         double wanted_z = 0;
-        std::size_t limit = 0;                       ///< of bytes
-        std::unordered_set<PlaceKey, KeyHash> gone;  ///< evicted of late, and not wanted since
-        std::size_t made = 0;                        ///< inserted since the last eviction
-        std::size_t came_back = 0;                   ///< of these, how many had been evicted
+        std::size_t limit = 0;      ///< of bytes
+        RecentPlaces gone;          ///< evicted of late, and not wanted since
+        std::size_t made = 0;       ///< inserted since the last eviction
+        std::size_t came_back = 0;  ///< of these, how many had been evicted
     };
     static constexpr std::size_t shard_count = 16;
-    static constexpr std::size_t remembered = 8;  ///< of those gone, for each that is held
+    static constexpr std::size_t remembered = 8;  ///< of those gone, at most so many for each that is held
     static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;  // and its node
 
     static std::size_t cost(const Value& value) { return value.bytes() + entry_bytes; }
@@ -144,14 +164,14 @@ class CellCache {
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
             return a.z_distance != b.z_distance ? a.z_distance > b.z_distance : a.used < b.used;
         });
-        if (shard.gone.size() > remembered * shard.entries.size()) shard.gone.clear();
+        shard.gone.make_room(remembered * shard.entries.size());
         shard.made = shard.came_back = 0;
         for (const Candidate& candidate : candidates) {
             if (shard.bytes <= shard.limit / 4 * 3) break;
             const auto entry = shard.entries.find(candidate.key);
             shard.bytes -= cost(*entry->second.value);
             shard.entries.erase(entry);
-            shard.gone.insert(candidate.key);
+            shard.gone.add(candidate.key);
         }
     }
 
