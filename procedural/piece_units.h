@@ -49,8 +49,8 @@ class PieceUnits {
     static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
     static constexpr int slabs = 8;
     static constexpr std::size_t reach_bytes = std::size_t{32} << 20;
-    static constexpr std::size_t idle_unit_bytes = std::size_t{4} << 20;
-    static constexpr std::size_t idle_reach_bytes = std::size_t{1} << 19;
+    static constexpr std::size_t idle_unit_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t idle_reach_bytes = std::size_t{1} << 16;
     static constexpr double safe_side = 1 + 1e-9;
 
     struct Unit {

@@ -19,7 +19,7 @@ constexpr double rounding = 1 + 1e-9;  // a share of exactly eight seeds must no
 constexpr std::size_t most_nodes = std::size_t{1} << 22;
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
 constexpr std::size_t block_cache_bytes = std::size_t{256} << 20;
-constexpr std::size_t idle_block_bytes = std::size_t{2} << 20;
+constexpr std::size_t idle_block_bytes = std::size_t{1} << 19;
 
 enum Draw : std::uint64_t { draw_count, draw_order, draw_offset, draw_first_seed };
 
