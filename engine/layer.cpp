@@ -18,8 +18,8 @@ int count_layers(double part_height, double h) {
     return std::max(1, static_cast<int>(count));
 }
 
-Layer::Layer(const Job& job, int index)
-    : job_(&job), index_(index), z_(job.plane(index)), thickness_(job.layer_height) {}
+Layer::Layer(const Job& job, int index, const CancelToken* cancel)
+    : job_(&job), index_(index), cancel_(cancel), z_(job.plane(index)), thickness_(job.layer_height) {}
 
 const SliceField& Layer::part_at(double share) const { return context_.slice(*job_->part, height_of(share)); }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/cancel_token.h"
 #include "engine/contours.h"
 #include "engine/field.h"
 #include "engine/picture.h"
@@ -38,11 +39,13 @@ int count_layers(double part_height, double h);
 /// One layer in flight. Pure: it depends on the job and the index alone. Used by one thread at a time.
 class Layer {
   public:
-    Layer(const Job& job, int index);
+    /// Long work on the layer ends with Interrupted when `cancel`, which may be null, asks for it.
+    Layer(const Job& job, int index, const CancelToken* cancel = nullptr);
 
     int index() const { return index_; }
     double z() const { return z_; }                  ///< cutting plane in part coordinates, mm
     double thickness() const { return thickness_; }  ///< mm
+    const CancelToken* cancel() const { return cancel_; }
     /// Height of the layer's top over the build plate, mm.
     double top() const { return (index_ + 1) * thickness_; }
     /// Cut when it is first asked for.
@@ -68,6 +71,7 @@ class Layer {
 
     const Job* job_;
     int index_;
+    const CancelToken* cancel_;
     double z_;
     double thickness_;
     mutable SliceContext context_;

@@ -92,8 +92,13 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
         Slot& slot = slot_of(index);
         const std::lock_guard lock(slot.busy);
         if (cancelled()) return index;  // nobody waits for what is not begun yet
-        slot.layer.emplace(job, index);
-        slot.product = backend.render(*slot.layer);
+        slot.layer.emplace(job, index, options.cancel);
+        try {
+            slot.product = backend.render(*slot.layer);
+        } catch (const Interrupted&) {
+            if (!cancelled()) throw;
+            slot.product.reset();  // nor for what is not finished
+        }
         return index;
     };
     const auto write = [&](int index) {

@@ -1,22 +1,12 @@
 // LayerStream: layers computed ahead in parallel, handed to a back-end in order.
 #pragma once
 
-#include <atomic>
 #include <functional>
 
 #include "engine/backend.h"
+#include "engine/cancel_token.h"
 
 namespace lamella {
-
-/// A flag that asks long work to stop. Safe to set from any thread and from a signal handler.
-class CancelToken {
-  public:
-    void cancel() { flag_.store(true, std::memory_order_relaxed); }
-    bool cancelled() const { return flag_.load(std::memory_order_relaxed); }
-
-  private:
-    std::atomic<bool> flag_{false};
-};
 
 /// How far a stream has come. Called from the writing thread, after each layer.
 struct Progress {

@@ -88,6 +88,7 @@ class Gcode : public Backend {
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<GcodeProduct>();
         const auto outlines = neighbours_->outlines(layer.index());
+        stop_if_cancelled(layer.cancel());
         const std::vector<Contour>& contours = outlines->part;
         const std::vector<Contour>& supports = outlines->supports;
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
@@ -98,8 +99,10 @@ class Gcode : public Backend {
         const std::optional<PlacedPolygons> core = this->core(layer);
         const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
         Toolpaths paths = round(layer, contours, supports);
-        append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
-        append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
+        append(plan(layer, supports, 1, {pointer(footing), nullptr, layer.cancel()}), paths, Role::support);
+        append(plan(layer, contours, filament_.infill_density,
+                    {pointer(footing), pointer(core), layer.cancel()}),
+               paths);
         product->islands_left_out = paths.islands_left_out;
         if (!paths.beads.empty()) lay(paths, layer, *product);
         return product;
@@ -209,7 +212,8 @@ class Gcode : public Backend {
         const std::vector<Bead>& beads = paths.beads;
         product.first = beads.front().points.front() + shift_;
         GcodeMoves planned(profile_, product.first, layer.top());
-        product.trail = add_beads(paths, profile_, height_, layer.index() == 0, shift_, planned);
+        product.trail =
+            add_beads(paths, profile_, height_, layer.index() == 0, shift_, planned, layer.cancel());
         std::vector<GcodeMove>& moves = planned.moves();
         slow_to_time(moves, product.first, gcode_);
         product.slowed = slow_to_rate(moves, gcode_);

@@ -179,10 +179,11 @@ void GcodeMoves::extrude(const PathPiece& piece, double area, double speed, doub
 }
 
 std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profile, double height,
-                             bool first_layer, dvec2 shift, GcodeMoves& moves) {
+                             bool first_layer, dvec2 shift, GcodeMoves& moves, const CancelToken* cancel) {
     BeadTravel travel(profile, paths.outlines, shift, moves);
     std::vector<dvec2> trail;  // from the end of the last bead: along a loop once more, back along a line
     for (std::size_t i = 0; i < paths.beads.size(); ++i) {
+        stop_if_cancelled(cancel);
         const Bead& bead = paths.beads[i];
         BeadPath path = path_of(bead, shift);
         if (i > 0) travel.go(path.points.front(), paths.beads[i - 1].island, bead.island, trail);

@@ -63,9 +63,11 @@ class GcodeMoves {
 /// Appends the moves that lay a layer's beads, the first of which begins where the nozzle is, to `moves`.
 /// Points are merged where the profile limits the rate of lines, and become arcs where it asks for them; a
 /// piece carries the plastic of the points that it stands for. For the ways between beads see BeadTravel.
-/// Returns the trail for the retraction that may follow, as long as the profile wipes.
+/// Returns the trail for the retraction that may follow, as long as the profile wipes. Throws Interrupted
+/// when `cancel`, which may be null, asks for it.
 std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profile, double height,
-                             bool first_layer, dvec2 shift, GcodeMoves& moves);
+                             bool first_layer, dvec2 shift, GcodeMoves& moves,
+                             const CancelToken* cancel = nullptr);
 
 /// The seconds that each move takes, which begins at `position`.
 std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position, const GcodeProfile& profile);

@@ -54,6 +54,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     dvec2 at = all.lo;
     int number = 0;
     for (const std::size_t next : short_tour(entries, at)) {
+        stop_if_cancelled(around.cancel);
         std::vector<Bead>& beads = planned[next];
         for (Bead& bead : beads) bead.island = number;
         ++number;
@@ -66,6 +67,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         append_nearest(std::span(beads).first(walls), settings.seam, at, result.beads);
         append_nearest(std::span(beads).subspan(walls), settings.seam, at, result.beads);
     }
+    stop_if_cancelled(around.cancel);
     if (around.footing) result.beads = cut_hanging(result.beads, *around.footing);
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/cancel_token.h"
 #include "engine/contours.h"
 #include "printers/bead.h"
 #include "printers/footing.h"
@@ -23,6 +24,7 @@ struct Surroundings {
     const Footing* footing = nullptr;      ///< what it rests on; null: the bed
     const PlacedPolygons* core = nullptr;  ///< where layers below and above are solid, so that infill may be
                                            ///< sparse; null: everywhere
+    const CancelToken* cancel = nullptr;   ///< ends the planning with Interrupted; may be null
 };
 
 struct Toolpaths {

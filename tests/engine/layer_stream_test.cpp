@@ -136,6 +136,44 @@ TEST_CASE("cancelling stops soon, keeps the order and does not end the output") 
     REQUIRE(recorder.order.size() <= 21 + 4);
 }
 
+TEST_CASE("work on a layer that nobody waits for any more is left, and what is before it written") {
+    /// Each layer from the 20th takes for ever, unless it looks whether it should stop.
+    struct Endless : Recorder {
+        std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+            if (layer.index() < 20) return Recorder::render(layer);
+            if (layer.index() == 21) token->cancel();
+            for (;;) stop_if_cancelled(layer.cancel());
+        }
+    };
+    const Job job = sphere_job(500);
+    CancelToken token;
+    Endless endless;
+    endless.token = &token;
+    StreamOptions options;
+    options.range = {0, 500};
+    options.threads = 2;
+    options.cancel = &token;
+    REQUIRE_THROWS_WITH(stream_layers(job, endless, options), "stopped after 20 of 500 layers");
+    CHECK(endless.order.size() == 20);
+    CHECK_FALSE(endless.ended);
+}
+
+TEST_CASE("a back-end that stops by itself is heard") {
+    struct Stopping : Recorder {
+        std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+            if (layer.index() == 7) throw Interrupted("the door is open");
+            return Recorder::render(layer);
+        }
+    };
+    Stopping stopping;
+    CancelToken token;
+    StreamOptions options;
+    options.range = {0, 60};
+    options.cancel = &token;
+    REQUIRE_THROWS_WITH(stream_layers(sphere_job(60), stopping, options), "the door is open");
+    CHECK_FALSE(stopping.ended);
+}
+
 TEST_CASE("a fault in one layer reaches the caller, and the output is not ended") {
     const Job job = sphere_job(60);
     Recorder recorder;

@@ -239,6 +239,17 @@ TEST_CASE("a layer's beads are the same in a shard", "[gcode]") {
     CHECK(whole[7].size() > 1000);
 }
 
+TEST_CASE("paths are not planned to their end for a layer that is not wanted any more", "[gcode]") {
+    const TemporaryFolder folder;
+    const Job job = forest();
+    const auto backend = make_gcode(filament_printer(), folder / "out.gcode", false);
+    backend->begin(job, {0, job.layer_count}, false);
+    CancelToken token;
+    CHECK_NOTHROW(backend->render(Layer(job, 3, &token)));
+    token.cancel();
+    CHECK_THROWS_AS(backend->render(Layer(job, 3, &token)), Interrupted);
+}
+
 TEST_CASE("G-code that was stopped is continued byte for byte", "[gcode]") {
     const TemporaryFolder folder;
     const Job job = forest();
