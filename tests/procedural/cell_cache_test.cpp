@@ -94,6 +94,25 @@ TEST_CASE("what is wanted again and again at any height comes to stay", "[cell_c
     CHECK(last == 0);
 }
 
+TEST_CASE("places of late are told of once, and outlive the growth of their table", "[cell_cache]") {
+    const auto place = [](int i) { return PlaceKey{i, -i, 3, 0, i % 8}; };
+    RecentPlaces places;
+    CHECK_FALSE(places.take(place(1)));
+    places.make_room(100000);
+    for (int i = 0; i < 20; ++i) places.add(place(i));
+    places.make_room(200000);
+    for (int i = 0; i < 20; ++i) CHECK(places.take(place(i)));
+    for (int i = 0; i < 20; ++i) CHECK_FALSE(places.take(place(i)));
+    // In a full table newer places take the slots of older ones.
+    RecentPlaces few;
+    few.make_room(64);
+    for (int i = 0; i < 1000; ++i) few.add(place(i));
+    int held = 0;
+    for (int i = 0; i < 1000; ++i) held += few.take(place(i)) ? 1 : 0;
+    CHECK(held <= 64);
+    CHECK(held >= 48);
+}
+
 TEST_CASE("threads that want the same values get the same values", "[cell_cache]") {
     CellCache<Sheet> cache(16 * 8000);
     std::atomic<int> wrong{0};
