@@ -88,7 +88,8 @@ typedef struct lamella_cancel lamella_cancel;
 LAMELLA_API int32_t lamella_cancel_create(lamella_context* context, lamella_cancel** cancel);
 /* Only once nothing uses it any more. */
 LAMELLA_API void lamella_cancel_destroy(lamella_cancel* cancel);
-/* Asks all work that has this token to stop. From any thread or signal handler. */
+/* Asks all work that has this token to stop. From any thread or signal handler. Work looks at its token every
+ * few milliseconds, between the steps of a layer too; single steps of the heaviest layers take some tens. */
 LAMELLA_API void lamella_cancel_request(lamella_cancel* cancel);
 
 /* ---- Recipes: what to make -------------------------------------------------------------------------- */
@@ -327,7 +328,8 @@ typedef struct lamella_run_report {
 /* Streams the job's layers to a file or folder, as `lamella slice -o` does: PATH, or PATH@PROFILE for another
  * machine than the recipe's; a path's ending that belongs to a back-end chooses it. `options` and `report`
  * may be null. A run that is stopped or fails leaves what it has under an unfinished name, for
- * LAMELLA_RESUME. */
+ * LAMELLA_RESUME. Messages speak of the command's flags: --output is `output`, --resume and --force are the
+ * `flags` of the options. */
 LAMELLA_API int32_t lamella_run(lamella_context* context, const lamella_job* job, const char* output,
                                 const lamella_run_options* options, lamella_run_report* report);
 
