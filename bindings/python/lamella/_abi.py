@@ -268,5 +268,5 @@ def _declared(library: ctypes.CDLL, path: str) -> ctypes.CDLL:
     return library
 
 
-_loaded, library_path = load()
-library = _declared(_loaded, library_path)
+_loaded, loaded_from = load()
+library = _declared(_loaded, loaded_from)

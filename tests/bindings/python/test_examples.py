@@ -32,7 +32,7 @@ class Examples(unittest.TestCase):
         done = subprocess.run(
             [sys.executable, *map(str, arguments)],
             cwd=self.folder,
-            env={**os.environ, "PYTHONPATH": package, "LAMELLA_LIBRARY": lamella._abi.library_path},
+            env={**os.environ, "PYTHONPATH": package, "LAMELLA_LIBRARY": lamella._abi.loaded_from},
             capture_output=True,
             text=True,
         )

@@ -14,7 +14,7 @@ import lamella
 from lamella import _abi, _library
 
 PACKAGE = Path(lamella.__file__).parent
-LIBRARY = Path(_abi.library_path)
+LIBRARY = Path(_abi.loaded_from)
 
 
 def run(program: str, folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
@@ -46,7 +46,7 @@ class Library(unittest.TestCase):
             copy = Path(folder) / "lamella"
             shutil.copytree(PACKAGE, copy)
             (copy / _library.FILE).symlink_to(LIBRARY.resolve())
-            done = run("import lamella; print(lamella._abi.library_path)", Path(folder))
+            done = run("import lamella; print(lamella._abi.loaded_from)", Path(folder))
             self.assertEqual(done.stdout.strip(), str(copy.resolve() / _library.FILE), done.stderr)
 
     def test_its_soname_is_found_where_the_system_looks(self) -> None:
