@@ -1,29 +1,18 @@
-// Finding and loading the image library.
+// The image library, loaded when it is first needed.
 #include "engine/image_file.h"
 
-#include <dlfcn.h>
-
 #include "engine/error.h"
+#include "engine/module_file.h"
 
 namespace lamella {
 namespace {
 
-constexpr const char* module_name = "liblamella_images.so";
-
-/// Looked for where the program's own run path says, then where it was installed to.
 const ImageLibrary& load() {
-    void* module = dlopen(module_name, RTLD_NOW | RTLD_LOCAL);
-    std::string why = module != nullptr ? "" : dlerror();
-    if (module == nullptr)
-        module = dlopen(LAMELLA_MODULE_FOLDER "/liblamella_images.so", RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) {
-        throw FaultError("images cannot be read or written: " + why +
-                         "; it belongs to lamella and lies beside its libraries, or in a folder that "
-                         "LD_LIBRARY_PATH names");
-    }
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): dlsym knows no types
-    const auto library = reinterpret_cast<ImageLibraryFunction>(dlsym(module, image_library_symbol));
-    if (library == nullptr) throw FaultError(std::string(module_name) + " is not lamella's: " + dlerror());
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): a loader knows no types
+    const auto library = reinterpret_cast<ImageLibraryFunction>(module_function(
+        "liblamella_images.so", image_library_symbol, ModuleScope::own, "images cannot be read or written",
+        "it belongs to lamella and lies beside its libraries, or in a folder that "
+        "LD_LIBRARY_PATH names"));
     return *library();
 }
 
