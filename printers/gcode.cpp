@@ -99,10 +99,8 @@ class Gcode : public Backend {
         const std::optional<PlacedPolygons> core = this->core(layer);
         const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
         Toolpaths paths = round(layer, contours, supports);
-        append(plan(layer, supports, 1, {pointer(footing), nullptr, layer.cancel()}), paths, Role::support);
-        append(plan(layer, contours, filament_.infill_density,
-                    {pointer(footing), pointer(core), layer.cancel()}),
-               paths);
+        append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
+        append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
         product->islands_left_out = paths.islands_left_out;
         if (!paths.beads.empty()) lay(paths, layer, *product);
         return product;
@@ -167,7 +165,8 @@ class Gcode : public Backend {
     Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density,
                    const Surroundings& around) const {
         const ToolpathProfile& t = profile_.toolpath;
-        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around);
+        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around,
+                              layer.cancel());
     }
     /// What the layer rests on; none on the bed.
     std::optional<Footing> footing(const Layer& layer) const {

@@ -20,10 +20,12 @@ Role wall_role(int walls_laid) { return walls_laid == 0 ? Role::external_perimet
 
 }  // namespace
 
-IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around)
+IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around,
+                             const CancelToken* cancel)
     : settings_(settings),
       line_(settings.line),
       around_(around),
+      cancel_(cancel),
       direction_(layer_index % 2 == 0 ? dvec2(std::sqrt(0.5)) : dvec2(std::sqrt(0.5), -std::sqrt(0.5))) {}
 
 std::vector<Bead> IslandPlanner::plan(const Polygons& island) {
@@ -52,7 +54,7 @@ double IslandPlanner::volume_from(std::size_t first) const {
 
 /// Fills a piece inside so many walls; `exact` before it was simplified.
 void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls_laid) {
-    stop_if_cancelled(around_.cancel);
+    stop_if_cancelled(cancel_);
     // The flow makes up for what a coarse outline loses; its axis is found much faster.
     const Polygons outline = simplified(piece, 1.5 * line_.tolerance);
     const ThinParts thin =
@@ -110,7 +112,7 @@ void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int
 /// The same before the volume is looked at. False where the beads do not fill the piece, because its inside
 /// is to be sparse.
 bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid) {
-    stop_if_cancelled(around_.cancel);
+    stop_if_cancelled(cancel_);
     const Role role = wall_role(walls_laid);
     if (fill_even_wall(piece, area_of(exact), role)) return true;
     // Outside, a bead's whole width lies within; further in, beads overlap by their round sides.
@@ -183,7 +185,7 @@ void IslandPlanner::fill_narrow(const Polygons& piece, bool full_width_fits, Rol
 
 /// Infill of one connected region inside the walls, as the layers round it ask for it.
 void IslandPlanner::fill_inside(const Polygons& inside) {
-    stop_if_cancelled(around_.cancel);
+    stop_if_cancelled(cancel_);
     for (const InnerRegion& part : divide_inside(inside, around_, settings_.density, line_)) {
         switch (part.fill) {
             case InnerRegion::Fill::sparse:

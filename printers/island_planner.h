@@ -9,7 +9,8 @@ namespace lamella {
 /// Plans island after island of one layer; see plan_toolpaths.
 class IslandPlanner {
   public:
-    IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around);
+    IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around,
+                  const CancelToken* cancel);
 
     /// Beads of a connected piece with its holes, of at least LineSettings::least_area().
     std::vector<Bead> plan(const Polygons& island);
@@ -28,6 +29,7 @@ class IslandPlanner {
     ToolpathSettings settings_;
     LineSettings line_;
     Surroundings around_;
+    const CancelToken* cancel_;
     dvec2 direction_;
     int sparse_regions_ = 0;  ///< of the island, that beads do not fill
     std::vector<Bead> beads_;

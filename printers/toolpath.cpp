@@ -30,7 +30,7 @@ std::vector<Polygons> find_islands(const std::vector<Contour>& contours) {
 }  // namespace
 
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index, const Surroundings& around) {
+                         int layer_index, const Surroundings& around, const CancelToken* cancel) {
     Toolpaths result;
     const std::vector<Polygons> islands = find_islands(contours);
     result.islands = static_cast<int>(islands.size());
@@ -38,7 +38,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     std::vector<const Polygons*> outlines;
     std::vector<dvec2> entries;
     Rect all;
-    IslandPlanner planner(settings, layer_index, around);
+    IslandPlanner planner(settings, layer_index, around, cancel);
     for (const Polygons& island : islands) {
         for (const dvec2& p : to_points(island.front())) all = unite(all, Rect{p, p});
         std::vector<Bead> beads;
@@ -54,7 +54,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     dvec2 at = all.lo;
     int number = 0;
     for (const std::size_t next : short_tour(entries, at)) {
-        stop_if_cancelled(around.cancel);
+        stop_if_cancelled(cancel);
         std::vector<Bead>& beads = planned[next];
         for (Bead& bead : beads) bead.island = number;
         ++number;
@@ -67,7 +67,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         append_nearest(std::span(beads).first(walls), settings.seam, at, result.beads);
         append_nearest(std::span(beads).subspan(walls), settings.seam, at, result.beads);
     }
-    stop_if_cancelled(around.cancel);
+    stop_if_cancelled(cancel);
     if (around.footing) result.beads = cut_hanging(result.beads, *around.footing);
     return result;
 }

@@ -24,7 +24,6 @@ struct Surroundings {
     const Footing* footing = nullptr;      ///< what it rests on; null: the bed
     const PlacedPolygons* core = nullptr;  ///< where layers below and above are solid, so that infill may be
                                            ///< sparse; null: everywhere
-    const CancelToken* cancel = nullptr;   ///< ends the planning with Interrupted; may be null
 };
 
 struct Toolpaths {
@@ -45,8 +44,9 @@ struct Toolpaths {
 /// shortened (see short_tour): the result depends on the arguments alone.
 ///
 /// Infill over the void runs along the bridge (see bridge_direction), and what hangs of any bead is marked
-/// and a bead by itself (see cut_hanging).
+/// and a bead by itself (see cut_hanging). Throws Interrupted when `cancel`, which may be null, asks for it.
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index, const Surroundings& around = {});
+                         int layer_index, const Surroundings& around = {},
+                         const CancelToken* cancel = nullptr);
 
 }  // namespace lamella
