@@ -125,7 +125,7 @@ void add_homogenize_command(CLI::App& root) {
                     "Elements along a side of the sample, best a multiple of 16; 0: four a beam's radius, "
                     "as far as a million solid ones suffice")
         ->type_name("N")
-        ->check(CLI::Range(0, 512));
+        ->check(CLI::Range(0, 1024));
     command
         .add_option("--samples", options->options.samples,
                     "Samples of a random foam, of 64 cells or more each: their mean and how far single ones "

@@ -1,6 +1,7 @@
 // `lamella materials`: the base materials that a recipe can name.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.h"
@@ -20,9 +21,12 @@ struct MaterialsOptions {
 };
 
 std::string listing(const std::vector<BaseMaterial>& materials) {
-    std::string text = "name              E, MPa     nu   g/cm3  product; source\n";
+    std::size_t longest = 0;
+    for (const BaseMaterial& material : materials) longest = std::max(longest, material.name.size());
+    std::string text = fmt::format("{:<{}}  E, MPa     nu   g/cm3  product; source\n", "name", longest);
     for (const BaseMaterial& material : materials) {
-        text += fmt::format("{:<16}{:>8.5g}  {:>5}  {:>6}  {}; {}\n", material.name, material.elastic.young,
+        text += fmt::format("{:<{}}{:>8.5g}  {:>5}  {:>6}  {}; {}\n", material.name, longest,
+                            material.elastic.young,
                             material.has_poisson ? fmt::format("{:.3g}", material.elastic.poisson) : "-",
                             material.density > 0 ? fmt::format("{:.3g}", material.density) : "-",
                             material.product, material.source);
