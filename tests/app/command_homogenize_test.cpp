@@ -105,5 +105,5 @@ TEST_CASE("foams without a stiffness of their own are refused with what would be
     refused("[foam]\ncell = 2\nbeam = 0.2\nstretch = [1, 1, 2]\n", "", "it does not repeat");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--poisson 0.5", "--poisson: 0.5 is too large");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--young 0", "--young: 0 is too small");
-    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--rve 1000", "--rve");
+    refused("[foam]\ncell = 2\nbeam = 0.2\n", "--rve 2000", "--rve");
 }
