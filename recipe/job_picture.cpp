@@ -31,10 +31,13 @@ Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optio
 
 void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
                  int threads) {
-    built.job.picture = [drawn = scenery(recipe, built, supports), threads](int size) {
+    // Foam is looked at roughly: its distances would take longer than its layers. Smooth walls would show it.
+    built.job.picture = [drawn = scenery(recipe, built, supports), has_foam = recipe.foam.has_value(),
+                         threads](int size) {
         PreviewOptions options;
         options.width = options.height = size;
         options.cut = '-';
+        options.quick = has_foam;
         options.threads = threads;
         return render_preview(drawn.part, drawn.supports, drawn.bounds, options);
     };

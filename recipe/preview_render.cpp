@@ -132,6 +132,11 @@ class Scene {
 
     /// Gives the second solid another colour than supports have.
     void paint_second(dvec3 colour) { second_ = second_cut_ = colour; }
+    /// Takes surfaces from the grid, and what is part from another one like it; null where all is.
+    void look_quickly(const VoxelGrid* part) {
+        is_quick_ = true;
+        part_grid_ = part;
+    }
     /// Gives the part another colour at every point; empty for its own.
     void paint_part(std::function<dvec3(dvec3)> paint) { paint_ = std::move(paint); }
 
@@ -155,6 +160,7 @@ class Scene {
         for (double from = inside.lo;;) {
             const auto cell = grid_.next_solid(start, direction / h, from, inside.hi);
             if (!cell) return std::nullopt;
+            if (is_quick_) return cell_face(direction, *cell);
             from = cell->hi;
             at = std::max(at, cell->lo - h);
             if (const auto t = surface(direction, at, std::min(cell->hi + h, inside.hi))) {
@@ -169,14 +175,30 @@ class Scene {
         dvec3 p = camera_.eye + direction * t;
         if (std::abs(p[cut_.axis] - cut_.at) > 1e-6 * grid_.pitch() * 1024) return std::nullopt;
         p[cut_.axis] = cut_.at;
-        if (!(all_.value(p) < 0)) return std::nullopt;
+        if (!is_solid(p)) return std::nullopt;
         Hit hit{p, dvec3(0), true, of_support(p)};
         hit.normal[cut_.axis] = cut_.side;
         return hit;
     }
 
+    /// The surface where a ray enters a solid cell.
+    Hit cell_face(dvec3 direction, Interval cell) const {
+        const dvec3 p = camera_.eye + direction * cell.lo;
+        const dvec3 inside = camera_.eye + direction * ((cell.lo + cell.hi) / 2);
+        dvec3 normal = -grid_.slope(grid_.to_grid(p));
+        // Steps of the grid are seen where the surface itself turns away.
+        normal -= direction * std::max(glm::dot(normal, direction), 0.0);
+        const double length = glm::length(normal);
+        return {p, length > 0 ? normal / length : -direction, false, of_support(inside)};
+    }
+
+    bool is_solid(dvec3 p) const { return is_quick_ ? grid_.solid_at(grid_.to_grid(p)) : all_.value(p) < 0; }
+
     /// Of a place within the solid.
-    bool of_support(dvec3 inside) const { return part_ != nullptr && !(part_->value(inside) < 0); }
+    bool of_support(dvec3 inside) const {
+        if (is_quick_) return part_grid_ != nullptr && !part_grid_->solid_at(grid_.to_grid(inside));
+        return part_ != nullptr && !(part_->value(inside) < 0);
+    }
 
     /// Fences in the first change from void to solid on a stretch of the ray; `at` moves to where void is
     /// certain.
@@ -276,6 +298,8 @@ class Scene {
     CutAway cut_;
     Camera camera_;
     const VoxelGrid& grid_;
+    bool is_quick_ = false;
+    const VoxelGrid* part_grid_ = nullptr;
     dvec3 key_;
     double reach_;
     dvec3 second_ = support_colour, second_cut_ = support_cut_colour;
@@ -357,11 +381,16 @@ Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box
     return arena.execute([&] {
         Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);
-        const int cells = std::clamp(std::max(options.width, options.height) / 2, 64, most_cells);
-        const VoxelGrid grid(*all, cut.kept, cells);
+        const int pixels = std::max(options.width, options.height);
+        const int cells = std::clamp(options.quick ? pixels * 5 / 4 : pixels / 2, 64, most_cells);
+        const auto mark = options.quick ? VoxelGrid::Mark::covered : VoxelGrid::Mark::touched;
+        const VoxelGrid grid(*all, cut.kept, cells, mark);
+        std::optional<VoxelGrid> part_grid;
+        if (options.quick && supports) part_grid.emplace(*part, cut.kept, cells, mark);
         camera = frame(cut.kept, options);
         zoom_to(camera, grid.solid_places(), options);
         Scene scene(*all, supports ? part.get() : nullptr, bounds, cut, camera, grid);
+        if (options.quick) scene.look_quickly(part_grid ? &*part_grid : nullptr);
         if (options.faults) scene.paint_second(fault_colour);
         scene.paint_part(options.paint);
         return Painter(scene, options.width, options.height).render();

@@ -16,14 +16,18 @@ struct PreviewOptions {
     char cut = 'x';         ///< axis along which the nearer part is cut away: 'x', 'y', 'z', or '-' for none
     double cut_at = 0.5;    ///< where, as a share of the bounds along that axis
     int threads = 0;        ///< 0: one a core
-    bool faults = false;    ///< the second solid is what is wrong with the part, not its supports
+    /// Surfaces and normals from a grid of the picture's full resolution, not from the fields: rough when
+    /// seen closely, but at the cost of slicing a few hundred layers, in time and memory.
+    bool quick = false;
+    bool faults = false;  ///< the second solid is what is wrong with the part, not its supports
     /// The colour (linear light) of the part at a point, mm; empty: the same everywhere.
     std::function<dvec3(dvec3)> paint{};
 };
 
 /// Perspective view of the part and, in a colour of their own, its supports (null for none) within `bounds`
-/// (finite, not empty) on a light ground. Kept of them is one bit for each cell of a grid of the picture's
-/// resolution, made from slices; surfaces and normals come from the fields themselves.
+/// (finite, not empty) on a light ground. Kept of them is one bit for each cell of a grid of half the
+/// picture's resolution, made from slices; surfaces and normals come from the fields themselves, unless it is
+/// to be quick.
 Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
                        const PreviewOptions& options);
 

@@ -13,8 +13,6 @@ namespace lamella {
 
 namespace {
 
-constexpr int planes_per_cell = 2;
-constexpr int lines_per_cell = 2;
 constexpr int skip_level = 2;  // empty blocks of 8 cells are crossed in one step
 
 /// Where the ray leaves the block of this edge that holds p.
@@ -31,7 +29,7 @@ double leaving(dvec3 p, dvec3 start, dvec3 direction, double edge) {
 
 }  // namespace
 
-VoxelGrid::VoxelGrid(const Field& part, const Box& bounds, int cells) {
+VoxelGrid::VoxelGrid(const Field& part, const Box& bounds, int cells, Mark mark) {
     const dvec3 size = bounds.size();
     // One empty cell stands round the part, so that a surface on the bounds is entered from outside.
     pitch_ = std::max({size.x, size.y, size.z}) / std::max(cells - 2, 1);
@@ -42,26 +40,29 @@ VoxelGrid::VoxelGrid(const Field& part, const Box& bounds, int cells) {
     nz_ = count(size.z);
     words_ = static_cast<std::size_t>(nx_ + 63) / 64;
     bits_.assign(words_ * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_), 0);
-    tbb::parallel_for(0, nz_, [&](int z) { mark_plane(part, bounds, z); });
+    tbb::parallel_for(0, nz_, [&](int z) { mark_plane(part, bounds, z, mark); });
     build_pyramid();
 }
 
-void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z) {
+void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z, Mark mark) {
     RowBand band;
     band.along_origin = origin_.x;
     band.along_pitch = pitch_;
     band.across_origin = origin_.y;
     band.across_pitch = pitch_;
     band.count = ny_;
-    band.sub = lines_per_cell;
+    const int samples = mark == Mark::touched ? 2 : 1;  // planes of a cell, and lines of a plane in it
+    band.sub = samples;
     band.hi = nx_;
     // Beyond the bounds nothing is marked, even if the part goes on there: that is how it is cut away.
     const std::int32_t low = round_run(band.coordinate(bounds.lo.x));
     const std::int32_t high = round_run(band.coordinate(bounds.hi.x));
+    const std::int32_t begin_shift = mark == Mark::touched ? 0 : run_unit / 2;
+    const std::int32_t end_shift = mark == Mark::touched ? run_unit - 1 : run_unit / 2;
     Scratch scratch;
     SpanRows rows;
-    for (int k = 0; k < planes_per_cell; ++k) {
-        const double height = origin_.z + (z + (k + 0.5) / planes_per_cell) * pitch_;
+    for (int k = 0; k < samples; ++k) {
+        const double height = origin_.z + (z + (k + 0.5) / samples) * pitch_;
         if (height < bounds.lo.z || height > bounds.hi.z) continue;
         SliceContext context;
         rows.clear();
@@ -69,11 +70,12 @@ void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z) {
         for (std::size_t line = 0; line < rows.lines(); ++line) {
             const double y = band.line(static_cast<int>(line));
             if (y < bounds.lo.y || y > bounds.hi.y) continue;
-            const std::size_t row =
-                static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + line / lines_per_cell;
+            const std::size_t row = static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) +
+                                    line / static_cast<std::size_t>(samples);
             for (const Run& run : rows.line(line)) {
-                const int last = (std::min(run.end, high) + run_unit - 1) / run_unit;
-                for (int x = std::max(run.begin, low) / run_unit; x < last; ++x) {
+                const std::int32_t begin = std::max(run.begin, low), end = std::min(run.end, high);
+                const int last = (end + end_shift) / run_unit;
+                for (int x = (begin + begin_shift) / run_unit; x < last; ++x) {
                     bits_[row * words_ + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
                 }
             }
@@ -156,6 +158,25 @@ std::optional<Interval> VoxelGrid::next_solid(dvec3 start, dvec3 direction, doub
         t = exit;
     }
     return std::nullopt;
+}
+
+bool VoxelGrid::solid_at(dvec3 p) const {
+    const dvec3 cell = glm::floor(p);
+    if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= nx_ || cell.y >= ny_ || cell.z >= nz_)
+        return false;
+    return solid(static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z));
+}
+
+dvec3 VoxelGrid::slope(dvec3 p) const {
+    constexpr double step = 2;  // cells, as wide as the finest densities: nearer, steps of the grid show
+    dvec3 slope(0);
+    for (int k = 0; k < 3; ++k) {
+        dvec3 aside(0);
+        aside[k] = step;
+        slope[k] =
+            (density(levels_.front(), 2, p + aside) - density(levels_.front(), 2, p - aside)) / (2 * step);
+    }
+    return slope;
 }
 
 double VoxelGrid::density(const Level& level, double scale, dvec3 p) const {

@@ -12,10 +12,13 @@ namespace lamella {
 /// Positions handed to the grid are in cells from its lower corner, so that one cell is one unit.
 class VoxelGrid {
   public:
-    /// Cuts the part into planes and marks every cell within the bounds that a run touches, so nothing
-    /// visible is left out. `cells` is the number of cells along the longest side. Uses the calling task
-    /// arena's threads.
-    VoxelGrid(const Field& part, const Box& bounds, int cells);
+    /// Which cells along a run are solid: all that it touches, so that nothing visible is left out, or those
+    /// whose middle it covers, so that nothing looks thicker.
+    enum class Mark : unsigned char { touched, covered };
+
+    /// Cuts the part into planes and marks the cells of their runs within the bounds. `cells` is the number
+    /// of cells along the longest side. Uses the calling task arena's threads.
+    VoxelGrid(const Field& part, const Box& bounds, int cells, Mark mark = Mark::touched);
 
     double pitch() const { return pitch_; }  ///< edge of a cell, mm
     dvec3 to_grid(dvec3 p) const { return (p - origin_) / pitch_; }
@@ -28,6 +31,12 @@ class VoxelGrid {
     /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid
     /// first.
     std::optional<Interval> next_solid(dvec3 start, dvec3 direction, double from, double to) const;
+
+    /// Whether the cell that holds a position is solid.
+    bool solid_at(dvec3 p) const;
+
+    /// How the density of the solid grows about a position, a cell; zero where it is the same all round.
+    dvec3 slope(dvec3 p) const;
 
     /// Light that arrives through a cone, 1 for all of it. The cone's width grows by `spread` cells a cell.
     double cone(dvec3 start, dvec3 direction, double spread, double reach) const;
@@ -43,7 +52,7 @@ class VoxelGrid {
             static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y);
         return bits_[row * words_ + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
     }
-    void mark_plane(const Field& part, const Box& bounds, int z);
+    void mark_plane(const Field& part, const Box& bounds, int z, Mark mark);
     void build_pyramid();
     double density(const Level& level, double scale, dvec3 p) const;
 

@@ -84,6 +84,79 @@ TEST_CASE("supports stand off from the part in a picture, whole and cut", "[prev
     }
 }
 
+namespace {
+
+/// What part and supports take of a picture: views differ by how closely the grid encloses these.
+Rect framed(const Picture& image) {
+    Rect seen;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const dvec2 p(x, y);
+            if (kind_at(image, x, y) != Kind::ground) seen = unite(seen, Rect{p, p + 1.0});
+        }
+    }
+    return seen;
+}
+
+/// The pixel of a picture at a share of its frame.
+std::pair<int, int> pixel_at(const Rect& frame, double across, double down) {
+    return {static_cast<int>(frame.lo.x + across * frame.size().x),
+            static_cast<int>(frame.lo.y + down * frame.size().y)};
+}
+
+}  // namespace
+
+TEST_CASE("a quick picture shows the same things in the same places as an exact one", "[preview]") {
+    constexpr int points = 100;
+    for (const char cut : {'-', 'y'}) {
+        PreviewOptions options = from_the_front(cut);
+        const Picture exact = render_preview(make_box(slab), make_box(wall), whole, options);
+        options.quick = true;
+        const Picture quick = render_preview(make_box(slab), make_box(wall), whole, options);
+        const Rect exact_frame = framed(exact), quick_frame = framed(quick);
+        CHECK(quick_frame.size().x == Approx(exact_frame.size().x).epsilon(0.08));
+        CHECK(quick_frame.size().y == Approx(exact_frame.size().y).epsilon(0.08));
+        int differ = 0;
+        for (int j = 0; j < points; ++j) {
+            for (int i = 0; i < points; ++i) {
+                const auto [x, y] = pixel_at(exact_frame, (i + 0.5) / points, (j + 0.5) / points);
+                const auto [u, v] = pixel_at(quick_frame, (i + 0.5) / points, (j + 0.5) / points);
+                differ += kind_at(exact, x, y) != kind_at(quick, u, v) ? 1 : 0;
+            }
+        }
+        CHECK(differ < points * points / 25);  // along the outlines
+    }
+}
+
+TEST_CASE("a quick picture of a ball is shaded as an exact one", "[preview]") {
+    PreviewOptions options = from_the_front('-');
+    const FieldPtr ball = make_sphere(dvec3(0), 10);
+    const Picture exact = render_preview(ball, nullptr, ball->bounds(), options);
+    options.quick = true;
+    const Picture quick = render_preview(ball, nullptr, ball->bounds(), options);
+    const Rect exact_frame = framed(exact), quick_frame = framed(quick);
+    const auto green = [](const Picture& image, std::pair<int, int> p) {
+        return int{image.rgb[3 * static_cast<std::size_t>(p.second * image.width + p.first) + 1]};
+    };
+    constexpr int points = 100;
+    double sum = 0;
+    int seen = 0, far = 0;
+    for (int j = 0; j < points; ++j) {
+        for (int i = 0; i < points; ++i) {
+            const double across = (i + 0.5) / points, down = (j + 0.5) / points;
+            if (std::hypot(across - 0.5, down - 0.5) > 0.45) continue;
+            const int difference = std::abs(green(exact, pixel_at(exact_frame, across, down)) -
+                                            green(quick, pixel_at(quick_frame, across, down)));
+            sum += difference;
+            far += difference > 30 ? 1 : 0;
+            ++seen;
+        }
+    }
+    CHECK(seen > 6000);
+    CHECK(sum / seen < 12);  // of 255: steps of the grid show on it
+    CHECK(far < seen / 20);
+}
+
 TEST_CASE("a picture does not change with the number of threads", "[preview]") {
     PreviewOptions options = from_the_front('x');
     options.threads = 1;
