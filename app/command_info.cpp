@@ -123,6 +123,7 @@ Json memory_json(const MemoryBound& bound) {
             {"layer_bytes", bound.layer_bytes},
             {"cell_cache_bytes", bound.cell_bytes},
             {"mesh_bytes", bound.mesh_bytes},
+            {"picture_bytes", bound.picture_bytes},
             {"base_bytes", bound.base_bytes}};
 }
 
@@ -223,12 +224,12 @@ double mebibytes(const Json& bytes) { return bytes.get<double>() / (1 << 20); }
 
 std::string memory_text(const Json& m) {
     return fmt::format(
-        "memory    about {:.0f} MiB: {:.0f} for the program, {:.1f} for the mesh, {:.1f} for foam cells in "
-        "reach,\n"
-        "          and {} layers in flight of {:.1f} each (rows of the plate, {:.0f} beams)\n",
+        "memory    about {:.0f} MiB: {:.0f} for the program, {:.1f} for the mesh, {:.1f} for the picture,\n"
+        "          {:.1f} for foam cells in reach, and {} layers in flight of {:.1f} each (rows of the "
+        "plate, {:.0f} beams)\n",
         mebibytes(m["bytes"]), mebibytes(m["base_bytes"]), mebibytes(m["mesh_bytes"]),
-        mebibytes(m["cell_cache_bytes"]), m["layers_in_flight"].get<int>(), mebibytes(m["layer_bytes"]),
-        m["beams_per_layer"].get<double>());
+        mebibytes(m["picture_bytes"]), mebibytes(m["cell_cache_bytes"]), m["layers_in_flight"].get<int>(),
+        mebibytes(m["layer_bytes"]), m["beams_per_layer"].get<double>());
 }
 
 std::string skin_text(const Json& skin) {

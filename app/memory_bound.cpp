@@ -22,8 +22,22 @@ constexpr double bytes_per_beam = 2 * sizeof(Beam);  // the beam and its place i
 constexpr double bytes_per_seed = 4.5 * (32 + 1.5 * beams_per_seed * sizeof(Beam));
 constexpr double reach_in_cells = 4;  // a unit of the cell cache and its neighbours, below and above
 constexpr std::int64_t bytes_per_triangle = 12 + 8 + 72;  // corners, index, corners again by height
+// Measured: while a mesh is read and mended, more of it is held, and most by the reader of 3MF packages.
+constexpr double held_while_read = 2.5, held_while_read_3mf = 6;
 constexpr std::int64_t band_rows = 64;
-constexpr std::int64_t program_bytes = 124 << 20;  // measured: the resident size of slicing a plain box
+constexpr std::int64_t program_bytes = 13 << 20;  // measured: the resident size of slicing a plain box
+constexpr double picture_cells = 500;           // along the longest side of foam that a file has a picture of
+constexpr double bytes_per_picture_cell = 0.4;  // measured: a bit, the pyramid of densities, and slicing
+
+/// What drawing a picture of foam for the file takes.
+std::int64_t picture_bytes(const Recipe& recipe, dvec3 size) {
+    const std::string& backend = recipe.printer.backend;
+    const bool draws =
+        recipe.printer.resin.preview && (backend == "sl1" || backend == "goo" || backend == "gcode");
+    if (!draws || !recipe.foam) return 0;
+    const dvec3 cells = size * (picture_cells / std::max({size.x, size.y, size.z}));
+    return static_cast<std::int64_t>(cells.x * cells.y * cells.z * bytes_per_picture_cell);
+}
 
 }  // namespace
 
@@ -33,9 +47,12 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
     MemoryBound bound;
     bound.layers_in_flight = std::min(2 * workers, built.job.layer_count);
     bound.base_bytes = program_bytes;
+    bound.picture_bytes = picture_bytes(recipe, size);
     if (built.mesh) {
-        bound.mesh_bytes = static_cast<std::int64_t>(built.mesh->triangles) * bytes_per_triangle +
-                           static_cast<std::int64_t>(built.mesh->vertices * sizeof(dvec3));
+        const double kept = static_cast<double>(built.mesh->triangles * bytes_per_triangle) +
+                            static_cast<double>(built.mesh->vertices * sizeof(dvec3));
+        const bool is_3mf = recipe.part.mesh.ends_with(".3mf");
+        bound.mesh_bytes = static_cast<std::int64_t>(kept * (is_3mf ? held_while_read_3mf : held_while_read));
     }
     if (built.foam && built.foam->beams_touching) {
         const FoamStatistics foam = foam_statistics(*built.foam, built.designed.bounds);
@@ -50,9 +67,11 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
     const ImageProfile& image = recipe.printer.image;
     // The page at one byte in sixteen pixels is what deflate leaves of dense foam; rows hold a run of 8 bytes
     // for every beam met and sub-row.
-    const std::int64_t page = static_cast<std::int64_t>(image.width) * image.height / 16;
-    const std::int64_t rows =
-        band_rows * image.sub_rows * image.width / 8 * static_cast<std::int64_t>(sizeof(Run));
+    const double across = std::min<double>(image.width, size.x / image.pixel_x),
+                 down = std::min<double>(image.height, size.y / image.pixel_y);
+    const auto page = static_cast<std::int64_t>(across * down / 16);
+    const auto rows =
+        static_cast<std::int64_t>(static_cast<double>(band_rows * image.sub_rows) * across / 8 * sizeof(Run));
     bound.layer_bytes = page + rows + static_cast<std::int64_t>(bound.beams_per_layer * bytes_per_beam);
     return bound;
 }
