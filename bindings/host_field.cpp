@@ -1,4 +1,4 @@
-// Callbacks as fields: asked for many points at a time, a tile of the plane by the walk that finds runs.
+// Callbacks as fields: asked for many points at a time, those of many tiles by the walk that finds runs.
 #include "bindings/host_field.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include "bindings/context.h"
 #include "engine/mesh_field.h"
 #include "engine/mesh_repair.h"
+#include "engine/range_about.h"
 #include "engine/slice_context.h"
 #include "engine/tile_walk.h"
 #include "recipe/identity.h"
@@ -55,10 +56,27 @@ class HostField : public Field {
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = cut(points[i], out[i]);
     }
     Interval range(const Box& box) const override {
-        const Interval told = values_.range(box), known = Field::range(box);
-        // The box's faces are the greater where the solid is cut off.
-        const Interval faces = faces_range(box);
-        return {std::max({told.lo, known.lo, faces.lo}), std::min(std::max(told.hi, faces.hi), known.hi)};
+        Interval enclosing;
+        ranges({&box, 1}, {&enclosing, 1});
+        return enclosing;
+    }
+    /// Ranges over many boxes.
+    void ranges(std::span<const Box> boxes, std::span<Interval> out) const {
+        std::vector<double> at_centers(boxes.size());
+        if (metric_ != Metric::sign) {
+            std::vector<dvec3> centers;
+            // An empty box has no centre; what is told of it is not looked at.
+            for (const Box& box : boxes) centers.push_back((box.empty() ? box_ : box).center());
+            values(centers, at_centers);
+        }
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Interval told = values_.range(boxes[i]),
+                           known = range_about(boxes[i], at_centers[i], metric_);
+            // The box's faces are the greater where the solid is cut off.
+            const Interval faces = faces_range(boxes[i]);
+            out[i] = {std::max({told.lo, known.lo, faces.lo}),
+                      std::min(std::max(told.hi, faces.hi), known.hi)};
+        }
     }
     Metric metric() const override { return metric_; }
     const SliceField& slice(SliceContext& context, double z) const override;
@@ -82,22 +100,19 @@ class HostField : public Field {
     Metric metric_;
 };
 
-class WalkedHost : public WalkedSolid {
+/// The field in one plane, as the tile walk sees it.
+class HostInPlane : public EvenSolid {
   public:
-    WalkedHost(const HostField& field, double z) : field_(field), z_(z) {}
+    HostInPlane(const HostField& field, double z) : field_(field), z_(z) {}
 
-    Interval enter(const Rect& tile) override { return field_.range({{tile.lo, z_}, {tile.hi, z_}}); }
-    void leave() override {}
+    void ranges(std::span<const Rect> tiles, std::span<Interval> out) override {
+        boxes_.clear();
+        for (const Rect& tile : tiles) boxes_.push_back({{tile.lo, z_}, {tile.hi, z_}});
+        field_.ranges(boxes_, out);
+    }
     void values(const WalkPoints& points, std::span<double> out) override {
         points_.clear();
-        if (points.lattice) {
-            for (const double across : points.across) {
-                for (const double along : points.along) points_.emplace_back(points.at(along, across), z_);
-            }
-        } else {
-            for (std::size_t i = 0; i < points.along.size(); ++i)
-                points_.emplace_back(points.at(points.along[i], points.across[i]), z_);
-        }
+        points.each([&](dvec2 p) { points_.emplace_back(p, z_); });
         field_.values(points_, out);
     }
 
@@ -105,6 +120,7 @@ class WalkedHost : public WalkedSolid {
     const HostField& field_;
     double z_;
     std::vector<dvec3> points_;
+    std::vector<Box> boxes_;
 };
 
 class HostSlice : public SliceField {
@@ -112,7 +128,7 @@ class HostSlice : public SliceField {
     HostSlice(const HostField& field, double z) : field_(field), z_(z) {}
 
     void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
-        WalkedHost walked(field_, z_);
+        HostInPlane walked(field_, z_);
         sampled_spans(walked, field_.metric(), band, out);
     }
     Interval range(const Rect& r) const override { return field_.range({{r.lo, z_}, {r.hi, z_}}); }

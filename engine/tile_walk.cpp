@@ -1,10 +1,10 @@
 // The tile walk: tiles of a band halved until the range decides or they are small, then samples.
 #include "engine/tile_walk.h"
 
-#include <cstring>
+#include <algorithm>
+#include <tuple>
 #include <vector>
 
-#include "engine/crossing_bracket.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
@@ -12,287 +12,124 @@ namespace {
 
 constexpr int leaf_lines = 8;
 constexpr int leaf_pixels = 8;
-constexpr int quarter = run_unit / 4;
-constexpr int cells_per_unit = 16;  // a crossing is found to 1/16 of a run unit
-constexpr int guesses = 3;          // rounds of interpolation before plain halving
-constexpr int guesses_of_one = 6;   // where there is one crossing only
 constexpr int one_way_pixels = 16;  // tiles up to this size are asked whether values rise or fall all along
+// As many samples as still fit a processor's second-level cache, at 264 samples a tile where all quarters are
+// wanted at once.
+constexpr std::size_t tiles_at_once = 64;
 
-/// Two neighbouring samples of a line, at run coordinates u0 < u1.
-struct Pair {
-    double u0, u1;
-    double v0, v1;
-    int line;
+/// The tile that holds all of a band; of no pixels or lines where the band has none.
+BandTile whole(const RowBand& band) {
+    if (band.lo >= band.hi || band.lines() <= 0) return {band.lo, 0, 0, 0};
+    BandTile tile{band.lo, leaf_pixels, 0, leaf_lines};
+    while (tile.width < band.hi - band.lo) tile.width *= 2;
+    while (tile.height < band.lines()) tile.height *= 2;
+    return tile;
+}
 
-    bool crosses() const { return (v0 < 0) != (v1 < 0); }
-};
+bool meets(const BandTile& tile, const RowBand& band) {
+    return tile.lo < band.hi && tile.first < band.lines();
+}
 
-/// Walks the tiles of a band and collects the runs of each line from left to right.
-class TileWalk {
-  public:
-    TileWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
-        : solid_(solid),
-          metric_(metric),
-          band_(band),
-          cell_(std::abs(band.along_pitch) / (run_unit * cells_per_unit)),
-          lines_(static_cast<std::size_t>(band.lines())) {
-        for (int l = 0; l < band.lines(); ++l) positions_.push_back(band.line(l));
+bool is_leaf(const BandTile& tile) { return tile.width == leaf_pixels && tile.height == leaf_lines; }
+
+/// Calls visit(part) for the parts into which a tile is divided, those of one line from left to right.
+template <typename Visit>
+void divide(const BandTile& tile, const Visit& visit) {
+    const int across = tile.width / leaf_pixels, down = tile.height / leaf_lines;
+    // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
+    const bool wide = across >= down, high = down >= across;
+    const int width = wide ? tile.width / 2 : tile.width, height = high ? tile.height / 2 : tile.height;
+    for (int first = tile.first; first < tile.first + tile.height; first += height) {
+        for (int lo = tile.lo; lo < tile.lo + tile.width; lo += width) visit({lo, width, first, height});
     }
+}
+
+/// Walks down the tiles of a band one by one, those of one line from left to right.
+class NarrowingWalk {
+  public:
+    NarrowingWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
+        : solid_(solid), metric_(metric), band_(band), sampler_(solid, metric, band) {}
 
     void walk(SpanRows& out) {
-        if (band_.lo < band_.hi && band_.lines() > 0) {
-            int width = leaf_pixels, height = leaf_lines;
-            while (width < band_.hi - band_.lo) width *= 2;
-            while (height < band_.lines()) height *= 2;
-            visit({band_.lo, width, 0, height});
-        }
-        for (const auto& line : lines_) out.append_line(line);
+        visit(whole(band_));
+        sampler_.append_to(out);
     }
 
   private:
-    /// Pixels [lo, lo + width) of lines [first, first + height), as far as the band has them.
-    struct Place {
-        int lo, width, first, height;
-    };
-
-    double position(int line) const { return positions_[static_cast<std::size_t>(line)]; }
-    int end_pixel(const Place& p) const { return std::min(p.lo + p.width, band_.hi); }
-    int end_line(const Place& p) const { return std::min(p.first + p.height, band_.lines()); }
-
-    Rect rect(const Place& p) const {
-        const auto point = [&](int pixel, int line) {
-            const double along = band_.along(static_cast<double>(pixel) * run_unit);
-            const double across = position(line);
-            return band_.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
-        };
-        const dvec2 a = point(p.lo, p.first), b = point(end_pixel(p), end_line(p) - 1);
-        return {glm::min(a, b), glm::max(a, b)};
-    }
-
-    /// Visits a tile; those of one line come from left to right.
-    void visit(const Place& p) {
-        if (p.lo >= band_.hi || p.first >= band_.lines()) return;
-        const Interval values = solid_.enter(rect(p));
+    void visit(const BandTile& tile) {
+        if (tile.height == 0 || !meets(tile, band_)) return;
+        const Interval values = solid_.enter(sampler_.rect(tile));
         if (values.hi < 0) {
-            fill(p);
+            sampler_.fill(tile);
         } else if (!(values.lo > 0)) {
-            descend(p);
+            descend(tile);
         }
         solid_.leave();
     }
 
-    void descend(const Place& p) {
-        const int across = p.width / leaf_pixels, down = p.height / leaf_lines;
-        if (metric_ == Metric::sign && std::max(p.width, p.height) <= one_way_pixels) {
+    void descend(const BandTile& tile) {
+        if (metric_ == Metric::sign && std::max(tile.width, tile.height) <= one_way_pixels) {
             // Half a cell, for positions are rounded.
-            one_way_ = solid_.slope(band_.axis).one_way(0.5 * cell_);
-            if (one_way_) return sample_ends(p);
+            if (solid_.slope(band_.axis).one_way(0.5 * sampler_.cell())) return sampler_.sample_ends(tile);
         }
-        if (across == 1 && down == 1) return sample(p);
-        // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
-        const bool wide = across >= down, high = down >= across;
-        const int width = wide ? p.width / 2 : p.width, height = high ? p.height / 2 : p.height;
-        for (int first = p.first; first < p.first + p.height; first += height) {
-            for (int lo = p.lo; lo < p.lo + p.width; lo += width) visit({lo, width, first, height});
-        }
-    }
-
-    void fill(const Place& p) {
-        for (int l = p.first; l < end_line(p); ++l) add(l, p.lo * run_unit, end_pixel(p) * run_unit);
-    }
-
-    void add(int line, std::int32_t begin, std::int32_t end) {
-        auto& runs = lines_[static_cast<std::size_t>(line)];
-        if (begin >= end) return;
-        if (!runs.empty() && runs.back().end >= begin) {
-            runs.back().end = end;
-        } else {
-            runs.push_back({begin, end});
-        }
-    }
-
-    /// Samples the ends of a tile's lines, each of which has one crossing at most.
-    void sample_ends(const Place& p) {
-        const int begin = p.lo * run_unit, end = end_pixel(p) * run_unit;
-        along_.clear();
-        across_.clear();
-        for (int l = p.first; l < end_line(p); ++l) {
-            along_.insert(along_.end(), {band_.along(begin), band_.along(end)});
-            across_.insert(across_.end(), 2, position(l));
-        }
-        samples_.resize(along_.size());
-        solid_.values({band_.axis, along_, across_, false}, samples_);
-        pairs_.clear();
-        for (int l = p.first; l < end_line(p); ++l) {
-            const double* const v = samples_.data() + 2 * static_cast<std::size_t>(l - p.first);
-            const Pair pair{static_cast<double>(begin), static_cast<double>(end), v[0], v[1], l};
-            if (pair.crosses()) pairs_.push_back(pair);
-        }
-        find_crossings();
-        turn(p, begin, end);
-    }
-
-    void sample(const Place& p) {
-        // Where values prove nothing, all quarters are wanted at once.
-        const int step = metric_ == Metric::sign ? quarter : run_unit;
-        const int begin = p.lo * run_unit, end = end_pixel(p) * run_unit;
-        along_.clear();
-        across_.clear();
-        for (int u = begin; u <= end; u += step) along_.push_back(band_.along(u));
-        for (int l = p.first; l < end_line(p); ++l) across_.push_back(position(l));
-        samples_.resize(along_.size() * across_.size());
-        solid_.values({band_.axis, along_, across_, true}, samples_);
-        pairs_.clear();
-        for (std::size_t l = 0; l < across_.size(); ++l) {
-            const double* const v = samples_.data() + l * along_.size();
-            const int line = p.first + static_cast<int>(l);
-            const auto pair = [&](std::size_t i) {
-                const double u = begin + static_cast<int>(i) * step;
-                return Pair{u, u + step, v[i], v[i + 1], line};
-            };
-            if (step == quarter) {
-                turns_of({v, along_.size()}, [&](std::size_t i) { pairs_.push_back(pair(i)); });
-            } else {
-                for (std::size_t i = 0; i + 1 < along_.size(); ++i) consider(pair(i), pairs_);
-            }
-        }
-        for (int gap = step; gap > quarter; gap /= 2) split();
-        find_crossings();
-        turn(p, begin, end);
-    }
-
-    /// Calls `turn(i)` for every i whose value lies on another side than the next one.
-    template <class Turn>
-    void turns_of(std::span<const double> values, const Turn& turn) {
-        constexpr std::size_t word = sizeof(std::uint64_t);
-        inside_.assign(values.size() + word, 0);
-        std::uint8_t* const flags = inside_.data();
-        const double* const v = values.data();
-        const std::size_t count = values.size();
-        for (std::size_t i = 0; i < count; ++i) flags[i] = v[i] < 0 ? 1 : 0;
-        for (std::size_t i = 0; i + 1 < values.size(); i += word) {
-            std::uint64_t here = 0, next = 0;
-            std::memcpy(&here, inside_.data() + i, word);
-            std::memcpy(&next, inside_.data() + i + 1, word);
-            if (here == next) continue;
-            for (std::size_t k = i; k < std::min(i + word, values.size() - 1); ++k) {
-                if (inside_[k] != inside_[k + 1]) turn(k);
-            }
-        }
-    }
-
-    /// Keeps a pair that may have a surface between its samples.
-    void consider(const Pair& pair, std::vector<Pair>& out) const {
-        const double width = pair.u1 - pair.u0;
-        if (!pair.crosses()) {
-            const double gap = width * std::abs(band_.along_pitch) / run_unit;
-            const bool proven = metric_ != Metric::sign && std::abs(pair.v0) + std::abs(pair.v1) >= gap;
-            if (proven || width <= quarter) return;
-        }
-        out.push_back(pair);
-    }
-
-    /// The values halfway between the samples of all pairs.
-    void sample_middles() {
-        along_.clear();
-        across_.clear();
-        for (const Pair& pair : pairs_) {
-            along_.push_back(band_.along((pair.u0 + pair.u1) * 0.5));
-            across_.push_back(position(pair.line));
-        }
-        middles_.resize(pairs_.size());
-        if (!pairs_.empty()) solid_.values({band_.axis, along_, across_, false}, middles_);
-    }
-
-    /// Halves all pairs.
-    void split() {
-        sample_middles();
-        halves_.clear();
-        for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            const Pair& pair = pairs_[i];
-            const double middle = (pair.u0 + pair.u1) * 0.5;
-            consider({pair.u0, middle, pair.v0, middles_[i], pair.line}, halves_);
-            consider({middle, pair.u1, middles_[i], pair.v1, pair.line}, halves_);
-        }
-        pairs_.swap(halves_);
-    }
-
-    /// Narrows all pairs, each of which has a crossing, to the cell where it lies.
-    void find_crossings() {
-        brackets_.clear();
-        for (const Pair& pair : pairs_) {
-            const int cells = static_cast<int>(pair.u1 - pair.u0) * cells_per_unit;
-            brackets_.push_back({0, cells, pair.v0, pair.v1});
-        }
-        const Search last = solid_.signs_only() && !one_way_ ? Search::signs : Search::halves;
-        const int chords = one_way_ ? guesses_of_one : last == Search::signs ? 0 : guesses;
-        for (int round = 0; ask_borders(round < chords ? Search::chord : last); ++round) {
-            solid_.values({band_.axis, along_, across_, false}, middles_);
-            std::size_t k = 0;
-            for (std::size_t i = 0; i < pairs_.size(); ++i) {
-                if (brackets_[i].hi - brackets_[i].lo == 1) continue;
-                for (std::size_t n = 0; n < tried_; ++n, ++k)
-                    brackets_[i].take(borders_[k], middles_[k], pairs_[i].v0 < 0);
-            }
-        }
-        for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            Pair& pair = pairs_[i];
-            pair.u1 = pair.u0 + static_cast<double>(brackets_[i].hi) / cells_per_unit;
-            pair.u0 = pair.u0 + static_cast<double>(brackets_[i].lo) / cells_per_unit;
-        }
-    }
-
-    /// Lists cell borders of every pair whose cell is not found yet; tells whether there are any.
-    bool ask_borders(Search search) {
-        along_.clear();
-        across_.clear();
-        borders_.clear();
-        for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            const Bracket& bracket = brackets_[i];
-            if (bracket.hi - bracket.lo == 1) continue;
-            const Bracket::Borders borders = bracket.next(search);
-            tried_ = borders.count;
-            for (std::size_t n = 0; n < tried_; ++n) {
-                const double u = pairs_[i].u0 + static_cast<double>(borders.at[n]) / cells_per_unit;
-                borders_.push_back(borders.at[n]);
-                along_.push_back(band_.along(u));
-                across_.push_back(position(pairs_[i].line));
-            }
-        }
-        middles_.resize(borders_.size());
-        return !borders_.empty();
-    }
-
-    /// Turns the crossings of a tile into runs.
-    void turn(const Place& p, std::int32_t begin, std::int32_t end) {
-        const std::size_t per_line = samples_.size() / static_cast<std::size_t>(end_line(p) - p.first);
-        std::size_t k = 0;
-        for (int l = p.first; l < end_line(p); ++l) {
-            bool inside = samples_[static_cast<std::size_t>(l - p.first) * per_line] < 0;
-            std::int32_t from = begin;
-            for (; k < pairs_.size() && pairs_[k].line == l; ++k) {
-                const std::int32_t u = round_run((pairs_[k].u0 + pairs_[k].u1) * 0.5);
-                if (inside) add(l, from, u);
-                from = u;
-                inside = !inside;
-            }
-            if (inside) add(l, from, end);
-        }
+        if (is_leaf(tile)) return sampler_.sample({&tile, 1});
+        divide(tile, [&](const BandTile& part) { visit(part); });
     }
 
     WalkedSolid& solid_;
     Metric metric_;
     const RowBand& band_;
-    double cell_;           ///< mm
-    bool one_way_ = false;  ///< every line of the tile has one crossing at most
-    std::vector<std::vector<Run>> lines_;
-    std::vector<double> positions_;  ///< of the lines, mm across
-    std::vector<double> along_, across_, samples_, middles_;
-    std::vector<Pair> pairs_, halves_;
-    std::vector<Bracket> brackets_;
-    std::vector<int> borders_;
-    std::size_t tried_ = 0;  ///< borders of each bracket
-    std::vector<std::uint8_t> inside_;
+    TileSampler sampler_;
+};
+
+/// Walks down the tiles of a band level by level.
+class EvenWalk {
+  public:
+    EvenWalk(EvenSolid& solid, Metric metric, const RowBand& band)
+        : solid_(solid), band_(band), sampler_(solid, metric, band) {}
+
+    void walk(SpanRows& out) {
+        if (const BandTile tile = whole(band_); tile.height > 0) level_.push_back(tile);
+        while (!level_.empty()) descend();
+        std::sort(found_.begin(), found_.end(), [](const BandTile& a, const BandTile& b) {
+            return std::tie(a.lo, a.first) < std::tie(b.lo, b.first);
+        });
+        for (std::size_t i = 0; i < found_.size(); i += tiles_at_once) {
+            sampler_.sample(std::span(found_).subspan(i, std::min(tiles_at_once, found_.size() - i)));
+        }
+        sampler_.append_to(out);
+    }
+
+  private:
+    /// Goes from the tiles of one level to those of the next.
+    void descend() {
+        rects_.clear();
+        for (const BandTile& tile : level_) rects_.push_back(sampler_.rect(tile));
+        ranges_.resize(rects_.size());
+        solid_.ranges(rects_, ranges_);
+        next_.clear();
+        for (std::size_t i = 0; i < level_.size(); ++i) {
+            BandTile tile = level_[i];
+            tile.full = ranges_[i].hi < 0;
+            if (!tile.full && ranges_[i].lo > 0) continue;
+            if (tile.full || is_leaf(tile)) {
+                found_.push_back(tile);
+            } else {
+                divide(tile, [&](const BandTile& part) {
+                    if (meets(part, band_)) next_.push_back(part);
+                });
+            }
+        }
+        level_.swap(next_);
+    }
+
+    EvenSolid& solid_;
+    const RowBand& band_;
+    TileSampler sampler_;
+    std::vector<BandTile> level_, next_;
+    std::vector<BandTile> found_;  ///< full ones, and leaves to be sampled
+    std::vector<Rect> rects_;
+    std::vector<Interval> ranges_;
 };
 
 /// A slice asked point by point.
@@ -303,12 +140,7 @@ class WalkedSlice : public WalkedSolid {
     void leave() override {}
     void values(const WalkPoints& points, std::span<double> out) override {
         std::size_t k = 0;
-        for (std::size_t l = 0; l < (points.lattice ? points.across.size() : 1); ++l) {
-            for (std::size_t i = 0; i < points.along.size(); ++i) {
-                const double across = points.across[points.lattice ? l : i];
-                out[k++] = value(points.at(points.along[i], across));
-            }
-        }
+        points.each([&](dvec2 p) { out[k++] = value(p); });
     }
 
   private:
@@ -325,7 +157,12 @@ class WalkedSlice : public WalkedSolid {
 
 void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
     out.clear();
-    TileWalk(solid, metric, band).walk(out);
+    NarrowingWalk(solid, metric, band).walk(out);
+}
+
+void sampled_spans(EvenSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
+    out.clear();
+    EvenWalk(solid, metric, band).walk(out);
 }
 
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out) {

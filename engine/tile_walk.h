@@ -3,22 +3,9 @@
 
 #include <algorithm>
 
-#include "engine/field.h"
+#include "engine/tile_sampler.h"
 
 namespace lamella {
-
-/// Points at which the walk asks for values, on lines of a band. A lattice has a point for every pair of
-/// positions; otherwise along[i] and across[i] belong together.
-struct WalkPoints {
-    Axis axis = Axis::x;
-    std::span<const double> along;   ///< mm
-    std::span<const double> across;  ///< mm
-    bool lattice = true;
-
-    std::size_t count() const { return lattice ? along.size() * across.size() : along.size(); }
-    /// The point of the plane at these positions.
-    dvec2 at(double a, double c) const { return axis == Axis::x ? dvec2(a, c) : dvec2(c, a); }
-};
 
 /// How a value may change along a line: f(q) - f(p) lies within slope * (q - p) +- noise for any two points
 /// of the line. Unknown unless told.
@@ -32,11 +19,9 @@ struct SlopeBound {
     bool one_way(double distance) const { return noise < std::max(slope.lo, -slope.hi) * distance; }
 };
 
-/// A solid in a plane as the walk sees it: it is told which tile the walk is in, so that it may narrow what
-/// it works with.
-class WalkedSolid {
+/// A solid in a plane that is told which tile the walk is in, so that it may narrow what it works with.
+class WalkedSolid : public SampledSolid {
   public:
-    virtual ~WalkedSolid() = default;
     /// The walk goes down into a tile, which lies in the one before: encloses every value over it. Values
     /// are asked for within the innermost tile only.
     virtual Interval enter(const Rect& tile) = 0;
@@ -44,10 +29,14 @@ class WalkedSolid {
     virtual void leave() = 0;
     /// How values change along lines within the innermost tile; asked for right after `enter`.
     virtual SlopeBound slope(Axis /*lines*/) { return {}; }
-    /// Only the signs of values are the same whatever the tile.
-    virtual bool signs_only() const { return false; }
-    /// The values at the points; a lattice's line by line: out[line * along.size() + i].
-    virtual void values(const WalkPoints& points, std::span<double> out) = 0;
+};
+
+/// A solid in a plane that works with the same all over it, and is quickest when asked about much at once:
+/// the walk looks at the tiles of all of the band level by level, and samples what is left many at a time.
+class EvenSolid : public SampledSolid {
+  public:
+    /// Encloses every value over each of the tiles.
+    virtual void ranges(std::span<const Rect> tiles, std::span<Interval> out) = 0;
 };
 
 /// Solid runs of a band from ranges and values alone. Tiles whose range proves them empty or full are not
@@ -58,6 +47,7 @@ class WalkedSolid {
 /// counted from the band's origin, and what is proven is what they would tell, so a line's runs do not depend
 /// on how it is cut into tiles and bands.
 void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
+void sampled_spans(EvenSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
 
 /// The same for a slice that answers from range and sample.
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out);

@@ -1,6 +1,9 @@
 // What the embedding program gives: fields, meshes, gradings, back-ends.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 #include <vector>
 
 #include "tests/app/command_run.h"
@@ -39,6 +42,70 @@ std::string identity_of(const Caller& caller, const lamella_job* job) {
     auto info = sized<lamella_job_info>();
     caller.require(lamella_job_info_get(caller, job, &info));
     return info.identity;
+}
+
+/// A chequered surface of polynomials, by the operations of tangle_formula, and how it was asked for.
+struct Tangle {
+    static std::int32_t values(void* user, const double* points, std::size_t count, double* out) {
+        for (std::size_t i = 0; i < count; ++i) {
+            double sum = 11.8;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double square = points[3 * i + static_cast<std::size_t>(axis)] *
+                                      points[3 * i + static_cast<std::size_t>(axis)];
+                sum = sum + square * (square - 5);
+            }
+            out[i] = sum;
+        }
+        auto& own = *static_cast<Tangle*>(user);
+        const std::lock_guard lock(own.counting);
+        own.calls.push_back(count);
+        return 0;
+    }
+    double mean() const {
+        return static_cast<double>(std::accumulate(calls.begin(), calls.end(), std::size_t{0})) /
+               static_cast<double>(calls.size());
+    }
+
+    std::mutex counting;
+    std::vector<std::size_t> calls;  ///< points of each
+};
+
+constexpr const char* tangle_formula =
+    "[[field]]\nname = \"tangle\"\nkind = \"formula\"\nbounds = [[-3, -3, -3], [3, 3, 3]]\n"
+    "formula = \"11.8 + x*x*(x*x - 5) + y*y*(y*y - 5) + z*z*(z*z - 5)\"\n[part]\nfield = \"tangle\"\n";
+
+JobHandle tangle_job(const Caller& caller, Tangle& tangle) {
+    auto field = sized<lamella_field>();
+    field.metric = LAMELLA_SIGN;
+    for (int axis = 0; axis < 3; ++axis) {
+        field.lower[axis] = -3;
+        field.upper[axis] = 3;
+    }
+    field.values = Tangle::values;
+    field.user = &tangle;
+    field.identity = "tangle";
+    const RecipeHandle recipe = recipe_by_call(caller);
+    caller.require(lamella_recipe_add_field(caller, recipe.get(), "tangle", &field));
+    return job_by_call(caller, recipe.get());
+}
+
+/// The runs of a section over a square of 6.4 mm, as they are handed out.
+std::vector<std::int32_t> runs_by_call(const Caller& caller, const lamella_job* job, double z) {
+    auto raster = sized<lamella_raster>();
+    raster.columns = raster.rows = 160;
+    raster.lines = 2;
+    raster.x = raster.y = -3.2;
+    raster.pitch_x = raster.pitch_y = 0.04;
+    lamella_runs* runs = nullptr;
+    caller.require(
+        lamella_section_runs(caller, section_by_call(caller, job, z).get(), LAMELLA_PART, &raster, &runs));
+    auto view = sized<lamella_runs_view>();
+    caller.require(lamella_runs_view_get(caller, runs, &view));
+    std::vector<std::int32_t> all(view.ends, view.ends + 2 * view.first[view.line_count]);
+    for (std::size_t l = 0; l <= view.line_count; ++l)
+        all.push_back(static_cast<std::int32_t>(view.first[l]));
+    lamella_runs_destroy(runs);
+    return all;
 }
 
 /// A back-end that keeps what it is told.
@@ -114,6 +181,75 @@ TEST_CASE("a field of the program's is a solid like any other", "[bindings]") {
             CHECK(area_by_call(caller, section_by_call(caller, job.get(), z).get()) ==
                   Approx(pi * (25 - z * z)).epsilon(2e-3));
         }
+    }
+}
+
+TEST_CASE("a field of the program's makes the runs of its formula, by hundreds of points a call",
+          "[bindings]") {
+    const Caller caller;
+    Tangle tangle;
+    const JobHandle host = tangle_job(caller, tangle), own = job_by_call(caller, std::string(tangle_formula));
+    for (const double z : {-1.6, 0.1, 2.2}) {
+        tangle.calls.clear();
+        const auto runs = runs_by_call(caller, host.get(), z);
+        CHECK(runs == runs_by_call(caller, own.get(), z));
+        CHECK(tangle.mean() > 500);
+        const SectionHandle section = section_by_call(caller, host.get(), z);
+        CHECK(area_by_call(caller, section.get()) ==
+              area_by_call(caller, section_by_call(caller, own.get(), z).get()));
+        CHECK(tangle.mean() > 500);
+    }
+}
+
+TEST_CASE("a field that tells distances is asked by hundreds of points a call", "[bindings]") {
+    const Caller caller;
+    struct {
+        std::size_t calls = 0, points = 0;
+    } asked;
+    auto field = sized<lamella_field>();
+    field.metric = LAMELLA_EXACT;
+    for (int axis = 0; axis < 3; ++axis) {
+        field.lower[axis] = -5;
+        field.upper[axis] = 5;
+    }
+    field.values = [](void* user, const double* points, std::size_t count, double* values) {
+        auto& own = *static_cast<decltype(&asked)>(user);
+        ++own.calls;
+        own.points += count;
+        double radius = 5;
+        return ball(&radius, points, count, values);
+    };
+    field.user = &asked;
+    field.identity = "ball";
+    const RecipeHandle recipe = recipe_by_call(caller);
+    caller.require(lamella_recipe_add_field(caller, recipe.get(), "bulb", &field));
+    const JobHandle job = job_by_call(caller, recipe.get());
+    asked = {};
+    CHECK(area_by_call(caller, section_by_call(caller, job.get(), 1).get()) == Approx(24 * pi).epsilon(1e-3));
+    CHECK(asked.points > 100 * asked.calls);
+}
+
+TEST_CASE("how a field of the program's is asked does not depend on threads", "[bindings]") {
+    const Caller caller;
+    Tangle tangle;
+    const JobHandle job = tangle_job(caller, tangle);
+    std::vector<double> areas;
+    std::vector<std::size_t> calls;
+    for (const std::int32_t threads : {1, 4}) {
+        tangle.calls.clear();
+        Keeper keeper;
+        const lamella_backend backend = backend_of(keeper);
+        auto options = sized<lamella_run_options>();
+        options.threads = threads;
+        options.last = 12;
+        caller.require(lamella_run_backend(caller, job.get(), &backend, &options, nullptr));
+        std::sort(tangle.calls.begin(), tangle.calls.end());
+        if (areas.empty()) {
+            areas = keeper.areas;
+            calls = tangle.calls;
+        }
+        CHECK(keeper.areas == areas);
+        CHECK(tangle.calls == calls);
     }
 }
 
