@@ -153,6 +153,7 @@ FoamStiffness foam_stiffness(std::span<const SolvedSample> solved) {
 std::vector<StiffnessSolve> foam_solves(const Recipe& recipe, const StiffnessOptions& options) {
     const int count = samples_of(*recipe.foam, options);
     std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) solves.push_back({.sample = i, .work = 1.0 / count});
     return solves;
 }
@@ -219,6 +220,7 @@ std::vector<StiffnessSolve> law_solves(const Recipe& recipe, double ratio, const
     constexpr double coarse_work = 0.2;
     const int count = samples_of(*recipe.foam, options);
     std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count) + coarse_solves);
     for (int i = 0; i < count; ++i)
         solves.push_back({ratio, i, law_poisson, false, (1 - coarse_work) / count});
     // What the material's Poisson's ratio changes is told by one coarse sample, the same for all three.
