@@ -14,6 +14,7 @@ class SharedCheck : public Backend {
         return check_->begin(job, range, false);
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override { return check_->render(layer); }
+    std::unique_ptr<LayerProduct> empty_product() const override { return check_->empty_product(); }
     void write(const Layer& layer, LayerProduct& product) override { check_->write(layer, product); }
     void end() override { check_->end(); }
 
@@ -23,17 +24,20 @@ class SharedCheck : public Backend {
 
 }  // namespace
 
+std::unique_ptr<Backend> OutputChecks::check_of(const PrinterProfile& machine, const std::string& part,
+                                                const Job& job, int parts) {
+    const CheckPlan plan = plan_check(machine, job, parts);
+    planned_.push_back({part, machine.name, plan, {}});
+    checks_.push_back(std::make_shared<PrintCheck>(job, plan.options));
+    return std::make_unique<SharedCheck>(checks_.back());
+}
+
 std::unique_ptr<Backend> OutputChecks::beside(std::unique_ptr<Backend> outputs,
                                               const std::vector<Output>& machines, const std::string& part,
                                               const Job& job, int parts) {
     std::vector<std::unique_ptr<Backend>> all;
     all.push_back(std::move(outputs));
-    for (const Output& output : machines) {
-        const CheckPlan plan = plan_check(output.printer, job, parts);
-        planned_.push_back({part, output.printer.name, plan, {}});
-        checks_.push_back(std::make_shared<PrintCheck>(job, plan.options));
-        all.push_back(std::make_unique<SharedCheck>(checks_.back()));
-    }
+    for (const Output& output : machines) all.push_back(check_of(output.printer, part, job, parts));
     return make_several_outputs(std::move(all));
 }
 

@@ -1,4 +1,4 @@
-// Checks that run beside the back-ends of a run, on the same layers.
+// Checks as back-ends: alone, or beside the outputs of a run, on the same layers.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,20 @@
 
 namespace lamella {
 
-/// A check for the machine of each output. Outlives the back-end that it gives out.
+/// A check for each of some machines. Outlives the back-ends that it gives out.
 class OutputChecks {
   public:
-    /// The back-end with the checks beside it, which see every layer, also those that a continued output has
-    /// already. `parts`: see plan_check. Throws InputError where the limits make no sense for the job.
+    /// A back-end that checks the layers of `part` for a machine. `parts`: see plan_check. Throws InputError
+    /// where the limits make no sense for the job.
+    std::unique_ptr<Backend> check_of(const PrinterProfile& machine, const std::string& part, const Job& job,
+                                      int parts);
+
+    /// The back-end with a check for the machine of each output beside it, which see every layer, also those
+    /// that a continued output has already.
     std::unique_ptr<Backend> beside(std::unique_ptr<Backend> outputs, const std::vector<Output>& machines,
                                     const std::string& part, const Job& job, int parts);
 
-    /// After the layers have gone through, by output; empty without checks.
+    /// After the layers have gone through, in the order of asking; empty without checks.
     std::vector<CheckOutcome> outcomes() const;
 
   private:

@@ -3,13 +3,15 @@
 
 #include <memory>
 
+#include "app/check_outputs.h"
 #include "app/check_page.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/prepare_job.h"
 #include "app/progress.h"
+#include "app/run_on_ranks.h"
+#include "app/spread_layers.h"
 #include "app/text_output.h"
-#include "engine/error.h"
 
 namespace lamella {
 
@@ -21,15 +23,27 @@ struct CheckCommand : JobOptions {
     bool json = false;
 };
 
-CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, const Job& job,
-                          const CancelToken& cancel) {
-    CheckOutcome outcome{recipe.part.name, recipe.printer.name, plan_check(recipe.printer, job, 1), {}};
-    PrintCheck check(job, outcome.plan.options);
+/// Of one part, which the check is of.
+Recipe recipe_of(const CheckCommand& options) {
+    Recipe recipe = options.recipe.read();
+    recipe.plate.copies = 1;
+    return recipe;
+}
+
+CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, const PreparedJob& prepared,
+                          Ranks* ranks) {
+    const Job& job = prepared.built.job;
+    OutputChecks checking;
+    auto check = checking.check_of(recipe.printer, recipe.part.name, job, 1);
     ProgressDisplay display(options.quiet, "check: ");
-    survey_layers(
-        job, check, options.threads, [&](const Progress& progress) { display.show(progress); }, &cancel);
-    outcome.report = check.report();
-    return outcome;
+    StreamOptions stream = prepared.stream;
+    stream.on_progress = [&](const Progress& progress) { display.show(progress); };
+    if (ranks != nullptr) {
+        spread_layers(*ranks, job, check, stream);
+    } else {
+        stream_layers(job, *check, stream);
+    }
+    return checking.outcomes().front();
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -38,17 +52,31 @@ void write(const std::string& path, const std::string& text) {
     out.close();
 }
 
-void run(const CheckCommand& options) {
+/// `ranks`: the processes that share the layers; null where there is this one alone.
+std::string run(const CheckCommand& options, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
-    Recipe recipe = options.recipe.read();
-    recipe.plate.copies = 1;
+    const Recipe recipe = recipe_of(options);
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
-    const CheckOutcome outcome = check_layers(options, recipe, job, cancel);
+    const CheckOutcome outcome = check_layers(options, recipe, prepared, ranks);
     write(options.output, options.json ? check_json(outcome, job).dump(2) + "\n" : check_text(outcome));
     if (!options.page.empty()) write(options.page, check_page(outcome, job));
-    if (!outcome.report.passed()) throw ConstraintError(failure_text(outcome));
+    return outcome.report.passed() ? "" : failure_text(outcome);
+}
+
+/// What a process does that is not the first of several.
+void help(const CheckCommand& given, Ranks& ranks) {
+    CheckCommand options = given;
+    options.quiet = true;
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = recipe_of(options);
+    const PreparedJob prepared = prepare_job(options, recipe, cancel);
+    OutputChecks checking;
+    render_blocks(ranks, prepared.built.job,
+                  checking.check_of(recipe.printer, recipe.part.name, prepared.built.job, 1),
+                  prepared.stream);
 }
 
 }  // namespace
@@ -72,9 +100,13 @@ void add_check_command(CLI::App& root) {
         "  lamella check model.stl --printer prusa-mk4 --layer-height 0.2\n"
         "  lamella check insole.toml --report insole.html\n"
         "  lamella check figure.stl --support bridges --printer marlin --check-bridges warn\n"
+        "  mpirun -n 4 lamella check insole.toml\n"
         "What is asked for depends on the machine's process; `lamella keys` lists it under [check].\n"
         "Exit code 1 when something fails; warnings alone are 0.");
-    command.callback([options] { run(*options); });
+    command.callback([options] {
+        run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
+                     [&](Ranks& ranks) { help(*options, ranks); });
+    });
 }
 
 }  // namespace lamella

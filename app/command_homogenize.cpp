@@ -2,19 +2,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/recipe_options.h"
+#include "app/run_on_ranks.h"
+#include "app/spread_solves.h"
 #include "app/stiffness_plot.h"
 #include "app/stiffness_report.h"
 #include "app/text_output.h"
 #include "engine/error.h"
 #include "recipe/base_material.h"
 #include "recipe/foam_modulus.h"
-#include "recipe/foam_stiffness.h"
 #include "recipe/settings.h"
 
 namespace lamella {
@@ -55,61 +57,98 @@ void draw(const HomogenizeCommand& command, const StiffnessPlot& plot) {
     out.close();
 }
 
-/// Writes a law. What cannot be made is found out before anything is computed.
-void write_table(const HomogenizeCommand& command, const Recipe& recipe, StiffnessOptions options,
-                 TextOutput& out) {
-    check_uniform(*recipe.foam);
-    const std::string name = law_name(*recipe.foam);
-    const std::vector<double> ratios = ratios_of(command.ratios);
-    for (const double ratio : ratios) check_law_point(recipe, ratio);
-    out.write(law_heading());
-    StiffnessPlot plot{name, {}, options.material, {}};
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-        ProgressDisplay display(command.quiet,
-                                fmt::format("ratio {:.4g}, {} of {}: ", ratios[i], i + 1, ratios.size()));
-        options.on_progress = [&](double share) { display.show(share); };
-        plot.law.push_back(law_point(recipe, ratios[i], options));
-        out.write(law_row(name, plot.law.back()));
-    }
-    draw(command, plot);
-}
+/// What a command comes to: the solves for one result, or for each point of a law.
+struct Homogenizing {
+    Recipe recipe;
+    StiffnessOptions options;
+    std::vector<double> ratios;  ///< of a law's points
+    std::vector<StiffnessSolve> solves;
+};
 
-void write_stiffness(const HomogenizeCommand& command, const Recipe& recipe, StiffnessOptions options,
-                     TextOutput& out) {
-    ProgressDisplay display(command.quiet);
-    options.on_progress = [&](double share) { display.show(share); };
-    const FoamStiffness found = foam_stiffness(recipe, options);
-    display.finish();
-    if (!command.plot.empty()) {
-        const ElasticTensor stiffness = found.stiffness();
-        const StiffnessPlot::Sample sample{found.mean(density_of), closest_isotropic(stiffness).young,
-                                           stiffness};
-        const auto law = known_law(*recipe.foam);
-        draw(command, {fmt::format("{} foam, {:.3g} mm a sample", law_name(*recipe.foam), found.period),
-                       law ? law->points : std::vector<FoamLawPoint>(), options.material, sample});
-    }
-    out.write(command.json ? stiffness_json(*recipe.foam, options.material, found).dump(2) + "\n"
-                           : stiffness_text(*recipe.foam, options.material, found));
-}
-
-void run(const HomogenizeCommand& command) {
-    CancelToken cancel;
-    const InterruptGuard guard(cancel);
-    const Recipe recipe = command.recipe.read(false);
+/// What cannot be made is found out before anything is computed.
+Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel) {
+    Homogenizing plan{command.recipe.read(false), command.options, {}, {}};
+    const Recipe& recipe = plan.recipe;
+    StiffnessOptions& options = plan.options;
     if (!recipe.foam)
         throw InputError(
             "[foam] is missing: there is nothing to homogenise; accepted: a recipe with one, or --cell and "
             "--beam");
-    StiffnessOptions options = command.options;
     options.cancel = &cancel;
     if (recipe.material) {
         options.material = base_material(*recipe.material).elastic;
         if (!(options.material.young > 0)) options.material.young = 1;  // results are shares of it
     }
     if (options.samples == 0) options.samples = command.table ? samples_of_a_law : 1;
+    check_uniform(*recipe.foam);
+    if (!command.table) {
+        plan.solves = foam_solves(recipe, options);
+        return plan;
+    }
+    plan.ratios = ratios_of(command.ratios);
+    for (const double ratio : plan.ratios) {
+        check_law_point(recipe, ratio);
+        std::ranges::copy(law_solves(recipe, ratio, options), std::back_inserter(plan.solves));
+    }
+    return plan;
+}
+
+/// Writes a law, each point as soon as it is known.
+void write_table(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+                 TextOutput& out) {
+    const std::string name = law_name(*plan.recipe.foam);
+    const std::vector<double>& ratios = plan.ratios;
+    const std::size_t each = plan.solves.size() / ratios.size();
+    out.write(law_heading());
+    StiffnessPlot plot{name, {}, plan.options.material, {}};
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        ProgressDisplay display(command.quiet,
+                                fmt::format("ratio {:.4g}, {} of {}: ", ratios[i], i + 1, ratios.size()));
+        const auto solved = solves.next(each, [&](double share) { display.show(share); });
+        plot.law.push_back(law_point(ratios[i], solved));
+        out.write(law_row(name, plot.law.back()));
+    }
+    draw(command, plot);
+}
+
+void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+                     TextOutput& out) {
+    const FoamRecipe& foam = *plan.recipe.foam;
+    const IsotropicMaterial& material = plan.options.material;
+    ProgressDisplay display(command.quiet);
+    const FoamStiffness found =
+        foam_stiffness(solves.next(plan.solves.size(), [&](double share) { display.show(share); }));
+    display.finish();
+    if (!command.plot.empty()) {
+        const ElasticTensor stiffness = found.stiffness();
+        const StiffnessPlot::Sample sample{found.mean(density_of), closest_isotropic(stiffness).young,
+                                           stiffness};
+        const auto law = known_law(foam);
+        draw(command, {fmt::format("{} foam, {:.3g} mm a sample", law_name(foam), found.period),
+                       law ? law->points : std::vector<FoamLawPoint>(), material, sample});
+    }
+    out.write(command.json ? stiffness_json(foam, material, found).dump(2) + "\n"
+                           : stiffness_text(foam, material, found));
+}
+
+/// `ranks`: the processes that share the solves; null where there is this one alone.
+void run(const HomogenizeCommand& command, Ranks* ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Homogenizing plan = planned(command, cancel);
     TextOutput out(command.output);
-    (command.table ? write_table : write_stiffness)(command, recipe, options, out);
+    SpreadSolves solves(ranks, plan.recipe, plan.solves, plan.options);
+    (command.table ? write_table : write_stiffness)(command, plan, solves, out);
+    solves.finish();
     out.close();
+}
+
+/// What a process does that is not the first of several.
+void help(const HomogenizeCommand& command, Ranks& ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Homogenizing plan = planned(command, cancel);
+    help_with_solves(ranks, plan.recipe, plan.solves, plan.options);
 }
 
 }  // namespace
@@ -156,9 +195,15 @@ void add_homogenize_command(CLI::App& root) {
         "  lamella homogenize insole.toml --samples 4 --json -o stiffness.json\n"
         "  lamella homogenize gyroid.toml --rve 128 --plot gyroid.svg\n"
         "  lamella homogenize mine.toml --table -o mine.csv\n"
+        "  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\n"
         "A sample is one period of the foam's, a cube; a random foam is made to repeat for it. Sizes do\n"
-        "not matter, their ratio does: cells and beams twice as large are as stiff.");
-    command.callback([options] { run(*options); });
+        "not matter, their ratio does: cells and beams twice as large are as stiff.\n"
+        "mpirun shares out whole samples, of a table those of all ratios: a single one keeps one process "
+        "busy.");
+    command.callback([options] {
+        const auto lead = [&](Ranks* ranks) { return run(*options, ranks), std::string(); };
+        run_on_ranks(lead, [&](Ranks& ranks) { help(*options, ranks); });
+    });
 }
 
 }  // namespace lamella

@@ -14,7 +14,7 @@
 #include "app/job_report.h"
 #include "app/prepare_job.h"
 #include "app/progress.h"
-#include "app/ranks.h"
+#include "app/run_on_ranks.h"
 #include "app/spread_layers.h"
 #include "app/text_output.h"
 #include "bindings/plugin.h"
@@ -124,13 +124,13 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         std::fputs(("\n" + check_text(checked)).c_str(), stderr);
 }
 
-/// The layers are written all the same: what to do about it is the user's to say.
-void refuse_failures(const std::vector<CheckOutcome>& checks) {
+/// What a check of the machines fails for; empty when nothing. What to do about it is the user's to say.
+std::string failures_text(const std::vector<CheckOutcome>& checks) {
     std::string text;
     for (const CheckOutcome& checked : checks) {
         if (!checked.report.passed()) text += failure_text(checked) + "\n";
     }
-    if (!text.empty()) throw ConstraintError(text + "all layers have been written all the same");
+    return text.empty() ? text : text + "all layers have been written all the same";
 }
 
 std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
@@ -167,12 +167,10 @@ void check_sharing(const SliceOptions& options, const Ranks* ranks) {
     if (ranks == nullptr) return;
     if (!options.shard.empty())
         throw InputError("--shard: mpirun joins by itself what its processes make; accepted: one of the two");
-    if (options.check) {
+    if (!options.plugins.empty())
         throw InputError(
-            "--check: its findings go from layer to layer, which several processes do not; accepted: "
-            "`lamella "
-            "check`, or one process");
-    }
+            "--plugin: what a plugin makes of a layer stays in its process; accepted: one process, or "
+            "lamella's own printers");
 }
 
 /// Where the layers go: the outputs, or a shard of what they would get.
@@ -183,8 +181,17 @@ std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vecto
                              settings_of(outputs), options.force);
 }
 
+/// The outputs with the checks beside them that were asked for.
+std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& checking,
+                                     const SliceOptions& options, const Recipe& recipe,
+                                     const std::vector<Output>& outputs, const Job& job) {
+    if (!options.check) return to;
+    const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
+    return checking.beside(std::move(to), outputs, recipe.part.name, job, parts);
+}
+
 /// `ranks`: the processes that share the layers; null where there is this one alone.
-void run(const SliceOptions& options, Ranks* ranks) {
+std::string run(const SliceOptions& options, Ranks* ranks) {
     check_sharing(options, ranks);
     const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
     if (to_pipe) check_standard_output(options);
@@ -208,12 +215,9 @@ void run(const SliceOptions& options, Ranks* ranks) {
     std::vector<std::string> notes;
     std::vector<CheckOutcome> checks;
     try {
-        auto backend = layers_to(options, outputs, built.job);
         OutputChecks checking;
-        if (options.check) {
-            const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
-            backend = checking.beside(std::move(backend), outputs, recipe.part.name, built.job, parts);
-        }
+        auto backend = with_checks(layers_to(options, outputs, built.job), checking, options, recipe, outputs,
+                                   built.job);
         report = ranks ? spread_layers(*ranks, built.job, backend, stream)
                        : stream_layers(built.job, *backend, stream);
         notes = backend->notes();
@@ -227,7 +231,7 @@ void run(const SliceOptions& options, Ranks* ranks) {
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
     summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
-    refuse_failures(checks);
+    return failures_text(checks);
 }
 
 /// What a process does that is not the first of several. What is wrong, the first one finds out as well.
@@ -236,27 +240,14 @@ void help(const SliceOptions& given, Ranks& ranks) {
     options.quiet = true;
     CancelToken cancel;
     const InterruptGuard guard(cancel);
-    try {
-        const Recipe recipe = options.recipe.read();
-        const std::vector<Output> outputs = outputs_of(options, recipe);
-        const PreparedJob prepared = prepare_job(options, recipe, cancel);
-        render_blocks(ranks, prepared.built.job, outputs, prepared.stream);
-    } catch (const Error&) {
-        return;
-    }
-}
-
-void run_or_help(const SliceOptions& options) {
-    const std::unique_ptr<Ranks> ranks = started_ranks();
-    if (!ranks) return run(options, nullptr);
-    if (ranks->rank() > 0) return help(options, *ranks);
-    try {
-        run(options, ranks.get());
-    } catch (const Error& error) {
-        // The others wait for this one, and would for ever.
-        std::fputs(fmt::format("lamella: {}\n", error.what()).c_str(), stderr);
-        ranks->abort(error.exit_code());
-    }
+    const Recipe recipe = options.recipe.read();
+    const std::vector<Output> outputs = outputs_of(options, recipe);
+    const PreparedJob prepared = prepare_job(options, recipe, cancel);
+    const Job& job = prepared.built.job;
+    OutputChecks checking;
+    auto renderer =
+        with_checks(make_renderer(outputs, prepared.stream.range), checking, options, recipe, outputs, job);
+    render_blocks(ranks, job, std::move(renderer), prepared.stream);
 }
 
 }  // namespace
@@ -307,7 +298,10 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella slice insole.toml -o insole.sl1 --layers 0:400 --shard first.shard\n"
         "  mpirun -n 4 lamella slice insole.toml -o insole.sl1\n"
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
-    command.callback([options] { run_or_help(*options); });
+    command.callback([options] {
+        run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
+                     [&](Ranks& ranks) { help(*options, ranks); });
+    });
 }
 
 }  // namespace lamella

@@ -17,7 +17,8 @@ class Ranks {
 
     virtual int rank() const = 0;  ///< this process, from 0
     virtual int size() const = 0;
-    /// Sends bytes; they are on their way when this returns, and arrive in the order of sending.
+    /// Sends bytes with a RankTag; they are on their way when this returns, and arrive in the order of
+    /// sending.
     virtual void send(int to, int tag, std::string bytes) = 0;
     /// What has come from a rank with a tag, if anything has.
     virtual std::optional<std::string> receive(int from, int tag) = 0;
@@ -25,6 +26,16 @@ class Ranks {
     virtual std::size_t outstanding() = 0;
     /// Ends all processes, this one included, with an exit code.
     [[noreturn]] virtual void abort(int code) = 0;
+};
+
+/// Tags of messages, by what they say.
+enum RankTag : int {
+    begin_tag = 1,  ///< layers are to be made, from which on, and of which job
+    failure_tag,    ///< a rank has failed, and why
+    ask_tag,        ///< a rank is free for a task
+    task_tag,       ///< what it is to do
+    result_tag,     ///< what came of it
+    first_layer_tag = 16
 };
 
 /// The ranks that mpirun started this process with; null when it runs alone. Throws FaultError where they

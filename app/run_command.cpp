@@ -1,30 +1,16 @@
-// Parsing the command line, and the one place where exceptions become messages and exit codes.
+// Parsing the command line, and running what it asks for.
 #include "app/run_command.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <new>
-
 #include "app/commands.h"
+#include "app/complaint.h"
 #include "app/recipe_options.h"
 #include "app/text_output.h"
-#include "engine/error.h"
 
 namespace lamella {
 
 namespace {
 
 constexpr int bad_input = 2;
-constexpr int fault = 3;
-
-int complain(const std::string& message, int code) {
-    std::string lines = message;
-    for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;)
-        lines.insert(++at, "lamella: ");
-    std::fputs(("lamella: " + lines + "\n").c_str(), stderr);
-    return code;
-}
 
 /// The deepest subcommand that was named: its help is the one asked for.
 const CLI::App& chosen(const CLI::App& root) {
@@ -89,14 +75,8 @@ int run_command(const std::vector<std::string>& arguments) {
         add_materials_command(root);
         add_keys_command(root);
         return parse_and_run(root, arguments);
-    } catch (const ReaderGone& gone) {
-        return gone.exit_code();
-    } catch (const Error& error) {
-        return complain(error.what(), error.exit_code());
-    } catch (const std::bad_alloc&) {
-        return complain("out of memory", fault);
-    } catch (const std::exception& error) {
-        return complain(std::string("unexpected fault: ") + error.what(), fault);
+    } catch (...) {
+        return complain_of_exception();
     }
 }
 

@@ -2,13 +2,11 @@
 #include "app/spread_layers.h"
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
-#include <thread>
 
+#include "app/rank_failure.h"
+#include "app/wait_for.h"
 #include "engine/error.h"
 #include "printers/carried_layers.h"
-#include "recipe/render_alone.h"
 
 namespace lamella {
 namespace {
@@ -16,21 +14,29 @@ namespace {
 constexpr int layers_in_a_block = 8;
 constexpr std::size_t blocks_ahead = 2;  ///< that wait to be taken
 
-enum Tag : int { begin_tag = 1, failure_tag = 2, first_layer_tag = 16 };
-
 /// MPI has tags up to 32767; layers that are on the way at once are far nearer to each other.
 int tag_of(int layer) { return first_layer_tag + layer % 32000; }
 
 int owner_of(int layer, int first, int ranks) { return (layer - first) / layers_in_a_block % ranks; }
 
-/// Asks now and then, so that no processor is kept busy by waiting. Throws Interrupted when cancelled.
-template <typename Ask>
-auto wait_for(const Ask& ask, const CancelToken* cancel) {
-    for (;;) {
-        if (auto found = ask()) return found;
-        if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped");
-        std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
+/// What rank 0 tells all.
+struct Beginning {
+    int first = 0;         ///< layer that is still missing
+    std::string identity;  ///< the job's
+};
+
+std::string packed(Beginning beginning) {
+    Parcel parcel;
+    parcel(beginning.first, beginning.identity);
+    return parcel.bytes();
+}
+
+Beginning unpacked(std::string bytes) {
+    Parcel parcel(std::move(bytes));
+    Beginning beginning;
+    parcel(beginning.first, beginning.identity);
+    parcel.finish();
+    return beginning;
 }
 
 /// Layers as they come from the other ranks.
@@ -44,9 +50,7 @@ class FromRanks {
         if (owner == 0) return std::nullopt;
         return *wait_for(
             [&] {
-                for (int rank = 1; rank < ranks_.size(); ++rank) {
-                    if (const auto failure = ranks_.receive(rank, failure_tag)) throw FaultError(*failure);
-                }
+                throw_failure(ranks_);
                 return ranks_.receive(owner, tag_of(layer));
             },
             cancel_);
@@ -69,7 +73,8 @@ class Announcing : public Backend {
         fetching_ = make_fetching(std::move(outputs_), fetch);
         const int first = fetching_->begin(job, range, resume);
         from_.emplace(ranks_, first, cancel_);
-        for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, begin_tag, std::to_string(first));
+        for (int rank = 1; rank < ranks_.size(); ++rank)
+            ranks_.send(rank, begin_tag, packed({first, job.identity}));
         return first;
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
@@ -94,29 +99,28 @@ StreamReport spread_layers(Ranks& ranks, const Job& job, std::unique_ptr<Backend
     return stream_layers(job, *outputs, options);
 }
 
-void render_blocks(Ranks& ranks, const Job& job, std::span<const Output> outputs,
+void render_blocks(Ranks& ranks, const Job& job, std::unique_ptr<Backend> renderer,
                    const StreamOptions& options) {
-    try {
+    tell_failures(ranks, [&] {
         const auto told = wait_for([&] { return ranks.receive(0, begin_tag); }, options.cancel);
-        const int first = std::stoi(*told);
+        const Beginning beginning = unpacked(*told);
+        if (beginning.identity != job.identity)
+            throw InputError(
+                "its job is another than that of rank 0; accepted: the same recipe and files for all");
         const auto send = [&](int layer, std::string bytes) {
             wait_for([&] { return ranks.outstanding() < blocks_ahead * layers_in_a_block; }, options.cancel);
             ranks.send(0, tag_of(layer), std::move(bytes));
         };
-        const auto sending = make_sending(make_renderer(outputs, options.range), send);
+        const auto sending = make_sending(std::move(renderer), options.range, send);
         const int stride = layers_in_a_block * ranks.size();
-        for (int block = first + layers_in_a_block * ranks.rank(); block < options.range.last;
+        for (int block = beginning.first + layers_in_a_block * ranks.rank(); block < options.range.last;
              block += stride) {
             StreamOptions mine = options;
             mine.range = {block, std::min(block + layers_in_a_block, options.range.last)};
             mine.resume = false;
             stream_layers(job, *sending, mine);
         }
-    } catch (const Interrupted&) {
-        throw;
-    } catch (const std::exception& error) {
-        ranks.send(0, failure_tag, "rank " + std::to_string(ranks.rank()) + ": " + error.what());
-    }
+    });
 }
 
 }  // namespace lamella

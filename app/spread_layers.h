@@ -2,11 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "app/ranks.h"
 #include "engine/layer_stream.h"
-#include "recipe/outputs.h"
 
 namespace lamella {
 
@@ -16,9 +14,10 @@ namespace lamella {
 StreamReport spread_layers(Ranks& ranks, const Job& job, std::unique_ptr<Backend>& outputs,
                            const StreamOptions& options);
 
-/// What the other processes do: they render their blocks, and send them, not further ahead than memory
-/// allows. What fails is told to rank 0.
-void render_blocks(Ranks& ranks, const Job& job, std::span<const Output> outputs,
+/// What the other processes do: their blocks are rendered by a back-end of their own that makes of a layer
+/// what that of rank 0 does, and sent, not further ahead than memory allows. What fails is told to rank 0,
+/// also that the job is not the same there.
+void render_blocks(Ranks& ranks, const Job& job, std::unique_ptr<Backend> renderer,
                    const StreamOptions& options);
 
 }  // namespace lamella

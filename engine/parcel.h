@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -25,8 +26,8 @@ class Parcel {
     bool unpacks() const { return unpacks_; }
     const std::string& bytes() const { return bytes_; }
 
-    /// Packs the members, or sets them to what was packed, in the same order. Throws FaultError where the
-    /// bytes end too early.
+    /// Packs the members, or sets them to what was packed, in the same order. A member is plain numbers, a
+    /// text, a list, or has a `carry` of its own. Throws FaultError where the bytes end too early.
     template <typename... Members>
     void operator()(Members&... members) {
         (member(members), ...);
@@ -40,8 +41,12 @@ class Parcel {
   private:
     template <typename T>
     void member(T& value) {
-        static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
-        raw(&value, sizeof value);
+        if constexpr (requires { value.carry(*this); }) {
+            value.carry(*this);
+        } else {
+            static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+            raw(&value, sizeof value);
+        }
     }
     void member(std::string& text) { sequence(text); }
     template <typename T>
@@ -75,5 +80,9 @@ class Parcel {
     std::size_t at_ = 0;
     bool unpacks_ = false;
 };
+
+/// Throws FaultError unless `starts` tells where rows of so many items begin: from 0, never falling, to their
+/// number.
+void check_row_starts(std::span<const std::uint32_t> starts, std::size_t items);
 
 }  // namespace lamella

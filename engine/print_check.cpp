@@ -39,13 +39,47 @@ CheckGrid check_grid(const Job& job, double pitch) {
     return grid;
 }
 
+/// What the layers of a check have in common.
+struct LayerShape {
+    std::size_t lines = 0;
+    bool labels_part = false, labels_voids = false;
+};
+
 /// What the checks need of one layer.
 struct CheckedLayer : LayerProduct {
+    explicit CheckedLayer(const LayerShape& given) : shape(given) {}
+
+    void carry(Parcel& parcel) override {
+        parcel(has_supports, rows.part, rows.supports, part, voids, thin, narrow);
+        if (has_supports) {
+            parcel(rows.printed, printed);
+        } else if (parcel.unpacks()) {
+            rows.printed = rows.part;
+        }
+        if (parcel.unpacks() && !fits()) throw FaultError("a layer's parcel is of another check");
+    }
+
+    LayerShape shape;
     HoldingRows rows;
     LabelledLayer part, printed;  ///< printed only where there are supports
     LabelledLayer voids;
     SpanRows thin, narrow;
     bool has_supports = false;
+
+  private:
+    bool has_lines(const SpanRows& found) const { return found.lines() == shape.lines; }
+    bool are_labels(const LabelledLayer& labels, bool wanted) const {
+        return labels.starts.size() == (wanted ? shape.lines + 1 : 0);
+    }
+    /// Whether what was unpacked can be held against other layers.
+    bool fits() const {
+        if (!has_lines(rows.part) || !has_lines(rows.supports) || !has_lines(rows.printed)) return false;
+        if (!are_labels(part, shape.labels_part) || !are_labels(voids, shape.labels_voids)) return false;
+        if (shape.labels_part && part.owners.size() != rows.part.runs().size()) return false;
+        if (shape.labels_voids && voids.row(0).empty()) return false;
+        return printed.starts.empty() ||
+               (are_labels(printed, true) && printed.owners.size() == rows.printed.runs().size());
+    }
 };
 
 /// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
@@ -180,6 +214,10 @@ struct PrintCheck::State {
     }
 
     bool wants(Check check) const { return options.limits.verdict(check) != Verdict::off; }
+    LayerShape shape() const {
+        return {static_cast<std::size_t>(grid.band.lines()), pieces || hold || wants(Check::sheets),
+                voids.has_value()};
+    }
     void finish();
     void report_all();
     void report_one(Check check, double limit, const FaultList* faults);
@@ -232,12 +270,11 @@ int PrintCheck::begin(const Job& /*job*/, LayerRange range, bool /*resume*/) {
 
 std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
-    auto product = std::make_unique<CheckedLayer>();
+    auto product = std::make_unique<CheckedLayer>(state.shape());
     Scratch scratch;
     SpanRows part = all_rows(layer.part(), state.grid.band, scratch);
     product->area = state.grid.area(part.total_length());
-    if (state.pieces || state.hold || state.wants(Check::sheets))
-        product->part = label_layer(part, layer.index(), Growth{});
+    if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness) product->thin = state.thickness->prepare(part);
     if (state.gaps) product->narrow = state.gaps->prepare(part);
@@ -251,6 +288,10 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     product->rows.part = std::move(part);
     product->rows.supports = std::move(supports);
     return product;
+}
+
+std::unique_ptr<LayerProduct> PrintCheck::empty_product() const {
+    return std::make_unique<CheckedLayer>(state_->shape());
 }
 
 void PrintCheck::write(const Layer& layer, LayerProduct& product) {

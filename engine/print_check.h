@@ -64,6 +64,7 @@ class PrintCheck : public Backend {
 
     int begin(const Job& job, LayerRange range, bool resume) override;
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
+    std::unique_ptr<LayerProduct> empty_product() const override;
     void write(const Layer& layer, LayerProduct& product) override;
     void end() override;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/parcel.h"
+
 namespace lamella {
 namespace {
 
@@ -56,6 +58,16 @@ void ComponentExtent::include(const ComponentExtent& other) {
     last_row = std::max(last_row, other.last_row);
     first_layer = std::min(first_layer, other.first_layer);
     last_layer = std::max(last_layer, other.last_layer);
+}
+
+void LabelledLayer::carry(Parcel& parcel) {
+    parcel(first_row, starts, runs, components, owners);
+    if (!parcel.unpacks() || (starts.empty() && runs.empty())) return;  // where nothing was labelled
+    check_row_starts(starts, runs.size());
+    const auto is_known = [&](std::uint32_t component) { return component < components.size(); };
+    if (!std::ranges::all_of(runs, is_known, &LabelledRun::component) ||
+        !std::ranges::all_of(owners, is_known))
+        throw FaultError("a layer's parcel has runs of unknown components");
 }
 
 namespace {

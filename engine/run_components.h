@@ -55,6 +55,8 @@ struct LabelledLayer {
         const auto at = static_cast<std::size_t>(i);
         return {runs.data() + starts[at], starts[at + 1] - starts[at]};
     }
+    /// Packs or unpacks. Throws FaultError for what is no labelled layer.
+    void carry(Parcel& parcel);
 };
 
 /// Grows and labels a layer's runs: line l is row l. Pure, so layers can be labelled at once.

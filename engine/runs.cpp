@@ -1,7 +1,10 @@
 // Set operations on sorted runs, one line at a time.
 #include "engine/runs.h"
 
+#include <algorithm>
 #include <cassert>
+
+#include "engine/parcel.h"
 
 namespace lamella {
 
@@ -18,6 +21,19 @@ std::int64_t SpanRows::total_length() const {
     std::int64_t sum = 0;
     for (const Run& run : runs_) sum += run.end - run.begin;
     return sum;
+}
+
+void SpanRows::carry(Parcel& parcel) {
+    parcel(starts_, runs_);
+    if (!parcel.unpacks()) return;
+    check_row_starts(starts_, runs_.size());
+    for (std::size_t l = 0; l < lines(); ++l) {
+        const auto overlaps = [](const Run& a, const Run& b) { return a.end >= b.begin; };
+        const auto is_empty = [](const Run& run) { return run.begin >= run.end; };
+        const std::span<const Run> runs = line(l);
+        if (std::ranges::adjacent_find(runs, overlaps) != runs.end() || std::ranges::any_of(runs, is_empty))
+            throw FaultError("a layer's parcel has runs that are out of order");
+    }
 }
 
 namespace {

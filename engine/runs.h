@@ -10,6 +10,8 @@
 
 namespace lamella {
 
+class Parcel;
+
 /// The direction in which the lines of a band run.
 enum class Axis : std::uint8_t { x, y };
 
@@ -99,6 +101,8 @@ class SpanRows {
     }
     /// Sum of the lengths of all runs, in run units.
     std::int64_t total_length() const;
+    /// Packs or unpacks. Throws FaultError for what are no rows.
+    void carry(Parcel& parcel);
 
     friend bool operator==(const SpanRows&, const SpanRows&) = default;
 

@@ -32,11 +32,13 @@ class Fetching : public Backend {
 
 class Sending : public Backend {
   public:
-    Sending(std::unique_ptr<Backend> renderer, SendLayer send)
-        : renderer_(std::move(renderer)), send_(std::move(send)) {}
+    Sending(std::unique_ptr<Backend> renderer, LayerRange whole, SendLayer send)
+        : renderer_(std::move(renderer)), whole_(whole), send_(std::move(send)) {}
 
     int begin(const Job& job, LayerRange range, bool /*resume*/) override {
-        return renderer_->begin(job, range, false);
+        if (!begun_) renderer_->begin(job, whole_, false);
+        begun_ = true;
+        return range.first;
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         return renderer_->render(layer);
@@ -46,7 +48,9 @@ class Sending : public Backend {
 
   private:
     std::unique_ptr<Backend> renderer_;
+    LayerRange whole_;
     SendLayer send_;
+    bool begun_ = false;
 };
 
 }  // namespace
@@ -55,8 +59,8 @@ std::unique_ptr<Backend> make_fetching(std::unique_ptr<Backend> outputs, FetchLa
     return std::make_unique<Fetching>(std::move(outputs), std::move(fetch));
 }
 
-std::unique_ptr<Backend> make_sending(std::unique_ptr<Backend> renderer, SendLayer send) {
-    return std::make_unique<Sending>(std::move(renderer), std::move(send));
+std::unique_ptr<Backend> make_sending(std::unique_ptr<Backend> renderer, LayerRange whole, SendLayer send) {
+    return std::make_unique<Sending>(std::move(renderer), whole, std::move(send));
 }
 
 }  // namespace lamella

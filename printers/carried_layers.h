@@ -20,7 +20,8 @@ std::unique_ptr<Backend> make_fetching(std::unique_ptr<Backend> outputs, FetchLa
 /// Takes the packed product of a layer; called by one thread, layers in order.
 using SendLayer = std::function<void(int layer, std::string bytes)>;
 
-/// A back-end that renders layers as `renderer` does, and sends them instead of writing them.
-std::unique_ptr<Backend> make_sending(std::unique_ptr<Backend> renderer, SendLayer send);
+/// A back-end that renders layers as `renderer` does in a run of all layers of `whole`, whichever of them are
+/// asked for, in one run or several, and sends them instead of writing them.
+std::unique_ptr<Backend> make_sending(std::unique_ptr<Backend> renderer, LayerRange whole, SendLayer send);
 
 }  // namespace lamella

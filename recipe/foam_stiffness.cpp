@@ -80,14 +80,23 @@ double share_done(double left, double tolerance) {
     return std::clamp(std::log(std::max(left, 1e-300)) / std::log(tolerance), 0.0, 1.0);
 }
 
-Homogenized homogenized(const ElementMask& sample, const StiffnessOptions& options, double from, double to) {
+Homogenized homogenized(const ElementMask& sample, const StiffnessOptions& options) {
     HomogenizationOptions given{options.tolerance, 2000, options.threads, {}, options.cancel};
-    if (options.on_progress) {
+    if (options.on_progress)
         given.on_progress = [&](int, double left) {
-            options.on_progress(from + (to - from) * share_done(left, options.tolerance));
+            options.on_progress(share_done(left, options.tolerance));
         };
-    }
     return homogenize(sample, options.material, given);
+}
+
+int samples_of(const FoamRecipe& foam, const StiffnessOptions& options) {
+    return is_random(foam) ? options.samples : 1;
+}
+
+/// The foam of a sample.
+BuiltFoam foam_of(Recipe recipe, int sample, double period) {
+    recipe.foam->seed += sample;
+    return build_foam_alone(recipe, {dvec3(0), dvec3(period)}, 1);
 }
 
 }  // namespace
@@ -131,25 +140,27 @@ void check_uniform(const FoamRecipe& foam) {
     refuse_formula("foam.modulus", foam.modulus);
 }
 
-FoamStiffness foam_stiffness(const Recipe& recipe, const StiffnessOptions& options) {
-    check_uniform(*recipe.foam);
-    check_material(options.material);
-    FoamStiffness found;
-    found.period = period_of(recipe);
-    const int count = is_random(*recipe.foam) ? options.samples : 1;
-    Recipe other = recipe;
-    for (int i = 0; i < count; ++i, ++other.foam->seed) {
-        const BuiltFoam foam = build_foam_alone(other, {dvec3(0), dvec3(found.period)}, 1);
-        found.elements =
-            options.elements > 0 ? options.elements : suited_elements(foam, found.period, options.threads);
-        const ElementMask sample = sample_of(foam, found.period, found.elements, options.threads);
-        const double whole = count;
-        found.samples.push_back(homogenized(sample, options, i / whole, (i + 1) / whole));
+FoamStiffness foam_stiffness(std::span<const SolvedSample> solved) {
+    FoamStiffness all;
+    for (const SolvedSample& sample : solved) {
+        all.period = sample.period;
+        all.elements = sample.elements;
+        all.samples.push_back(sample.found);
     }
-    return found;
+    return all;
+}
+
+std::vector<StiffnessSolve> foam_solves(const Recipe& recipe, const StiffnessOptions& options) {
+    const int count = samples_of(*recipe.foam, options);
+    std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) solves.push_back({.sample = i, .work = 1.0 / count});
+    return solves;
 }
 
 namespace {
+
+constexpr std::size_t coarse_solves = 3;  // of a law's point: its own material, and two others
 
 /// The recipe with cells so large that the members' ratio to them is as given, in no material.
 Recipe with_ratio(Recipe recipe, double ratio) {
@@ -165,7 +176,37 @@ Recipe with_ratio(Recipe recipe, double ratio) {
     return recipe;
 }
 
+/// Of a sample whose members still hang together.
+int coarse_elements(const FoamRecipe& foam, double period) {
+    constexpr double in_a_radius = 1.5, least = 64;
+    const double radius = member_of(foam) == "beam" ? foam.beam.number() : foam.wall.number() / 2;
+    return static_cast<int>(std::ceil(std::max(least, in_a_radius * period / radius) / elements_step)) *
+           elements_step;
+}
+
 }  // namespace
+
+SolvedSample solve_sample(const Recipe& given, const StiffnessSolve& solve, StiffnessOptions options) {
+    const bool is_of_law = solve.ratio > 0;
+    const Recipe recipe = is_of_law ? with_ratio(given, solve.ratio) : given;
+    if (is_of_law) options.material = {1, solve.poisson};
+    check_uniform(*recipe.foam);
+    check_material(options.material);
+    SolvedSample solved;
+    solved.period = period_of(recipe);
+    const auto fine_elements = [&](int sample) {
+        if (options.elements > 0) return options.elements;
+        return suited_elements(foam_of(recipe, sample, solved.period), solved.period, options.threads);
+    };
+    // A coarse sample is not finer than the last one of the law's point.
+    solved.elements = solve.coarse ? std::min(fine_elements(samples_of(*recipe.foam, options) - 1),
+                                              coarse_elements(*recipe.foam, solved.period))
+                                   : fine_elements(solve.sample);
+    const BuiltFoam foam = foam_of(recipe, solve.sample, solved.period);
+    const ElementMask mask = sample_of(foam, solved.period, solved.elements, options.threads);
+    solved.found = homogenized(mask, options);
+    return solved;
+}
 
 void check_law_point(const Recipe& recipe, double ratio) {
     try {
@@ -175,19 +216,22 @@ void check_law_point(const Recipe& recipe, double ratio) {
     }
 }
 
-FoamLawPoint law_point(const Recipe& given, double ratio, StiffnessOptions options) {
-    const Recipe recipe = with_ratio(given, ratio);
-    const FoamRecipe& foam = *recipe.foam;
-    const bool beams = member_of(foam) == "beam";
-    options.material = {1, law_poisson};
-    const auto progress = std::move(options.on_progress);
-    const auto part = [&](double from, double to) {
-        options.on_progress = [&progress, from, to](double share) {
-            if (progress) progress(from + (to - from) * share);
-        };
-    };
-    part(0, 0.8);
-    const FoamStiffness found = foam_stiffness(recipe, options);
+std::vector<StiffnessSolve> law_solves(const Recipe& recipe, double ratio, const StiffnessOptions& options) {
+    constexpr double coarse_work = 0.2;
+    const int count = samples_of(*recipe.foam, options);
+    std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count) + coarse_solves);
+    for (int i = 0; i < count; ++i)
+        solves.push_back({ratio, i, law_poisson, false, (1 - coarse_work) / count});
+    // What the material's Poisson's ratio changes is told by one coarse sample, the same for all three.
+    for (const double poisson : {law_poisson, low_poisson, high_poisson})
+        solves.push_back({ratio, 0, poisson, true, coarse_work / coarse_solves});
+    return solves;
+}
+
+FoamLawPoint law_point(double ratio, std::span<const SolvedSample> solved) {
+    const auto coarse = solved.last(coarse_solves);
+    const FoamStiffness found = foam_stiffness(solved.first(solved.size() - coarse_solves));
     FoamLawPoint point;
     point.ratio = ratio;
     point.density = found.mean(density_of);
@@ -197,22 +241,9 @@ FoamLawPoint law_point(const Recipe& given, double ratio, StiffnessOptions optio
     point.anisotropy = anisotropy(found.stiffness());
     point.elements = found.elements;
     point.samples = static_cast<int>(found.samples.size());
-    // What the material's Poisson's ratio changes is told by one coarse sample, the same for all three,
-    // whose members still hang together.
-    constexpr double elements_in_a_coarse_radius = 1.5, least = 64;
-    const double radius = beams ? foam.beam.number() : foam.wall.number() / 2,
-                 coarse = std::max(least, elements_in_a_coarse_radius * found.period / radius);
-    options.elements =
-        std::min(found.elements, static_cast<int>(std::ceil(coarse / elements_step)) * elements_step);
-    options.samples = 1;
-    const auto young_with = [&](double poisson, double from, double to) {
-        options.material.poisson = poisson;
-        part(from, to);
-        return foam_stiffness(recipe, options).mean(young_of);
-    };
-    const double middle = young_with(law_poisson, 0.8, 0.87);
-    point.low_factor = young_with(low_poisson, 0.87, 0.93) / middle;
-    point.high_factor = young_with(high_poisson, 0.93, 1) / middle;
+    const double middle = young_of(coarse[0].found);
+    point.low_factor = young_of(coarse[1].found) / middle;
+    point.high_factor = young_of(coarse[2].found) / middle;
     return point;
 }
 

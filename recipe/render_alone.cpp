@@ -48,8 +48,7 @@ class Renderer : public Backend {
         outputs_ = make_outputs(moved, true);
     }
     int begin(const Job& job, LayerRange range, bool /*resume*/) override {
-        if (!begun_) outputs_->begin(job, whole_, false);
-        begun_ = true;
+        outputs_->begin(job, whole_, false);
         return range.first;
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
@@ -62,7 +61,6 @@ class Renderer : public Backend {
     ScratchFolder folder_;  ///< outlives what is open in it
     std::unique_ptr<Backend> outputs_;
     LayerRange whole_;
-    bool begun_ = false;
 };
 
 }  // namespace

@@ -2,58 +2,19 @@
 #include "app/spread_layers.h"
 
 #include <catch2/catch.hpp>
-#include <deque>
-#include <map>
-#include <mutex>
-#include <thread>
 
+#include "app/rank_failure.h"
 #include "recipe/build_job.h"
+#include "recipe/outputs.h"
 #include "recipe/recipe_draft.h"
-#include "tests/app/command_run.h"
+#include "recipe/render_alone.h"
 #include "tests/app/folder.h"
+#include "tests/app/mpirun.h"
+#include "tests/app/ranks_inside.h"
 
 using namespace lamella;
 
 namespace {
-
-/// What several ranks of one process have sent each other.
-struct Post {
-    std::mutex access;
-    std::map<std::tuple<int, int, int>, std::deque<std::string>> sent;  ///< by from, to, tag
-    std::map<int, std::size_t> outstanding;                             ///< by from
-    std::size_t most_outstanding = 0;
-};
-
-class RanksInside : public Ranks {
-  public:
-    RanksInside(Post& post, int rank, int size) : post_(post), rank_(rank), size_(size) {}
-    int rank() const override { return rank_; }
-    int size() const override { return size_; }
-    void send(int to, int tag, std::string bytes) override {
-        const std::lock_guard lock(post_.access);
-        post_.sent[{rank_, to, tag}].push_back(std::move(bytes));
-        const std::size_t now = ++post_.outstanding[rank_];
-        if (rank_ > 0) post_.most_outstanding = std::max(post_.most_outstanding, now);
-    }
-    std::optional<std::string> receive(int from, int tag) override {
-        const std::lock_guard lock(post_.access);
-        const auto found = post_.sent.find({from, rank_, tag});
-        if (found == post_.sent.end() || found->second.empty()) return std::nullopt;
-        std::string bytes = std::move(found->second.front());
-        found->second.pop_front();
-        --post_.outstanding[from];
-        return bytes;
-    }
-    std::size_t outstanding() override {
-        const std::lock_guard lock(post_.access);
-        return post_.outstanding[rank_];
-    }
-    [[noreturn]] void abort(int code) override { throw std::runtime_error(std::to_string(code)); }
-
-  private:
-    Post& post_;
-    int rank_, size_;
-};
 
 Recipe foam_recipe() {
     RecipeDraft draft;
@@ -78,7 +39,8 @@ StreamReport spread(const Folder& folder, const std::string& output, int size, i
             RanksInside ranks(post, rank, size);
             std::vector<Output> mine = outputs;
             if (rank == failing) mine.front().printer.vector.tolerance = -1;
-            render_blocks(ranks, built.job, mine, options);
+            tell_failures(
+                ranks, [&] { render_blocks(ranks, built.job, make_renderer(mine, options.range), options); });
         });
     }
     RanksInside first(post, 0, size);
@@ -134,14 +96,6 @@ TEST_CASE("a rank that fails fails the run with its words", "[ranks]") {
 #ifdef LAMELLA_MPIRUN
 namespace {
 
-Outcome mpirun(const std::string& arguments, const Folder& folder) {
-    const std::string line = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " LAMELLA_MPIRUN
-                             " --oversubscribe " +
-                             arguments + " >" + folder / "out" + " 2>" + folder / "err" + " </dev/null";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"), contents(folder / "err")};
-}
-
 const std::string foam_command =
     std::string(LAMELLA_COMMAND) +
     " slice --shape box --shape-size 8,8,8 --cell 2 --beam 0.3 --layer-height 0.1 "
@@ -173,6 +127,5 @@ TEST_CASE("what mpirun is given wrongly is told once, with the exit code", "[ran
     CHECK(wrong.code == 2);
     CHECK(wrong.err.find("--beam: ") != std::string::npos);
     CHECK(wrong.err.find("--beam: ") == wrong.err.rfind("--beam: "));
-    CHECK(mpirun("-n 2 " + foam_command + "--check -o " + folder / "x.svg", folder).code == 2);
 }
 #endif

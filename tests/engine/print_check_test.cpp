@@ -337,17 +337,24 @@ TEST_CASE("supports hold what hangs", "[check]") {
     CHECK(check(with(brick(), ball), islands, 0, short_post).passed());
 }
 
-TEST_CASE("the report is the same by any number of threads", "[check]") {
+namespace {
+
+/// Everything that is looked for, on a part that has some of it.
+PrintCheckOptions all_checks() {
     PrintCheckOptions options = filament();
     options.limits.verdicts.fill(Verdict::fail);
     options.limits.thickness_up = options.limits.gap_up = 0.8;
     options.limits.thickness = 3.4;
-    const FieldPtr part = with(brick(), make_sphere({36, 20, 10}, 6));
-    const CheckReport one = check(part, options, 1), four = check(part, options, 4);
+    return options;
+}
+FieldPtr faulty_part() { return with(brick(), make_sphere({36, 20, 10}, 6)); }
+
+void check_same(const CheckReport& one, const CheckReport& other) {
     REQUIRE(one.results.size() == check_count);
-    REQUIRE(four.results.size() == check_count);
+    REQUIRE(other.results.size() == check_count);
+    CHECK(one.volume == other.volume);
     for (std::size_t k = 0; k < check_count; ++k) {
-        const CheckResult &a = one.results[k], &b = four.results[k];
+        const CheckResult &a = one.results[k], &b = other.results[k];
         CHECK(a.count == b.count);
         CHECK(a.total == b.total);
         REQUIRE(a.worst.size() == b.worst.size());
@@ -357,6 +364,74 @@ TEST_CASE("the report is the same by any number of threads", "[check]") {
             CHECK(a.worst[i].runs == b.worst[i].runs);
         }
     }
+}
+
+/// A check whose layers all travel as parcels to it, from another that renders them.
+class Carried : public Backend {
+  public:
+    Carried(const PrintCheck& renderer, PrintCheck& check) : renderer_(renderer), check_(check) {}
+    int begin(const Job& job, LayerRange range, bool resume) override {
+        return check_.begin(job, range, resume);
+    }
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+        auto arrived = check_.empty_product();
+        unpack(pack(*renderer_.render(layer)), *arrived);
+        return arrived;
+    }
+    void write(const Layer& layer, LayerProduct& product) override { check_.write(layer, product); }
+    void end() override { check_.end(); }
+
+  private:
+    const PrintCheck& renderer_;
+    PrintCheck& check_;
+};
+
+}  // namespace
+
+TEST_CASE("the report is the same by any number of threads", "[check]") {
+    const FieldPtr part = faulty_part();
+    check_same(check(part, all_checks(), 1), check(part, all_checks(), 4));
+}
+
+TEST_CASE("a check says the same of layers that were rendered elsewhere", "[check]") {
+    const FieldPtr part = faulty_part();
+    const FieldPtr post = make_cylinder({36, 20, 0}, {36, 20, 4}, 1);
+    for (const FieldPtr& supports : {FieldPtr(), post}) {
+        Job job = scenes::job_of(part, part->bounds(), h);
+        job.supports = supports;
+        const PrintCheck renderer(job, all_checks());
+        PrintCheck checks(job, all_checks());
+        Carried carried(renderer, checks);
+        survey_layers(job, carried, 0, {}, nullptr);
+        check_same(checks.report(), check(part, all_checks(), 0, supports));
+    }
+}
+
+TEST_CASE("a checked layer that is damaged on its way is refused", "[check]") {
+    Job job = scenes::job_of(faulty_part(), faulty_part()->bounds(), h);
+    job.supports = make_cylinder({36, 20, 0}, {36, 20, 4}, 1);
+    PrintCheckOptions options = all_checks();
+    const PrintCheck checks(job, options);
+    const Layer layer(job, 10);
+    const std::string whole = pack(*checks.render(layer));
+    const auto arrives = [&](const std::string& bytes, const PrintCheck& at) {
+        unpack(bytes, *at.empty_product());
+    };
+    CHECK_NOTHROW(arrives(whole, checks));
+    for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 500)
+        CHECK_THROWS_AS(arrives(whole.substr(0, size), checks), FaultError);
+    CHECK_THROWS_AS(arrives(whole + '\0', checks), FaultError);
+    // Counts and starts of rows, which a reader would follow out of the lists.
+    const std::size_t areas = 2 * sizeof(double) + 1;
+    for (std::size_t at = areas; at < areas + 512; ++at) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x40);
+        CHECK_THROWS_AS(arrives(damaged, checks), FaultError);
+    }
+    // Other limits want other labels, another pitch other rows.
+    CHECK_THROWS_AS(arrives(whole, PrintCheck(job, only(Check::thickness))), FaultError);
+    options.pitch = 2 * pitch;
+    CHECK_THROWS_AS(arrives(whole, PrintCheck(job, options)), FaultError);
 }
 
 TEST_CASE("limits that make no sense are refused", "[check]") {
