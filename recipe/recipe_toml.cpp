@@ -43,7 +43,7 @@ std::string found_type(const toml::node& node) {
         case toml::node_type::table:
             return "a table was found";
         case toml::node_type::array:
-            return "an array was found";
+            return fmt::format("an array of {} was found", node.as_array()->size());
         case toml::node_type::string:
             return "a text was found";
         case toml::node_type::integer:
@@ -286,6 +286,15 @@ class TomlRecipe {
         return "";
     }
 
+    /// ", it is `height` of [layers]" when the key is written like an option of the command.
+    static std::string is_option(const std::string& key) {
+        std::string flag = "--" + key;
+        std::ranges::replace(flag, '_', '-');
+        const auto meant = std::ranges::find(settings(), flag, &Setting::flag);
+        if (meant == settings().end() || meant->key == key) return "";
+        return fmt::format(", it is `{}` of {}", meant->key, find_section(meant->section)->title());
+    }
+
     void read_section(const Section& section, int line, const toml::node& node) {
         const auto* table = node.as_table();
         if (!table) {
@@ -352,10 +361,11 @@ class TomlRecipe {
             known.push_back(setting.key);
             listing += (listing.empty() ? "" : ", ") + setting.key;
         }
-        const std::string near = nearest(key, known);
-        refuse(line, section + "." + shown(key),
-               "unknown key" + (near.empty() ? belongs(key) : fmt::format(", did you mean `{}`?", near)),
-               listing);
+        const std::string option = is_option(key), near = option.empty() ? nearest(key, known) : "";
+        const std::string hint = !option.empty() ? option
+                                 : near.empty()  ? belongs(key)
+                                                 : fmt::format(", did you mean `{}`?", near);
+        refuse(line, section + "." + shown(key), "unknown key" + hint, listing);
         // The key that was meant is not missing as well: one mistake, one message.
         if (!near.empty()) draft_.entries_.try_emplace({section, number, near});
     }

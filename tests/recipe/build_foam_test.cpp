@@ -126,10 +126,10 @@ TEST_CASE("stretches that a kind does not take are refused by their key") {
                    "test.toml:8: foam.stretch: 15 is too large for kind k-nearest; accepted: 0.1 to 10"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nstretch = [1, 1, \"1 + q\"]\n"),
                    "test.toml:8: foam.stretch (z): column 5: unknown name `q`"));
-    CHECK(
-        mentions(complaint("kind = \"k-nearest\"\nstretch = [1, \"x\"]\n"),
-                 "test.toml:8: foam.stretch: an array was found; accepted: three numbers from 0.05 to 20 or "
-                 "formulas"));
+    CHECK(mentions(
+        complaint("kind = \"k-nearest\"\nstretch = [1, \"x\"]\n"),
+        "test.toml:8: foam.stretch: an array of 2 was found; accepted: three numbers from 0.05 to 20 or "
+        "formulas"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nneighbours = 27\n"),
                    "test.toml:8: foam.neighbours: 27 is too large"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nstretch = [1, 1, \"z > 0 ? sqrt(-1) : 2\"]\n"),

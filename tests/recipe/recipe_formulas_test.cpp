@@ -139,7 +139,7 @@ TEST_CASE("rows of numbers have the right length and number") {
                    "2 numbers were found where 3 belong together"));
     CHECK(mentions(complaint(sphere + head + "[[0, 0, nan], [1, 1, 1]]\n"), "nan is not a finite number"));
     CHECK(mentions(complaint(sphere + head + "3\n"), "a whole number was found"));
-    CHECK(mentions(complaint(sphere + head + "[0, 0, 0, 1, 1, 1]\n"), "an array was found"));
+    CHECK(mentions(complaint(sphere + head + "[0, 0, 0, 1, 1, 1]\n"), "an array of 6 was found"));
 }
 
 TEST_CASE("constants lie within the printable range") {

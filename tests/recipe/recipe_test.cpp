@@ -278,7 +278,7 @@ TEST_CASE("a triple is exactly three numbers") {
         CHECK_FALSE(parse_value(size, bad, wrong));
     }
     CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = [1, 2]\n"),
-                   "test.toml:3: part.size: an array was found"));
+                   "test.toml:3: part.size: an array of 2 was found"));
     CHECK(mentions(complaint("[part]\nshape = \"box\"\nsize = 4\n"), "three numbers"));
 }
 
@@ -288,11 +288,13 @@ TEST_CASE("unknown keys and sections are refused, with the near one named") {
     CHECK(mentions(complaint(sphere + "[fom]\ncell = 1\n"),
                    "test.toml:4: [fom]: unknown section, did you mean `[foam]`?"));
     CHECK(mentions(complaint(sphere + "[layers]\nbeam = 1\n"), "`beam` belongs to [foam]"));
+    CHECK(mentions(complaint(sphere + "[printer]\nlayer_height = 0.1\n"),
+                   "printer.layer_height: unknown key, it is `height` of [layers]"));
     CHECK(mentions(complaint("cell = 3\n" + sphere),
                    "test.toml:1: cell: stands outside a section, `cell` belongs to [foam]"));
     CHECK(mentions(complaint(sphere + "[printer]\nantialiasing = \"row\"\n"), "did you mean `rows`?"));
     CHECK(mentions(complaint("foam = 3\n" + sphere), "test.toml:1: foam: a whole number was found"));
-    CHECK(mentions(complaint("[[foam]]\ncell = 3\n" + sphere), "foam: an array was found"));
+    CHECK(mentions(complaint("[[foam]]\ncell = 3\n" + sphere), "foam: an array of 1 was found"));
 }
 
 TEST_CASE("keys that belong together must stand together") {
@@ -416,7 +418,7 @@ TEST_CASE("scripts are lists of lines or texts of several lines") {
     CHECK(job_identity(read(whole)) == job_identity(read(listed)));
 
     CHECK_THAT(complaint(printer + "end_script = [\"M84\", 5]\n"),
-               Catch::StartsWith("folder/test.toml:6: printer.end_script: an array was found") &&
+               Catch::StartsWith("folder/test.toml:6: printer.end_script: an array of 2 was found") &&
                    Catch::Contains("a list of lines"));
     CHECK_THAT(complaint(printer + "end_script = []\n"), Catch::Contains("there is no line"));
     CHECK_THAT(complaint(printer + "end_script = [\"M84\", \"M117 \u00e9\"]\n"),
