@@ -14,8 +14,8 @@ namespace lamella {
 /// thread.
 class LargeBlocks {
   public:
-    /// Bytes from which a block is large.
-    static constexpr std::size_t least_bytes = 16384;
+    /// Bytes from which a block is large: a page.
+    static constexpr std::size_t least_bytes = 4096;
 
     /// Takes addresses for `room` bytes, memory only as blocks need it.
     explicit LargeBlocks(std::size_t room);
