@@ -1,7 +1,9 @@
 // Runs of tiles of a band, read off samples of a solid that has no closed form.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/crossing_bracket.h"

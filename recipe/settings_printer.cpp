@@ -138,7 +138,7 @@ void add_resin(std::vector<Setting>& t) {
         {.unit = "s", .limits = {0, 1000}, .help = "Time that a layer takes besides its exposure."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.preview; }>(
         "printer", "preview", "--printer-preview",
-        {.help = "Put pictures of the part into resin printers' files and G-code."}));
+        {.help = "Put pictures of the part into SL1 and GOO files; those of G-code are \"thumbnails\"."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.notes; }>(
         "printer", "notes", "--printer-notes",
         {.help = "Keywords for programs that convert SL1 archives, such as FILEFORMAT_goo."}));
