@@ -58,6 +58,9 @@ class MachineOnPty {
         thread_ = std::thread([this] { work(); });
     }
 
+    /// It hears and says nothing until it is told to go on.
+    void stand_still(bool still) { still_ = still; }
+
     const std::string& path() const { return path_; }
     std::vector<std::string> executed() {
         const std::lock_guard lock(mutex_);
@@ -78,7 +81,8 @@ class MachineOnPty {
     void work() {
         while (!ending_) {
             pollfd watched{master_, POLLIN, 0};
-            poll(&watched, 1, 1);
+            poll(&watched, still_ ? 0 : 1, 1);
+            if (still_) continue;
             char buffer[4096];
             const ssize_t got = ::read(master_, buffer, sizeof buffer);
             std::string said;
@@ -102,6 +106,7 @@ class MachineOnPty {
     std::string path_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::mutex mutex_;
+    std::atomic<bool> still_{false};
     std::atomic<bool> ending_{false};
     std::thread thread_;
 };

@@ -41,6 +41,8 @@ class SimulatedMarlin {
     const std::vector<std::string>& executed() const { return executed_; }
     bool killed() const { return killed_; }
     double killed_at() const { return killed_at_; }
+    /// Whether all that it got is executed, but for moves.
+    bool idle() const { return ring_.empty() && slots_.empty(); }
     bool waits_for_user() const { return wait_for_user_; }
     bool heating() const { return nozzle_target_ > 0 || bed_target_ > 0; }
     std::int64_t errors() const { return errors_; }
