@@ -42,10 +42,8 @@ inline Outcome run_lamella(const std::string& arguments) {
     return outcome;
 }
 
-/// Starts `lamella`, whose output goes to the folder's files `out` and `err`.
-inline pid_t start_lamella(const std::string& arguments, const Folder& folder) {
-    const std::string line = "exec env " + command_line(arguments, folder / "cache") + " >" + folder / "out" +
-                             " 2>" + folder / "err" + " </dev/null";
+/// Starts a shell's line; "exec" in front makes its command this process.
+inline pid_t start_shell(const std::string& line) {
     const pid_t child = fork();
     REQUIRE(child >= 0);
     if (child == 0) {
@@ -53,6 +51,12 @@ inline pid_t start_lamella(const std::string& arguments, const Folder& folder) {
         _exit(127);
     }
     return child;
+}
+
+/// Starts `lamella`, whose output goes to the folder's files `out` and `err`.
+inline pid_t start_lamella(const std::string& arguments, const Folder& folder) {
+    return start_shell("exec env " + command_line(arguments, folder / "cache") + " >" + folder / "out" +
+                       " 2>" + folder / "err" + " </dev/null");
 }
 
 /// `lamella` on a terminal of its own, 80 columns wide, whose keys are pressed and whose screen is read.
