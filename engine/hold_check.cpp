@@ -45,6 +45,13 @@ SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
     return out;
 }
 
+/// Without the pieces that are smaller than `least`, mm.
+SpanRows large_pieces(SpanRows rows, double least, const CheckGrid& grid) {
+    if (rows.runs().empty()) return rows;
+    const LabelledLayer labelled = label_layer(rows, 0, Growth{});
+    return rows_of(rows, labelled, reaching(labelled, least, grid));
+}
+
 std::size_t layers_in(double height, double layer_height) {
     return static_cast<std::size_t>(std::max(std::ceil(height / layer_height - 1e-6), 0.0));
 }
@@ -124,15 +131,15 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) co
     if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
-    SpanRows steep = without(beyond(layer.part, below_[first].rows.part, far), held);
+    const SpanRows out = without(beyond(layer.part, below_[first].rows.part, far), held);
+    // Parts of small pieces are small: they need not be looked at further.
+    SpanRows steep = large_pieces(out, limits_.free_stretch, grid_);
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
         if (!below.hung.runs().empty()) steep = beyond(steep, below.hung, above * step_ + 1);
     }
-    if (steep.runs().empty()) return steep;
-    const LabelledLayer labelled = label_layer(steep, 0, Growth{});
-    return rows_of(steep, labelled, reaching(labelled, limits_.free_stretch, grid_));
+    return large_pieces(std::move(steep), limits_.free_stretch, grid_);
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
