@@ -160,10 +160,20 @@ class HostGrading : public Grading {
   public:
     HostGrading(HostValues values, Interval range) : values_(std::move(values)), range_(range) {}
     double at(dvec3 p) const override {
-        const double value = values_.at(p);
-        if (std::isfinite(value)) return std::clamp(value, range_.lo, range_.hi);
-        throw FaultError(
-            fmt::format("{} gives no finite number at ({}, {}, {}) mm", values_.what, p.x, p.y, p.z));
+        double number = 0;
+        numbers({&p, 1}, {&number, 1});
+        return number;
+    }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        values_(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!std::isfinite(out[i])) {
+                const dvec3 p = points[i];
+                throw FaultError(
+                    fmt::format("{} gives no finite number at ({}, {}, {}) mm", values_.what, p.x, p.y, p.z));
+            }
+            out[i] = std::clamp(out[i], range_.lo, range_.hi);
+        }
     }
     Interval range(const Box& box) const override {
         const Interval told = values_.range(box);

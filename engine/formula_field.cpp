@@ -86,15 +86,13 @@ class WalkedFormula : public WalkedSolid {
         inputs_[1] = rows ? across : along;
         inputs_[2] = {&z_, false, false};
         graded_.resize(others_.read.size() * lines * width);
+        places_.clear();
+        if (!others_.read.empty()) points.each([&](dvec2 p) { places_.emplace_back(p, z_); });
         double* to = graded_.data();
         for (const std::size_t i : others_.read) {
             inputs_[3 + i] = {to, true, true};
-            for (std::size_t l = 0; l < lines; ++l) {
-                for (std::size_t k = 0; k < width; ++k) {
-                    const double c = points.across[points.lattice ? l : k];
-                    *to++ = others_.gradings[i]->at(dvec3(points.at(points.along[k], c), z_));
-                }
-            }
+            others_.gradings[i]->numbers(places_, {to, places_.size()});
+            to += places_.size();
         }
         batch_.run(inputs_, static_cast<int>(lines), static_cast<int>(width), out);
     }
@@ -109,6 +107,7 @@ class WalkedFormula : public WalkedSolid {
     std::uint64_t prepared_ = ~std::uint64_t{0};  ///< version of the program in the batch
     std::vector<FormulaRange> ranges_;
     std::vector<BatchInput> inputs_;
+    std::vector<dvec3> places_;
     std::vector<double> graded_, piece_;
 };
 

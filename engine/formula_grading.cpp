@@ -13,6 +13,21 @@ class FormulaGrading : public Grading {
 
     double at(dvec3 p) const override { return formula_at(formula_, others_, read_, p); }
 
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        if (read_.empty()) return Grading::numbers(points, out);
+        std::vector<std::vector<double>> read(others_.size());
+        for (const std::size_t i : read_) {
+            read[i].resize(points.size());
+            others_[i]->numbers(points, read[i]);
+        }
+        std::vector<double> inputs(3 + others_.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            for (int axis = 0; axis < 3; ++axis) inputs[static_cast<std::size_t>(axis)] = points[k][axis];
+            for (const std::size_t i : read_) inputs[3 + i] = read[i][k];
+            out[k] = formula_.at(inputs);
+        }
+    }
+
     Interval range(const Box& box) const override {
         std::vector<FormulaRange> inputs;
         fill_ranges(box, others_, read_, inputs);

@@ -41,10 +41,9 @@ class DepthGrading : public Grading {
 class ClampedGrading : public Grading {
   public:
     ClampedGrading(GradingPtr grading, Interval limits) : grading_(std::move(grading)), limits_(limits) {}
-    double at(dvec3 p) const override {
-        const double number = grading_->at(p);
-        if (number < limits_.lo) return limits_.lo;
-        return number <= limits_.hi ? number : limits_.hi;
+    double at(dvec3 p) const override { return clamped(grading_->at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*grading_, points, out, [&](double number) { return clamped(number); });
     }
     Interval range(const Box& box) const override {
         const Interval r = grading_->range(box);
@@ -57,6 +56,11 @@ class ClampedGrading : public Grading {
     }
 
   private:
+    double clamped(double number) const {
+        if (number < limits_.lo) return limits_.lo;
+        return number <= limits_.hi ? number : limits_.hi;
+    }
+
     GradingPtr grading_;
     Interval limits_;
 };
@@ -169,8 +173,10 @@ std::vector<dvec3> points_inside(const Field& body, int per_side) {
 
 GradingSurvey survey_grading(const Grading& grading, const Field& body, Interval limits, int per_side) {
     GradingSurvey survey;
-    for (const dvec3& p : points_inside(body, per_side)) {
-        const double number = grading.at(p);
+    const std::vector<dvec3> points = points_inside(body, per_side);
+    std::vector<double> numbers(points.size());
+    grading.numbers(points, numbers);
+    for (const double number : numbers) {
         ++survey.points;
         survey.below += number < limits.lo;
         survey.above += number > limits.hi;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,33 @@ class Grading {
     virtual ~Grading() = default;
     /// The number at a point (mm); NaN where none is defined.
     virtual double at(dvec3 p) const = 0;
+    /// The numbers at many points, those of `at`; a grading that is quicker with many at once says so.
+    virtual void numbers(std::span<const dvec3> points, std::span<double> out) const {
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = at(points[i]);
+    }
     /// Encloses the numbers at all points of the closed box; a NaN counts as +infinity.
     virtual Interval range(const Box& box) const = 0;
     /// The number when it is the same everywhere.
     virtual std::optional<double> constant() const { return std::nullopt; }
 };
 using GradingPtr = std::shared_ptr<const Grading>;
+
+/// What a function makes of the numbers of another grading.
+template <typename Make>
+void numbers_of(const Grading& given, std::span<const dvec3> points, std::span<double> out, Make make) {
+    given.numbers(points, out);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = make(out[i]);
+}
+
+/// What a function makes of the numbers of two gradings.
+template <typename Make>
+void numbers_of(const Grading& first, const Grading& second, std::span<const dvec3> points,
+                std::span<double> out, Make make) {
+    std::vector<double> others(points.size());
+    first.numbers(points, out);
+    second.numbers(points, others);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = make(out[i], others[i]);
+}
 
 /// The same number everywhere.
 GradingPtr make_constant_grading(double number);

@@ -16,13 +16,18 @@ constexpr double thickest = 0.9;  // share of the local cell
 class HalfWall : public Grading {
   public:
     HalfWall(GradingPtr wall, GradingPtr cell) : wall_(std::move(wall)), cell_(std::move(cell)) {}
-    double at(dvec3 p) const override { return 0.5 * std::min(wall_->at(p), thickest * cell_->at(p)); }
+    double at(dvec3 p) const override { return half(wall_->at(p), cell_->at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*wall_, *cell_, points, out, half);
+    }
     Interval range(const Box& box) const override {
         const Interval wall = wall_->range(box), cell = cell_->range(box);
-        return {0.5 * std::min(wall.lo, thickest * cell.lo), 0.5 * std::min(wall.hi, thickest * cell.hi)};
+        return {half(wall.lo, cell.lo), half(wall.hi, cell.hi)};
     }
 
   private:
+    static double half(double wall, double cell) { return 0.5 * std::min(wall, thickest * cell); }
+
     GradingPtr wall_, cell_;
 };
 

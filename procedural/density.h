@@ -1,6 +1,8 @@
 // Density: how many seeds a unit of volume holds, asked at the nodes of the seed tree only.
 #pragma once
 
+#include <span>
+
 #include "engine/geometry.h"
 
 namespace lamella {
@@ -14,6 +16,10 @@ class Density {
     /// The integral of the density over the box, seeds; positive. Asked for where range * volume is at most
     /// 8.
     virtual double integral(const Box& box) const = 0;
+    /// The integrals over many boxes.
+    virtual void integrals(std::span<const Box> boxes, std::span<double> out) const {
+        for (std::size_t i = 0; i < boxes.size(); ++i) out[i] = integral(boxes[i]);
+    }
 };
 
 /// The same density everywhere.

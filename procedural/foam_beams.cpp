@@ -44,39 +44,6 @@ std::optional<dvec3> precise_circumcenter(dvec3 origin, dvec3 u, dvec3 v, dvec3 
     return center;
 }
 
-/// A radius grown by a length.
-class GrownRadius : public Grading {
-  public:
-    GrownRadius(GradingPtr radius, double by) : radius_(std::move(radius)), by_(by) {}
-    double at(dvec3 p) const override { return radius_->at(p) + by_; }
-    Interval range(const Box& box) const override {
-        const Interval radius = radius_->range(box);
-        return {radius.lo + by_, radius.hi + by_};
-    }
-
-  private:
-    GradingPtr radius_;
-    double by_;
-};
-
-constexpr int most_splits = 4;
-constexpr double bend = 0.02;  // share of the radius
-
-void append_bent(const Beam& beam, const NodeRadius& radius, int splits, std::vector<Beam>& beams) {
-    const dvec3 middle = (beam.a + beam.b) * 0.5;
-    const double middle_radius = radius.at(middle);
-    const auto bends = [&](double t, double found) {
-        return std::abs(found - (beam.ra + (beam.rb - beam.ra) * t)) > bend * found;
-    };
-    const auto at = [&](double t) { return radius.at(beam.a + (beam.b - beam.a) * t); };
-    if (splits == 0 || !(bends(0.5, middle_radius) || bends(0.25, at(0.25)) || bends(0.75, at(0.75)))) {
-        beams.push_back(beam);
-        return;
-    }
-    append_bent({beam.a, beam.ra, middle, middle_radius}, radius, splits - 1, beams);
-    append_bent({middle, middle_radius, beam.b, beam.rb}, radius, splits - 1, beams);
-}
-
 }  // namespace
 
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
@@ -89,20 +56,6 @@ std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
         return seeds[0] + (uu * vw + vv * cross(w, u) + ww * cross(u, v)) / (2 * volume);
     }
     return precise_circumcenter(seeds[0], u, v, w);
-}
-
-NodeRadius NodeRadius::grown(double by) const {
-    if (const auto radius = radius_->constant()) return NodeRadius(*radius + by);
-    return {std::make_shared<GrownRadius>(radius_.pointer(), by), largest_ + by};
-}
-
-void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<Beam>& beams) {
-    const double from_radius = radius.at(from), to_radius = radius.at(to);
-    if (radius.constant()) {
-        beams.push_back({from, from_radius, to, to_radius});
-    } else {
-        append_bent({from, from_radius, to, to_radius}, radius, most_splits, beams);
-    }
 }
 
 void CellNodes::start(const VoronoiCell& cell) {
@@ -161,8 +114,9 @@ std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
     });
     for (const Edge& edge : edges_) {
         const dvec3 from = nodes_.at(cell, edge.from, own, sites), to = nodes_.at(cell, edge.to, own, sites);
-        append_tapered(stretch_.to_part(from), stretch_.to_part(to), radius_, beams);
+        tapered_.add(stretch_.to_part(from), stretch_.to_part(to));
     }
+    tapered_.append(beams);
     return left_out;
 }
 

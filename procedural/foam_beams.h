@@ -6,44 +6,16 @@
 #include <span>
 #include <vector>
 
-#include "engine/beam.h"
-#include "engine/grading.h"
 #include "procedural/cell_search.h"
 #include "procedural/stretch.h"
+#include "procedural/tapered_beams.h"
 
 namespace lamella {
-
-/// The radius of the foam's beams, mm: asked at nodes only, so all beams of a node agree, and between them
-/// where it bends.
-class NodeRadius {
-  public:
-    explicit NodeRadius(double radius) : radius_(radius), largest_(radius) {}
-    /// A graded radius, nowhere above `largest`.
-    NodeRadius(GradingPtr radius, double largest) : radius_(std::move(radius)), largest_(largest) {}
-    double at(dvec3 p) const { return radius_->at(p); }
-    bool constant() const { return radius_->constant().has_value(); }
-    /// Encloses the radii of the nodes in the box.
-    Interval range(const Box& box) const { return radius_->range(box); }
-    /// Every radius larger by a length, mm.
-    NodeRadius grown(double by) const;
-    /// No node has a larger one.
-    double largest() const { return largest_; }
-    /// No node in the box has a larger one.
-    double largest_in(const Box& box) const { return std::min(radius_->range(box).hi, largest_); }
-
-  private:
-    Graded radius_;
-    double largest_;
-};
 
 /// The point at equal distance from four seeds, which come in the order of keys: one formula, relative to the
 /// first, so every cell that shares the node gets the same bits; in twice the precision where the seeds
 /// nearly lie in a plane. Empty when they do.
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
-
-/// Appends the beam between two nodes. Where the radius between them leaves the straight line by more than
-/// 2 %, the beam is split in the middle, and its halves likewise, down to a sixteenth.
-void append_tapered(dvec3 from, dvec3 to, const NodeRadius& radius, std::vector<Beam>& beams);
 
 /// The nodes of a cell where every cell that shares them has them. Keeps buffers for reuse.
 class CellNodes {
@@ -65,10 +37,10 @@ class BeamMaker {
     using Piece = Beam;
     /// Radii are asked for at the nodes as the stretch maps them.
     explicit BeamMaker(NodeRadius radius, const Stretch& stretch = {})
-        : radius_(std::move(radius)), stretch_(stretch) {}
+        : tapered_(std::move(radius)), stretch_(stretch) {}
 
-    double largest_growth() const { return radius_.largest(); }
-    double growth(const Box& box) const { return radius_.largest_in(box); }
+    double largest_growth() const { return tapered_.radius().largest(); }
+    double growth(const Box& box) const { return tapered_.radius().largest_in(box); }
     bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return stretch_; }
 
@@ -79,8 +51,9 @@ class BeamMaker {
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        std::vector<Beam>& beams);
     /// Appends the beam along an edge between two nodes in the part's space.
-    void append_edge(dvec3 from, dvec3 to, std::vector<Beam>& beams) const {
-        append_tapered(from, to, radius_, beams);
+    void append_edge(dvec3 from, dvec3 to, std::vector<Beam>& beams) {
+        tapered_.add(from, to);
+        tapered_.append(beams);
     }
 
   private:
@@ -89,7 +62,7 @@ class BeamMaker {
         const Seed* third;
         std::size_t from, to;
     };
-    NodeRadius radius_;
+    TaperedBeams tapered_;
     Stretch stretch_;
     std::vector<Edge> edges_;
     CellNodes nodes_;

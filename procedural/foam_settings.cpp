@@ -27,13 +27,18 @@ class RadiusWithinCells : public Grading {
   public:
     RadiusWithinCells(GradingPtr radius, GradingPtr cell)
         : radius_(std::move(radius)), cell_(std::move(cell)) {}
-    double at(dvec3 p) const override { return std::min(radius_->at(p), thickest * cell_->at(p)); }
+    double at(dvec3 p) const override { return within(radius_->at(p), cell_->at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*radius_, *cell_, points, out, within);
+    }
     Interval range(const Box& box) const override {
         const Interval radius = radius_->range(box), cell = cell_->range(box);
-        return {std::min(radius.lo, thickest * cell.lo), std::min(radius.hi, thickest * cell.hi)};
+        return {within(radius.lo, cell.lo), within(radius.hi, cell.hi)};
     }
 
   private:
+    static double within(double radius, double cell) { return std::min(radius, thickest * cell); }
+
     GradingPtr radius_, cell_;
 };
 
@@ -43,6 +48,10 @@ class RadiusOverBeams : public Grading {
     RadiusOverBeams(GradingPtr frame, NodeRadius beams)
         : frame_(std::move(frame)), beams_(std::move(beams)) {}
     double at(dvec3 p) const override { return std::max(frame_->at(p), beams_.at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*frame_, beams_.grading(), points, out,
+                   [](double frame, double beams) { return std::max(frame, beams); });
+    }
     Interval range(const Box& box) const override {
         const Interval frame = frame_->range(box), beams = beams_.range(box);
         return {std::max(frame.lo, beams.lo), std::max(frame.hi, beams.hi)};
@@ -59,6 +68,11 @@ class AmongSeeds : public Grading {
     AmongSeeds(GradingPtr grading, const Stretch& stretch)
         : grading_(std::move(grading)), stretch_(stretch) {}
     double at(dvec3 p) const override { return grading_->at(stretch_.to_part(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        std::vector<dvec3> places;
+        for (const dvec3& p : points) places.push_back(stretch_.to_part(p));
+        grading_->numbers(places, out);
+    }
     Interval range(const Box& box) const override { return grading_->range(stretch_.to_part(box)); }
 
   private:

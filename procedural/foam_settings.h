@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "engine/grading.h"
-#include "procedural/foam_beams.h"
 #include "procedural/seed_tree.h"
 #include "procedural/stretch.h"
 #include "procedural/surface_frame.h"
+#include "procedural/tapered_beams.h"
 
 namespace lamella {
 

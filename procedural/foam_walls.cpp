@@ -27,8 +27,10 @@ std::size_t WallMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
     pieces.insert(pieces.end(), made_.begin(), made_.end());
     left_out += faces_.list(cell, own, sites, stretch(), CellFaces::Which::owned);
     for (const CellFaces::Face& face : faces_.faces()) {
+        radii_.resize(face.ring.size());
+        walls_.radius.grading().numbers(face.ring, radii_);
         corners_.clear();
-        for (const dvec3& place : face.ring) corners_.push_back({place, walls_.radius.at(place)});
+        for (std::size_t i = 0; i < radii_.size(); ++i) corners_.push_back({face.ring[i], radii_[i]});
         append_wall(pieces);
     }
     return left_out;

@@ -64,6 +64,7 @@ class WallMaker {
     CellFaces faces_;
     std::vector<Beam> made_;
     std::vector<Corner> corners_;  ///< of the face in hand
+    std::vector<double> radii_;    ///< of its corners
 };
 
 }  // namespace lamella

@@ -1,6 +1,8 @@
 // Quotients of ranges.
 #include "procedural/grading_quotient.h"
 
+#include <functional>
+
 namespace lamella {
 namespace {
 
@@ -9,6 +11,9 @@ class QuotientGrading : public Grading {
     QuotientGrading(GradingPtr numerator, GradingPtr denominator)
         : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {}
     double at(dvec3 p) const override { return numerator_->at(p) / denominator_->at(p); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*numerator_, *denominator_, points, out, std::divides<>());
+    }
     Interval range(const Box& box) const override {
         const Interval n = numerator_->range(box), d = denominator_->range(box);
         if (!(d.lo > 0)) return {-infinity, infinity};

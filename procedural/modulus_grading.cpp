@@ -18,6 +18,9 @@ class PairGrading : public Grading {
         : a_(std::move(a)), b_(std::move(b)), number_{std::move(foam)} {}
 
     double at(dvec3 p) const override { return number_(a_->at(p), b_->at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*a_, *b_, points, out, number_);
+    }
     Interval range(const Box& box) const override {
         const Interval a = a_->range(box), b = b_->range(box);
         Interval range = widened(number_.range(a, b));

@@ -84,7 +84,7 @@ struct NearestSource::Search {
 NearestSource::NearestSource(const FoamGround& ground, const NearestFoamSettings& settings,
                              double farthest_ratio)
     : tree_(ground.tree),
-      radius_(ground.radius),
+      tapered_(ground.radius),
       neighbours_(static_cast<std::size_t>(settings.neighbours)),
       stretch_(settings.stretch),
       turn_(settings.turn),
@@ -171,8 +171,9 @@ void NearestSource::append(const Seed& own, std::vector<Beam>& beams) {
             const auto is_own = [&](const Seed& seed) { return seed.key == own.key; };
             if (std::any_of(theirs.begin(), theirs.end(), is_own)) continue;
         }
-        append_tapered(own.position, other.position, radius_, beams);
+        tapered_.add(own.position, other.position);
     }
+    tapered_.append(beams);
 }
 
 NearestFoam::NearestFoam(const NearestFoamSettings& settings)

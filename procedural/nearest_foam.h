@@ -48,8 +48,8 @@ class NearestSource {
     void append(const Seed& own, std::vector<Beam>& beams);
     double reach(const SeedBlock& block, std::size_t node) const;
     double farthest() const;
-    double growth(const Box& box) const { return radius_.largest_in(box); }
-    double largest_growth() const { return radius_.largest(); }
+    double growth(const Box& box) const { return tapered_.radius().largest_in(box); }
+    double largest_growth() const { return tapered_.radius().largest(); }
     bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return none_; }
 
@@ -63,7 +63,7 @@ class NearestSource {
     void visit(const SeedBlock& block, std::size_t node, Search& search) const;
 
     std::shared_ptr<const SeedTree> tree_;
-    NodeRadius radius_;
+    TaperedBeams tapered_;
     std::size_t neighbours_;
     std::array<Graded, 3> stretch_, turn_;
     double farthest_ratio_;  ///< no metric's largest factor over its smallest exceeds it

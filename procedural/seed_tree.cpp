@@ -14,6 +14,7 @@ constexpr int coarse_bits = 38;    // integer positions per coarse side, as a po
 constexpr int fraction_bits = 21;  // random bits per axis within an octant of a leaf
 constexpr int deepest_level = 15;  // leaf octants then have 22 bits: 21 random ones and the half step
 constexpr double leaf_seeds = 8;   // a leaf holds one seed per octant at most on average
+constexpr double seeds_of_bcc_leaf = 2;
 constexpr double bcc_leaf_seeds = 5.656854249492381;  // between the 2 of a leaf and the 16 of its children
 constexpr double rounding = 1 + 1e-9;  // a share of exactly eight seeds must not split by a rounding error
 constexpr std::size_t most_nodes = std::size_t{1} << 22;
@@ -149,8 +150,9 @@ SeedBlock SeedTree::make_block(glm::i64vec3 index) const {
     root.box = growth.box({0, 0, 0}, 0);
     growth.block.nodes.push_back(root);
 
-    growth.integrals.push_back(0);
-    const double expected = split(growth, 0, {0, 0, 0});
+    split(growth, 0, {0, 0, 0});
+    integrate(growth);
+    const double expected = growth.integrals.front();
     if (!(expected > 0)) {
         throw InputError("the density gives " + std::to_string(expected) + " seeds in a coarse cell of " +
                          std::to_string(side_) + " mm; it must give more than 0");
@@ -166,15 +168,13 @@ SeedBlock SeedTree::make_block(glm::i64vec3 index) const {
     return std::move(growth.block);
 }
 
-double SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) const {
+/// Divides a node until no leaf expects more seeds than it has room for.
+void SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) const {
     const Box box = growth.block.nodes[node].box;
     const int level = growth.block.nodes[node].level;
     const dvec3 size = box.size();
-    const double densest = density_->range(box).hi;
-    const bool patterned = pattern_ != SeedPattern::jittered;
-    if (densest * (size.x * size.y * size.z) <= (patterned ? bcc_leaf_seeds : leaf_seeds) * rounding) {
-        return growth.integrals[node] = patterned ? 2 : density_->integral(box);
-    }
+    const double densest = density_->range(box).hi, most = is_patterned() ? bcc_leaf_seeds : leaf_seeds;
+    if (densest * (size.x * size.y * size.z) <= most * rounding) return;
     const auto first_child = growth.block.nodes.size();
     if (level == deepest_level || first_child > most_nodes) {
         throw InputError("the density reaches " + std::to_string(densest) +
@@ -183,16 +183,35 @@ double SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) co
     }
     growth.block.nodes[node].first_child = static_cast<std::int32_t>(first_child);
     growth.block.nodes.resize(first_child + 8);
-    growth.integrals.resize(first_child + 8);
-    double sum = 0;
     for (unsigned octant = 0; octant < 8; ++octant) {
         const glm::i64vec3 at = octant_corner(corner, level, octant);
         SeedNode& child = growth.block.nodes[first_child + octant];
         child.level = level + 1;
         child.box = growth.box(at, level + 1);
-        sum += split(growth, first_child + octant, at);
+        split(growth, first_child + octant, at);
     }
-    return growth.integrals[node] = sum;
+}
+
+/// The density's integral over every node: over the leaves at once, and their sums.
+void SeedTree::integrate(Growth& growth) const {
+    const std::vector<SeedNode>& nodes = growth.block.nodes;
+    std::vector<std::size_t> leaves;
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].first_child >= 0) continue;
+        leaves.push_back(i);
+        boxes.push_back(nodes[i].box);
+    }
+    std::vector<double> seeds(leaves.size(), seeds_of_bcc_leaf);
+    if (!is_patterned()) density_->integrals(boxes, seeds);
+    growth.integrals.assign(nodes.size(), 0);
+    for (std::size_t i = 0; i < leaves.size(); ++i) growth.integrals[leaves[i]] = seeds[i];
+    // Children come behind their parents.
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        if (nodes[i].first_child < 0) continue;
+        for (std::size_t octant = 0; octant < 8; ++octant)
+            growth.integrals[i] += growth.integrals[static_cast<std::size_t>(nodes[i].first_child) + octant];
+    }
 }
 
 void SeedTree::deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const {

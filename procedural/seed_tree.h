@@ -95,7 +95,9 @@ class SeedTree {
     /// The coarse cell whose random numbers one has.
     glm::i64vec3 original(glm::i64vec3 index) const;
     SeedBlock make_block(glm::i64vec3 index) const;
-    double split(Growth& growth, std::size_t node, glm::i64vec3 corner) const;
+    bool is_patterned() const { return pattern_ != SeedPattern::jittered; }
+    void split(Growth& growth, std::size_t node, glm::i64vec3 corner) const;
+    void integrate(Growth& growth) const;
     void deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::uint32_t count) const;
     void place(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner,
                std::uint32_t count) const;

@@ -100,15 +100,14 @@ StrutLattice::StrutLattice(const LatticeSettings& settings, std::shared_ptr<cons
       radius_(std::move(radius)) {}
 
 std::vector<Beam> StrutLattice::pieces_touching(const Box& box) const {
-    std::vector<Beam> beams, parts;
+    std::vector<Beam> beams;
     if (box.empty()) return beams;
+    TaperedBeams tapered(radius_);
     for (const GridStrut& strut : struts_->meeting(grown(box, radius_.largest()))) {
-        parts.clear();
-        append_tapered(struts_->position(strut.a), struts_->position(strut.b), radius_, parts);
-        for (const Beam& part : parts) {
-            if (touches(part, box)) beams.push_back(part);
-        }
+        tapered.add(struts_->position(strut.a), struts_->position(strut.b));
     }
+    tapered.append(beams);
+    std::erase_if(beams, [&](const Beam& part) { return !touches(part, box); });
     return beams;
 }
 

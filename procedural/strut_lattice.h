@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "procedural/beam_foam.h"
-#include "procedural/foam_beams.h"
 #include "procedural/lattice_struts.h"
+#include "procedural/tapered_beams.h"
 #include "procedural/unit_cells.h"
 
 namespace lamella {

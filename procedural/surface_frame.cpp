@@ -13,12 +13,17 @@ constexpr std::size_t most_faces = 5000;
 
 }  // namespace
 
-void SurfaceFrame::append_curve(const SurfaceCurve& curve, std::vector<Beam>& beams) const {
+/// Adds the beams along a line of nodes.
+void SurfaceFrame::add_line(const SurfaceCurve& line) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) tapered_.add(line[i], line[i + 1]);
+}
+
+void SurfaceFrame::add_curve(const SurfaceCurve& curve) {
+    std::vector<double> radii(curve.size());
+    tapered_.radius().grading().numbers(curve, radii);
     double least = infinity;
-    for (const dvec3& p : curve) least = std::min(least, radius_.at(p));
-    const SurfaceCurve simple = simplified(curve, flatness * least);
-    for (std::size_t i = 0; i + 1 < simple.size(); ++i)
-        append_tapered(simple[i], simple[i + 1], radius_, beams);
+    for (const double radius : radii) least = std::min(least, radius);
+    add_line(simplified(curve, flatness * least));
 }
 
 const std::vector<SurfaceCurve>& SurfaceFrame::curves_on(const CellFaces::Face& face, const SeedKey& own) {
@@ -41,16 +46,13 @@ std::size_t SurfaceFrame::append(const VoronoiCell& cell, const Seed& own, std::
         const std::vector<SurfaceCurve>& curves = curves_on(face, own.key);
         curves_.insert(curves_.end(), curves.begin(), curves.end());
         if (face.other < own.key) continue;
-        for (const SurfaceCurve& curve : curves) append_curve(curve, beams);
+        for (const SurfaceCurve& curve : curves) add_curve(curve);
     }
-    const auto append_lines = [&](const std::vector<SurfaceCurve>& lines) {
-        for (const SurfaceCurve& line : lines) {
-            for (std::size_t i = 0; i + 1 < line.size(); ++i)
-                append_tapered(line[i], line[i + 1], radius_, beams);
-        }
-    };
-    append_lines(joints_.joints(faces_.faces(), curves_, tracer_, own, sites, stretch));
-    append_lines(enclosed_pieces(faces_.faces(), curves_, tracer_, own, sites, stretch));
+    for (const SurfaceCurve& line : joints_.joints(faces_.faces(), curves_, tracer_, own, sites, stretch))
+        add_line(line);
+    for (const SurfaceCurve& line : enclosed_pieces(faces_.faces(), curves_, tracer_, own, sites, stretch))
+        add_line(line);
+    tapered_.append(beams);
     for (std::size_t i = first; i < beams.size(); ++i) {
         beams[i].ra += growth_;
         beams[i].rb += growth_;

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "procedural/cell_faces.h"
-#include "procedural/foam_beams.h"
 #include "procedural/frame_joints.h"
 #include "procedural/surface_curves.h"
+#include "procedural/tapered_beams.h"
 
 namespace lamella {
 
@@ -31,7 +31,7 @@ struct FrameSettings {
 class SurfaceFrame {
   public:
     SurfaceFrame(const FieldPtr& body, NodeRadius radius, bool interior)
-        : tracer_(body), radius_(radius), interior_(interior), joints_(std::move(radius), interior) {}
+        : tracer_(body), tapered_(radius), interior_(interior), joints_(std::move(radius), interior) {}
 
     /// The same frame with beams thicker by a length, mm.
     SurfaceFrame grown(double by) const {
@@ -47,17 +47,18 @@ class SurfaceFrame {
     /// Appends the parts of a beam whose axis lies in the body.
     void append_inside(const Beam& beam, std::vector<Beam>& parts);
 
-    double largest_radius() const { return radius_.largest() + growth_; }
-    double largest_radius_in(const Box& box) const { return radius_.largest_in(box) + growth_; }
+    double largest_radius() const { return tapered_.radius().largest() + growth_; }
+    double largest_radius_in(const Box& box) const { return tapered_.radius().largest_in(box) + growth_; }
     SurfaceTracer::Side side_of(const Box& box) const { return tracer_.side_of(box); }
     bool interior() const { return interior_; }
 
   private:
     const std::vector<SurfaceCurve>& curves_on(const CellFaces::Face& face, const SeedKey& own);
-    void append_curve(const SurfaceCurve& curve, std::vector<Beam>& beams) const;
+    void add_line(const SurfaceCurve& line);
+    void add_curve(const SurfaceCurve& curve);
 
     SurfaceTracer tracer_;
-    NodeRadius radius_;
+    TaperedBeams tapered_;
     bool interior_;
     double growth_ = 0;  ///< added to every radius at the end, mm
     FrameJoints joints_;

@@ -20,6 +20,9 @@ class TableGrading : public Grading {
         : along_(std::move(along)), curve_(std::move(rows), smooth) {}
 
     double at(dvec3 p) const override { return curve_.at(along_->at(p)); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        lamella::numbers_of(*along_, points, out, [&](double along) { return curve_.at(along); });
+    }
 
     Interval range(const Box& box) const override {
         const Interval along = along_->range(box);

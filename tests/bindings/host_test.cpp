@@ -337,6 +337,42 @@ TEST_CASE("a grading of the program's makes the foam that its formula makes", "[
     }
 }
 
+TEST_CASE("a foam asks a grading of the program's for many points at a time", "[bindings]") {
+    struct Asked {
+        std::size_t calls = 0, points = 0;
+    };
+    const auto waves = [](void* user, const double* points, std::size_t count, double* values) {
+        auto& asked = *static_cast<Asked*>(user);
+        ++asked.calls;
+        asked.points += count;
+        for (std::size_t i = 0; i < count; ++i) values[i] = 0.2 + 0.01 * points[3 * i + 2];
+        return std::int32_t{0};
+    };
+    const std::string key = GENERATE("beam = \"wanted\"\ncell = 2\n", "beam = \"0.5 * wanted\"\ncell = 2\n",
+                                     "beam = 0.2\ncell = \"10 * wanted\"\n");
+    const Caller caller;
+    const RecipeHandle recipe =
+        recipe_by_call(caller, "[part]\nshape = \"box\"\nsize = [10, 10, 4]\n[foam]\n" + key +
+                                   "[[grading]]\nname = \"wanted\"\nkind = \"host\"\n");
+    Asked asked;
+    auto grading = sized<lamella_grading>();
+    grading.least = 0.15;
+    grading.greatest = 0.25;
+    grading.identity = "waves";
+    grading.values = waves;
+    grading.user = &asked;
+    caller.require(lamella_recipe_add_grading(caller, recipe.get(), "wanted", &grading));
+    auto options = sized<lamella_build_options>();
+    options.threads = 1;
+    lamella_job* job = nullptr;
+    caller.require(lamella_job_build(caller, recipe.get(), &options, &job));
+    const JobHandle handle(job, lamella_job_destroy);
+    asked = {};
+    CHECK(area_by_call(caller, section_by_call(caller, job, 0.1).get()) > 0);
+    CHECK(asked.points > 1000);
+    CHECK(asked.points > 6 * asked.calls);
+}
+
 TEST_CASE("a field that fails fails the call", "[bindings]") {
     const Caller caller;
     double radius = 5;

@@ -4,8 +4,11 @@
 #include <catch2/catch.hpp>
 
 #include "engine/error.h"
+#include "engine/formula_grading.h"
+#include "engine/formula_parser.h"
 #include "engine/primitives.h"
 #include "tests/engine/gradings.h"
+#include "tests/procedural/grading_checks.h"
 
 using namespace lamella;
 
@@ -49,6 +52,24 @@ TEST_CASE("clamping keeps numbers and ranges within limits, and NaN at the upper
     CHECK(r.lo == 1.5);
     CHECK(r.hi == 2.5);
     CHECK_THROWS_AS(make_clamped_grading(make_constant_grading(1), {2, 1}), InputError);
+}
+
+TEST_CASE("numbers asked for together are those asked for one by one", "[grading]") {
+    const auto wave = std::make_shared<Wave>();
+    const auto linear = std::make_shared<Linear>(0.5, dvec3(0.1, 0.2, -0.3));
+    const std::vector<std::string> names{"x", "y", "z", "a", "b"};
+    const Box box{dvec3(-10), dvec3(10)};
+    for (const GradingPtr& grading :
+         {make_clamped_grading(wave, {1.5, 2.5}), make_depth_grading(make_sphere(dvec3(0), 10)),
+          make_formula_grading(parse_formula("x * b + sin(a) - z", names), {wave, linear}),
+          make_formula_grading(parse_formula("b + b * y", names), {wave, linear}),
+          make_formula_grading(parse_formula("x + y * z", names), {})}) {
+        std::mt19937 random(1);
+        std::vector<dvec3> points;
+        for (int i = 0; i < 300; ++i) points.push_back(checks::random_point(random, box));
+        checks::check_numbers(*grading, points);
+        checks::check_numbers(*grading, {});
+    }
 }
 
 TEST_CASE("a tight range encloses the numbers and exceeds them little") {

@@ -1,6 +1,7 @@
-// Checks that every grading's range has to pass.
+// Checks that every grading has to pass.
 #pragma once
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -14,17 +15,31 @@ inline dvec3 random_point(std::mt19937& random, const Box& box) {
     return box.lo + box.size() * dvec3(x, y, z);
 }
 
+/// Whether numbers asked for together are those asked for one by one, to the last bit.
+inline void check_numbers(const Grading& grading, std::span<const dvec3> points) {
+    std::vector<double> together(points.size(), -7);
+    grading.numbers(points, together);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double alone = grading.at(points[i]);
+        if (std::isnan(alone) && std::isnan(together[i])) continue;
+        if (std::bit_cast<std::uint64_t>(alone) != std::bit_cast<std::uint64_t>(together[i]))
+            FAIL(together[i] << " together with others, " << alone << " alone");
+    }
+}
+
 /// How much wider the range of a box is than the numbers found at `points` places in it; fails when one of
 /// them is outside.
 inline double excess(const Grading& grading, const Box& box, std::mt19937& random, int points) {
     const Interval range = grading.range(box);
     Interval found;
+    std::vector<dvec3> asked;
     for (int i = 0; i < points + 8; ++i) {
         dvec3 p = random_point(random, box);
         if (i < 8) {
             p = {(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
                  (i & 4) != 0 ? box.hi.z : box.lo.z};
         }
+        asked.push_back(p);
         const double number = grading.at(p);
         if (std::isnan(number)) {
             if (range.hi != infinity) FAIL("a NaN within a range that ends at " << range.hi);
@@ -36,6 +51,7 @@ inline double excess(const Grading& grading, const Box& box, std::mt19937& rando
         }
         found = {std::min(found.lo, number), std::max(found.hi, number)};
     }
+    check_numbers(grading, asked);
     return range.width() - found.width();
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/error.h"
 #include "tests/engine/gradings.h"
+#include "tests/procedural/grading_checks.h"
 
 using namespace lamella;
 
@@ -16,6 +17,8 @@ TEST_CASE("a quotient's range encloses its numbers", "[grading_quotient]") {
     for (const double x : {-2.0, 0.0, 1.5}) {
         const Box box{{x, -1, 0}, {x + 1, 1, 1}};
         const Interval range = quotient->range(box);
+        std::mt19937 random(3);
+        checks::excess(*quotient, box, random, 100);
         for (int i = 0; i <= 100; ++i) {
             const double t = i / 100.0;
             CHECK(range.contains(quotient->at({x + t, 2 * t - 1, 0})));
