@@ -10,8 +10,6 @@
 #include "engine/mesh_field.h"
 #include "engine/mesh_repair.h"
 #include "engine/range_about.h"
-#include "engine/slice_context.h"
-#include "engine/tile_walk.h"
 #include "recipe/identity.h"
 
 namespace lamella {
@@ -50,8 +48,7 @@ class HostField : public Field {
         : values_(std::move(values)), box_(box), metric_(metric) {}
 
     double value(dvec3 p) const override { return cut(p, values_.at(p)); }
-    /// Values at many points.
-    void values(std::span<const dvec3> points, std::span<double> out) const {
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
         values_(points, out);
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = cut(points[i], out[i]);
     }
@@ -60,8 +57,7 @@ class HostField : public Field {
         ranges({&box, 1}, {&enclosing, 1});
         return enclosing;
     }
-    /// Ranges over many boxes.
-    void ranges(std::span<const Box> boxes, std::span<Interval> out) const {
+    void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
         std::vector<double> at_centers(boxes.size());
         if (metric_ != Metric::sign) {
             std::vector<dvec3> centers;
@@ -79,7 +75,7 @@ class HostField : public Field {
         }
     }
     Metric metric() const override { return metric_; }
-    const SliceField& slice(SliceContext& context, double z) const override;
+    bool takes_many() const override { return true; }
     Box bounds() const override { return box_; }
 
   private:
@@ -99,62 +95,6 @@ class HostField : public Field {
     Box box_;
     Metric metric_;
 };
-
-/// The field in one plane, as the tile walk sees it.
-class HostInPlane : public EvenSolid {
-  public:
-    HostInPlane(const HostField& field, double z) : field_(field), z_(z) {}
-
-    void ranges(std::span<const Rect> tiles, std::span<Interval> out) override {
-        boxes_.clear();
-        for (const Rect& tile : tiles) boxes_.push_back({{tile.lo, z_}, {tile.hi, z_}});
-        field_.ranges(boxes_, out);
-    }
-    void values(const WalkPoints& points, std::span<double> out) override {
-        points_.clear();
-        points.each([&](dvec2 p) { points_.emplace_back(p, z_); });
-        field_.values(points_, out);
-    }
-
-  private:
-    const HostField& field_;
-    double z_;
-    std::vector<dvec3> points_;
-    std::vector<Box> boxes_;
-};
-
-class HostSlice : public SliceField {
-  public:
-    HostSlice(const HostField& field, double z) : field_(field), z_(z) {}
-
-    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
-        HostInPlane walked(field_, z_);
-        sampled_spans(walked, field_.metric(), band, out);
-    }
-    Interval range(const Rect& r) const override { return field_.range({{r.lo, z_}, {r.hi, z_}}); }
-    void sample(const Tile& tile, std::span<float> out) const override {
-        std::vector<dvec3> points;
-        points.reserve(out.size());
-        for (int j = 0; j < tile.ny; ++j) {
-            for (int i = 0; i < tile.nx; ++i) points.emplace_back(tile.origin + dvec2(i, j) * tile.step, z_);
-        }
-        std::vector<double> values(points.size());
-        field_.values(points, values);
-        for (std::size_t i = 0; i < values.size(); ++i) out[i] = static_cast<float>(values[i]);
-    }
-    Rect bounds() const override {
-        const Box box = field_.bounds();
-        return box.lo.z < z_ && z_ < box.hi.z ? box.rect() : Rect{};
-    }
-
-  private:
-    const HostField& field_;
-    double z_;
-};
-
-const SliceField& HostField::slice(SliceContext& context, double z) const {
-    return context.make<HostSlice>(*this, z);
-}
 
 class HostGrading : public Grading {
   public:

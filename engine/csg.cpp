@@ -224,6 +224,15 @@ class Shifted : public Field {
   public:
     Shifted(FieldPtr solid, double d) : solid_(std::move(solid)), d_(d) {}
     double value(dvec3 p) const override { return solid_->value(p) - d_; }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        solid_->values(points, out);
+        for (double& value : out) value -= d_;
+    }
+    void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
+        solid_->ranges(boxes, out);
+        for (Interval& values : out) values = {values.lo - d_, values.hi - d_};
+    }
+    bool takes_many() const override { return solid_->takes_many(); }
     Interval range(const Box& box) const override {
         const Interval r = solid_->range(box);
         return {r.lo - d_, r.hi - d_};

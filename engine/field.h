@@ -61,6 +61,11 @@ class Field : public std::enable_shared_from_this<Field> {
     /// Encloses every value over the box. The default derives it from the centre's value and the metric.
     virtual Interval range(const Box& box) const;
     virtual Metric metric() const { return Metric::bound; }
+    /// The values at many points, those of `value`, and the ranges over many boxes, those of `range`.
+    virtual void values(std::span<const dvec3> points, std::span<double> out) const;
+    virtual void ranges(std::span<const Box> boxes, std::span<Interval> out) const;
+    /// Whether many at once take much less time than as many by themselves: the default slice asks so then.
+    virtual bool takes_many() const { return false; }
     /// The solid grown (d > 0) or shrunk (d < 0) by d mm in true 3D distance; null where there is no closed
     /// form.
     virtual FieldPtr offset(double d) const;

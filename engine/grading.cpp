@@ -29,6 +29,10 @@ class DepthGrading : public Grading {
   public:
     explicit DepthGrading(FieldPtr body) : body_(std::move(body)) {}
     double at(dvec3 p) const override { return -body_->value(p); }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        body_->values(points, out);
+        for (double& number : out) number = -number;
+    }
     Interval range(const Box& box) const override {
         const Interval values = body_->range(box);
         return {-values.hi, -values.lo};

@@ -89,9 +89,24 @@ class GradedShell : public Field {
     GradedShell(FieldPtr body, GradingPtr thickness)
         : body_(std::move(body)), thickness_(std::move(thickness)) {}
     double value(dvec3 p) const override { return -body_->value(p) - thickness_->at(p); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        std::vector<double> thickness(points.size());
+        thickness_->numbers(points, thickness);
+        body_->values(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = -out[i] - thickness[i];
+    }
+    bool takes_many() const override { return body_->takes_many(); }
+    void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
+        body_->ranges(boxes, out);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Interval thickness = thickness_->range(boxes[i]);
+            out[i] = {-out[i].hi - thickness.hi, -out[i].lo - thickness.lo};
+        }
+    }
     Interval range(const Box& box) const override {
-        const Interval values = body_->range(box), thickness = thickness_->range(box);
-        return {-values.hi - thickness.hi, -values.lo - thickness.lo};
+        Interval values;
+        ranges({&box, 1}, {&values, 1});
+        return values;
     }
     Metric metric() const override { return Metric::sign; }
     Box bounds() const override { return body_->bounds(); }
@@ -107,9 +122,24 @@ class GradedOuterShell : public Field {
     GradedOuterShell(FieldPtr body, GradingPtr thickness, double greatest)
         : body_(std::move(body)), thickness_(std::move(thickness)), greatest_(greatest) {}
     double value(dvec3 p) const override { return body_->value(p) - thickness_->at(p); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        std::vector<double> thickness(points.size());
+        thickness_->numbers(points, thickness);
+        body_->values(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] -= thickness[i];
+    }
+    bool takes_many() const override { return body_->takes_many(); }
+    void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
+        body_->ranges(boxes, out);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Interval thickness = thickness_->range(boxes[i]);
+            out[i] = {out[i].lo - thickness.hi, out[i].hi - thickness.lo};
+        }
+    }
     Interval range(const Box& box) const override {
-        const Interval values = body_->range(box), thickness = thickness_->range(box);
-        return {values.lo - thickness.hi, values.hi - thickness.lo};
+        Interval values;
+        ranges({&box, 1}, {&values, 1});
+        return values;
     }
     Metric metric() const override { return Metric::sign; }
     Box bounds() const override { return grown(body_->bounds(), greatest_); }
@@ -134,6 +164,9 @@ class Half : public Grading {
   public:
     explicit Half(GradingPtr whole) : whole_(std::move(whole)) {}
     double at(dvec3 p) const override { return whole_->at(p) / 2; }
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        numbers_of(*whole_, points, out, [](double whole) { return whole / 2; });
+    }
     Interval range(const Box& box) const override {
         const Interval r = whole_->range(box);
         return {r.lo / 2, r.hi / 2};

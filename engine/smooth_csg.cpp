@@ -43,9 +43,25 @@ class Seam : public Field {
         const double tool = tool_.value(p);
         if (!(tool < radius_)) return tool - radius_;
         if (tool <= -radius_) return tool;
-        const double a = a_.value(p);
-        return smooth_min(inverted_ ? -a : a, tool, radius_);
+        return blended(a_.value(p), tool);
     }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        tool_.values(points, out);
+        std::vector<dvec3> near;
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!(out[i] < radius_)) {
+                out[i] -= radius_;
+            } else if (out[i] > -radius_) {
+                near.push_back(points[i]);
+                places.push_back(i);
+            }
+        }
+        std::vector<double> a(near.size());
+        a_.values(near, a);
+        for (std::size_t k = 0; k < near.size(); ++k) out[places[k]] = blended(a[k], out[places[k]]);
+    }
+    bool takes_many() const override { return a_.takes_many() || tool_.takes_many(); }
     Interval range(const Box& box) const override {
         const Interval tool = tool_.range(box);
         if (tool.hi < 0) return {tool.lo - radius_ * 0.25, tool.hi};
@@ -64,6 +80,8 @@ class Seam : public Field {
     }
 
   private:
+    double blended(double a, double tool) const { return smooth_min(inverted_ ? -a : a, tool, radius_); }
+
     const Field& a_;
     bool inverted_;
     const Field& tool_;

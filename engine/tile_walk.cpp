@@ -153,6 +153,29 @@ class WalkedSlice : public WalkedSolid {
     const SliceField& slice_;
 };
 
+/// A field in one plane, asked for many points and tiles at a time.
+class FieldInPlane : public EvenSolid {
+  public:
+    FieldInPlane(const Field& field, double z) : field_(field), z_(z) {}
+
+    void ranges(std::span<const Rect> tiles, std::span<Interval> out) override {
+        boxes_.clear();
+        for (const Rect& tile : tiles) boxes_.push_back({{tile.lo, z_}, {tile.hi, z_}});
+        field_.ranges(boxes_, out);
+    }
+    void values(const WalkPoints& points, std::span<double> out) override {
+        points_.clear();
+        points.each([&](dvec2 p) { points_.emplace_back(p, z_); });
+        field_.values(points_, out);
+    }
+
+  private:
+    const Field& field_;
+    double z_;
+    std::vector<dvec3> points_;
+    std::vector<Box> boxes_;
+};
+
 }  // namespace
 
 void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
@@ -171,19 +194,33 @@ void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, 
 }
 
 void SampledSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
-    sampled_spans(*this, field_.metric(), band, out);
+    if (field_.takes_many()) {
+        FieldInPlane walked(field_, z_);
+        sampled_spans(walked, field_.metric(), band, out);
+    } else {
+        sampled_spans(*this, field_.metric(), band, out);
+    }
 }
 
 Interval SampledSlice::range(const Rect& r) const { return field_.range({{r.lo, z_}, {r.hi, z_}}); }
 
 void SampledSlice::sample(const Tile& tile, std::span<float> out) const {
-    std::size_t k = 0;
-    for (int j = 0; j < tile.ny; ++j) {
-        for (int i = 0; i < tile.nx; ++i) {
-            const dvec3 p(tile.origin.x + i * tile.step.x, tile.origin.y + j * tile.step.y, z_);
-            out[k++] = static_cast<float>(field_.value(p));
+    const auto point = [&](int i, int j) { return dvec3(tile.origin + dvec2(i, j) * tile.step, z_); };
+    if (!field_.takes_many()) {
+        std::size_t k = 0;
+        for (int j = 0; j < tile.ny; ++j) {
+            for (int i = 0; i < tile.nx; ++i) out[k++] = static_cast<float>(field_.value(point(i, j)));
         }
+        return;
     }
+    std::vector<dvec3> points;
+    points.reserve(out.size());
+    for (int j = 0; j < tile.ny; ++j) {
+        for (int i = 0; i < tile.nx; ++i) points.push_back(point(i, j));
+    }
+    std::vector<double> values(points.size());
+    field_.values(points, values);
+    std::ranges::transform(values, out.begin(), [](double v) { return static_cast<float>(v); });
 }
 
 Rect SampledSlice::bounds() const {

@@ -52,7 +52,7 @@ void sampled_spans(EvenSolid& solid, Metric metric, const RowBand& band, SpanRow
 /// The same for a slice that answers from range and sample.
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out);
 
-/// The slice of a field that answers from Field::value and Field::range.
+/// The slice of a field that answers from its values and ranges.
 class SampledSlice : public SliceField {
   public:
     SampledSlice(const Field& field, double z) : field_(field), z_(z) {}

@@ -136,6 +136,22 @@ FieldPtr formula(const char* text, double half, Metric metric) {
     return make_formula_field(parse_formula(text, names), {depth}, {dvec3(-half), dvec3(half)}, metric);
 }
 
+/// A solid that knows nothing but its values and ranges, and wants to be asked for many.
+class ForMany : public Field {
+  public:
+    ForMany(FieldPtr solid) : solid_(std::move(solid)) {}
+    double value(dvec3 p) const override { return solid_->value(p); }
+    Interval range(const Box& box) const override { return solid_->range(box); }
+    Metric metric() const override { return solid_->metric(); }
+    bool takes_many() const override { return true; }
+    Box bounds() const override { return solid_->bounds(); }
+
+  private:
+    FieldPtr solid_;
+};
+
+FieldPtr for_many(FieldPtr solid) { return std::make_shared<ForMany>(std::move(solid)); }
+
 std::vector<Named> all_fields() {
     const FieldPtr sphere = make_sphere({0.3, -0.2, 0.1}, 2.5);
     const FieldPtr box = make_box({{-2, -1.5, -1}, {1.5, 2.25, 1.75}});
@@ -234,6 +250,19 @@ std::vector<Named> all_fields() {
         {"formula with its slope made even",
          make_unit_slope(formula("3*(hypot(x-0.3, y+0.2, z-0.1) - 2.5)", 3, Metric::sign),
                          {dvec3(-3), dvec3(3)}),
+         true},
+        {"ball for many points", for_many(sphere), true},
+        {"grown ball for many points", make_offset(for_many(sphere), 0.4), true},
+        {"shell of a ball for many points", make_intersection({sphere, make_shell(for_many(sphere), 0.4)}),
+         true},
+        {"turned torus for many points", make_transform(for_many(torus), turn, {0.2, 0.1, -0.1}), true},
+        {"ball for many points under a graded centred skin",
+         make_filled_body(for_many(sphere), torus, graded, {0.1, 1}, SkinSide::centred), true},
+        {"ball for many points joined smoothly", make_smooth_union(for_many(sphere), cone, 0.7), true},
+        {"waves for many points less a ball with rounded edges",
+         make_smooth_difference(
+             for_many(formula("sin(2*x)*cos(2*y) + sin(2*y)*cos(2*z) + sin(2*z)*cos(2*x)", 3, Metric::sign)),
+             for_many(sphere), 0.5),
          true},
         {"mirrored and stretched union", make_transform(make_union({box, cone}), mirror, {0.3, 0, 0.2})},
     };
@@ -374,6 +403,30 @@ TEST_CASE("a range encloses every value in its box") {
                 // NaN is outside, so a box with such values is not full.
                 REQUIRE((std::isnan(v) ? 0 <= range.hi : range.lo <= v + 1e-9 && v - 1e-9 <= range.hi));
             }
+        }
+    }
+}
+
+TEST_CASE("values and ranges asked for together are those asked for one by one") {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> at(-3.5, 3.5), size(0.01, 1.5);
+    std::vector<dvec3> points;
+    std::vector<Box> boxes;
+    for (int i = 0; i < 200; ++i) {
+        points.emplace_back(at(random), at(random), at(random));
+        boxes.push_back({points.back(), points.back() + dvec3(size(random), size(random), size(random))});
+    }
+    std::vector<double> values(points.size());
+    std::vector<Interval> ranges(boxes.size());
+    for (const Named& named : all_fields()) {
+        INFO(named.name);
+        named.field->values(points, values);
+        named.field->ranges(boxes, ranges);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double alone = named.field->value(points[i]);
+            REQUIRE((std::isnan(alone) ? std::isnan(values[i]) : alone == values[i]));
+            const Interval range = named.field->range(boxes[i]);
+            REQUIRE((range.lo == ranges[i].lo && range.hi == ranges[i].hi));
         }
     }
 }
