@@ -99,12 +99,14 @@ class Transformed : public Field {
     }
     void values(std::span<const dvec3> points, std::span<double> out) const override {
         std::vector<dvec3> inner;
+        inner.reserve(points.size());
         for (const dvec3& p : points) inner.push_back(inverse_ * (p - translation_));
         solid_->values(inner, out);
         for (double& value : out) value *= stretch_.least;
     }
     void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
         std::vector<Box> inner;
+        inner.reserve(boxes.size());
         for (const Box& box : boxes) inner.push_back(image_of(box, inverse_, -(inverse_ * translation_)));
         solid_->ranges(inner, out);
         for (Interval& v : out) v = {v.lo * stretch_.least, v.hi * stretch_.least};

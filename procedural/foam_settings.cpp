@@ -70,6 +70,7 @@ class AmongSeeds : public Grading {
     double at(dvec3 p) const override { return grading_->at(stretch_.to_part(p)); }
     void numbers(std::span<const dvec3> points, std::span<double> out) const override {
         std::vector<dvec3> places;
+        places.reserve(points.size());
         for (const dvec3& p : points) places.push_back(stretch_.to_part(p));
         grading_->numbers(places, out);
     }

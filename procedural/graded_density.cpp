@@ -47,6 +47,7 @@ void GradedDensity::integrals(std::span<const Box> boxes, std::span<double> out)
         ends.push_back(parts.size());
     }
     std::vector<dvec3> centers;
+    centers.reserve(parts.size());
     for (const Box& part : parts) centers.push_back(part.center());
     std::vector<double> cells(parts.size());
     cell_->numbers(centers, cells);
