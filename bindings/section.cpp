@@ -101,6 +101,11 @@ double tolerance_of(double tolerance) {
 
 lamella_contours* flat(const std::vector<Contour>& contours) {
     auto made = std::make_unique<lamella_contours>();
+    std::size_t count = 0;
+    for (const Contour& contour : contours) count += contour.points.size();
+    made->points.reserve(2 * count);
+    made->first.reserve(contours.size() + 1);
+    made->parents.reserve(contours.size());
     made->first.push_back(0);
     for (const Contour& contour : contours) {
         for (const dvec2& p : contour.points) {
