@@ -42,18 +42,20 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
         const double radius = radius_.at(ends_.front());
         for (std::size_t i = 0; i < ends_.size(); i += 2)
             beams.push_back({ends_[i], radius, ends_[i + 1], radius});
+        ends_.clear();
     } else {
-        places_ = ends_;
+        // Asking may throw; what was added is gone then.
+        places_.swap(ends_);
+        ends_.clear();
         ask();
         parts_.clear();
-        for (std::size_t i = 0; i < ends_.size(); i += 2)
-            parts_.push_back({{ends_[i], found_[i], ends_[i + 1], found_[i + 1]}, false});
+        for (std::size_t i = 0; i < places_.size(); i += 2)
+            parts_.push_back({{places_[i], found_[i], places_[i + 1], found_[i + 1]}, false});
         for (int splits = 0; splits < most_splits; ++splits) {
             if (!split()) break;
         }
         for (const Part& part : parts_) beams.push_back(part.beam);
     }
-    ends_.clear();
 }
 
 /// The radii at places_.
