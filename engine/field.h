@@ -64,7 +64,8 @@ class Field : public std::enable_shared_from_this<Field> {
     /// The values at many points, those of `value`, and the ranges over many boxes, those of `range`.
     virtual void values(std::span<const dvec3> points, std::span<double> out) const;
     virtual void ranges(std::span<const Box> boxes, std::span<Interval> out) const;
-    /// Whether many at once take much less time than as many by themselves: the default slice asks so then.
+    /// Whether `values` and `ranges` take much less time than as many calls one by one. The default slice
+    /// uses them then.
     virtual bool takes_many() const { return false; }
     /// The solid grown (d > 0) or shrunk (d < 0) by d mm in true 3D distance; null where there is no closed
     /// form.

@@ -16,7 +16,7 @@ class Density {
     /// The integral of the density over the box, seeds; positive. Asked for where range * volume is at most
     /// 8.
     virtual double integral(const Box& box) const = 0;
-    /// The integrals over many boxes.
+    /// The integrals over many boxes, those of `integral`, seeds.
     virtual void integrals(std::span<const Box> boxes, std::span<double> out) const {
         for (std::size_t i = 0; i < boxes.size(); ++i) out[i] = integral(boxes[i]);
     }

@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-/// One seed per cell^3, the cell's size being a grading, mm. Where the size changes within a box, the
-/// integral is taken over eight parts where it changes by more than 5 %, else over the box as a whole.
+/// One seed per cell^3, the cell's size being a grading, mm. The integral over a box reads the size at its
+/// centre; where the size may change by more than 5 % within the box, at the centres of its eight octants.
 class GradedDensity : public Density {
   public:
     /// The sizes must be positive everywhere.

@@ -19,6 +19,7 @@ class NodeRadius {
     bool constant() const { return radius_->constant().has_value(); }
     /// Encloses the radii of the nodes in the box.
     Interval range(const Box& box) const { return radius_->range(box); }
+    /// The radius at any point, mm.
     const Grading& grading() const { return *radius_; }
     /// Every radius larger by a length, mm.
     NodeRadius grown(double by) const;
@@ -40,6 +41,7 @@ class TaperedBeams {
     explicit TaperedBeams(NodeRadius radius) : radius_(std::move(radius)) {}
     const NodeRadius& radius() const { return radius_; }
 
+    /// Adds a beam between two nodes, mm.
     void add(dvec3 from, dvec3 to) {
         ends_.push_back(from);
         ends_.push_back(to);
