@@ -2,6 +2,7 @@
 #include "engine/run_collector.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lamella {
 namespace {
@@ -48,6 +49,9 @@ std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::in
     return {first, last};
 }
 
+constexpr Run joins_nothing{std::numeric_limits<std::int32_t>::max(),
+                            std::numeric_limits<std::int32_t>::min()};
+
 }  // namespace
 
 void RunCollector::clear() {
@@ -69,13 +73,19 @@ RunCollector::Segment RunCollector::add(int first, int count) {
 void RunCollector::merge(const RowBand& band, SpanRows& out) {
     const auto lines = static_cast<std::size_t>(band.lines());
     make_room(lines);
-    // Scatter the runs to their lines. Misses are written too, and overwritten by the next run.
+    // Scatter the runs to their lines. Things that follow each other are mostly neighbours whose runs
+    // overlap, and join right here; whether they do is hard to foretell, so no branch depends on it. Misses
+    // are written too, and overwritten by the next run.
     std::size_t k = 0;
     for (const Piece& piece : pieces_) {
         std::uint32_t* const next = next_.data() + piece.first;
         for (int i = 0; i < piece.count; ++i, ++k) {
-            runs_[next[i]] = {begins_[k], ends_[k]};
-            next[i] += begins_[k] < ends_[k] ? 1 : 0;
+            const Run run{begins_[k], ends_[k]}, last = runs_[next[i] - 1];
+            const bool hit = run.begin < run.end;
+            const bool joins = hit && run.begin <= last.end && last.begin <= run.end;
+            runs_[next[i] - (joins ? 1 : 0)] = {joins ? std::min(run.begin, last.begin) : run.begin,
+                                                joins ? std::max(run.end, last.end) : run.end};
+            next[i] += hit && !joins ? 1 : 0;
         }
     }
     const std::int32_t lo = band.lo * run_unit, hi = band.hi * run_unit;
@@ -88,7 +98,8 @@ void RunCollector::merge(const RowBand& band, SpanRows& out) {
     }
 }
 
-/// Gives each line as much room in runs_ as pieces touch it, and one run of slack at the end of all.
+/// Gives each line as much room in runs_ as pieces touch it, behind a run that nothing joins, and one run of
+/// slack at the end of all.
 void RunCollector::make_room(std::size_t lines) {
     // The pieces that open minus those that close at each line, then their sum, then the sum of the sums.
     starts_.assign(lines + 1, 0);
@@ -98,13 +109,14 @@ void RunCollector::make_room(std::size_t lines) {
         ++starts_[first];
         --starts_[first + count];
     }
-    std::uint32_t open = 0, start = 0;
+    std::uint32_t open = 0, start = 1;
     for (std::uint32_t& line : starts_) {
         open += line;
         line = start;
-        start += open;
+        start += open + 1;
     }
-    runs_.resize(start + 1);
+    runs_.resize(start);
+    for (const std::uint32_t line : starts_) runs_[line - 1] = joins_nothing;
     next_.assign(starts_.begin(), starts_.end());
 }
 
