@@ -72,6 +72,9 @@ class Tpms : public Field {
         : solid_(settings), metric_(solid_.is_constant() ? Metric::bound : Metric::sign) {}
 
     double value(dvec3 p) const override { return solid_.value(p); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        solid_.values(points, out);
+    }
     Interval range(const Box& box) const override { return solid_.range(box); }
     Metric metric() const override { return metric_; }
     Box bounds() const override { return solid_.region(); }

@@ -1,4 +1,4 @@
-// One wave a line; where something is graded, a walk along the line.
+// One wave a line; where something is graded, a walk along the lines.
 #include "procedural/tpms_slice.h"
 
 #include <array>
@@ -20,6 +20,55 @@ Interval across(const Rect& rect, Axis axis) { return along(rect, axis == Axis::
 Rect region_at(const Box& region, double z) {
     return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
 }
+
+/// The values along consecutive lines of a band, per run unit.
+class TpmsLines : public LineFunction {
+  public:
+    TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
+              const SineCosine& height)
+        : solid_(solid),
+          band_(band),
+          along_(band.axis == Axis::x ? 0 : 1),
+          z_(z),
+          unit_(std::abs(band.along_pitch) / run_unit) {
+        for (const int l : lines) {
+            places_.push_back(band.line(l));
+            if (solid.has_constant_period()) {
+                const double distance = places_.back() - solid.center()[1 - along_];
+                const SineCosine angle = TpmsSolid::angle(distance, solid.period());
+                waves_.push_back(tpms_wave(solid.kind(), band.axis, angle, height));
+            }
+        }
+    }
+
+    void values(std::span<const LinePoint> points, std::span<double> out) const override {
+        std::vector<dvec3> places(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            places[i].z = z_;
+            places[i][along_] = band_.along(points[i].u);
+            places[i][1 - along_] = places_[points[i].line];
+        }
+        if (!solid_.has_constant_period()) return solid_.values(places, out);
+        solid_.thicknesses(places, out);
+        const double period = solid_.period(), center = solid_.center()[along_];
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const SineCosine angle = TpmsSolid::angle(places[i][along_] - center, period);
+            out[i] = solid_.value_of(waves_[points[i].line].at(angle), period, out[i]);
+        }
+    }
+    double steepest(std::size_t line) const override {
+        return unit_ *
+               (waves_.empty() ? solid_.steepest(along_) : solid_.steepest(along_, waves_[line].amplitude()));
+    }
+
+  private:
+    const TpmsSolid& solid_;
+    const RowBand& band_;
+    int along_;
+    double z_, unit_;
+    std::vector<double> places_;  // of the lines, mm
+    std::vector<Wave> waves_;     // along the lines, where the period is constant
+};
 
 }  // namespace
 
@@ -62,42 +111,20 @@ void TpmsSlice::closed_spans(const RowBand& band, SpanRows& out) const {
 }
 
 void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
-    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
     const double u0 = band.coordinate(room.lo), u1 = band.coordinate(room.hi);
     const std::int32_t lo = std::max(band.lo * run_unit, round_run(std::min(u0, u1)));
     const std::int32_t hi = std::min(band.hi * run_unit, round_run(std::max(u0, u1)));
-    const double unit = std::abs(band.along_pitch) / run_unit;
-    const dvec3 center = solid_.center();
-    for (int l = 0; l < band.lines(); ++l) {
-        const double place = band.line(l);
-        if (lo >= hi || !lines.contains(place)) {
-            out.end_line();
-            continue;
-        }
-        dvec3 p(0, 0, z_);
-        p[across_axis] = place;
-        const auto walk = [&](double steepest, const auto& value) {
-            LineWalk(value, steepest * unit, lo, hi, out).walk();
-        };
-        if (solid_.has_constant_period()) {
-            const double period = solid_.period();
-            const Wave wave = tpms_wave(solid_.kind(), band.axis,
-                                        TpmsSolid::angle(place - center[across_axis], period), height_);
-            walk(solid_.steepest(along_axis, wave.amplitude()), [&](double u) {
-                dvec3 q = p;
-                q[along_axis] = band.along(u);
-                const double g = wave.at(TpmsSolid::angle(q[along_axis] - center[along_axis], period));
-                return solid_.value_of(g, period, solid_.thickness_at(q));
-            });
-        } else {
-            walk(solid_.steepest(along_axis), [&](double u) {
-                dvec3 q = p;
-                q[along_axis] = band.along(u);
-                return solid_.value(q);
-            });
-        }
+    std::vector<int> walked;
+    for (int l = 0; lo < hi && l < band.lines(); ++l) {
+        if (lines.contains(band.line(l))) walked.push_back(l);
     }
+    const auto end_lines = [&out](int count) {
+        for (int l = 0; l < count; ++l) out.end_line();
+    };
+    end_lines(walked.empty() ? band.lines() : walked.front());
+    walk_lines(TpmsLines(solid_, band, walked, z_, height_), walked.size(), lo, hi, out);
+    if (!walked.empty()) end_lines(band.lines() - 1 - walked.back());
 }
 
 void TpmsSlice::sample(const Tile& tile, std::span<float> out) const {
@@ -123,10 +150,13 @@ void TpmsSlice::sample_row(const Tile& tile, int first, std::span<const SineCosi
     const double period = solid_.period();
     const Wave wave =
         tpms_wave(solid_.kind(), Axis::x, TpmsSolid::angle(y - solid_.center().y, period), height_);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const dvec3 p(tile.origin.x + (first + static_cast<int>(i)) * tile.step.x, y, z_);
-        out[i] = static_cast<float>(solid_.value_of(wave.at(columns[i]), period, solid_.thickness_at(p)));
-    }
+    std::array<dvec3, columns_at_once> places;
+    std::array<double, columns_at_once> thicknesses;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        places[i] = {tile.origin.x + (first + static_cast<int>(i)) * tile.step.x, y, z_};
+    solid_.thicknesses(std::span(places).first(columns.size()), std::span(thicknesses).first(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        out[i] = static_cast<float>(solid_.value_of(wave.at(columns[i]), period, thicknesses[i]));
 }
 
 }  // namespace lamella

@@ -1,6 +1,8 @@
 // Values scaled by the steepest gradient; ranges through the ranges of the angles.
 #include "procedural/tpms_solid.h"
 
+#include <algorithm>
+
 namespace lamella {
 namespace {
 
@@ -34,22 +36,34 @@ TpmsSolid::TpmsSolid(const TpmsSettings& settings)
 }
 
 dvec3 TpmsSolid::survey_gradings() const {
+    // Each point of the lattice with its neighbours along x, y and z.
+    constexpr std::size_t group = 4;
     const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
-    dvec3 most(0);
+    std::vector<dvec3> points;
     for (int i = 0; i < survey_side * survey_side * survey_side; ++i) {
         const dvec3 at(i % survey_side, i / survey_side % survey_side, i / survey_side / survey_side);
         const dvec3 p = settings_.region.lo + at * step;
-        const double period = period_at(p), thickness = thickness_at(p);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(step[axis] > 0)) continue;
-            dvec3 q = p;
-            q[axis] += step[axis];
-            const double of_period = std::abs(period_at(q) - period) / step[axis];
-            const double of_thickness = std::abs(thickness_at(q) - thickness) / step[axis];
-            const double farther = std::max(length(p - center_), length(q - center_));
-            const double stretch = of_period * farther / std::min(period, period_at(q));
+        points.insert(points.end(), group, p);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<glm::length_t>(axis);
+            points[points.size() - 3 + axis][k] += step[k];
+        }
+    }
+    std::vector<double> period(points.size()), thickness(points.size());
+    periods(points, period);
+    thicknesses(points, thickness);
+    dvec3 most(0);
+    for (std::size_t i = 0; i < points.size(); i += group) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<glm::length_t>(axis);
+            const std::size_t j = i + 1 + axis;
+            if (!(step[k] > 0)) continue;
+            const double of_period = std::abs(period[j] - period[i]) / step[k];
+            const double of_thickness = std::abs(thickness[j] - thickness[i]) / step[k];
+            const double farther = std::max(length(points[i] - center_), length(points[j] - center_));
+            const double stretch = of_period * farther / std::min(period[i], period[j]);
             const double scale = of_period * 2 * g_.greatest / (turn * g_.steepest);
-            most[axis] = std::max(most[axis], stretch + scale + of_thickness / 2);
+            most[k] = std::max(most[k], stretch + scale + of_thickness / 2);
         }
     }
     return most * survey_safety;
@@ -67,11 +81,27 @@ Interval TpmsSolid::solid_levels(double period, double thickness) const {
     return {-g_.steepest_surface * steps, g_.steepest_surface * steps};
 }
 
-double TpmsSolid::value(dvec3 p) const {
-    const double period = period_at(p);
+double TpmsSolid::value(dvec3 p, double period, double thickness) const {
     const dvec3 d = p - center_;
     const Wave wave = tpms_wave(kind(), Axis::x, angle(d.y, period), angle(d.z, period));
-    return value_of(wave.at(angle(d.x, period)), period, thickness_at(p));
+    return value_of(wave.at(angle(d.x, period)), period, thickness);
+}
+
+void TpmsSolid::values(std::span<const dvec3> points, std::span<double> out) const {
+    std::vector<double> periods_there(points.size());
+    periods(points, periods_there);
+    thicknesses(points, out);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = value(points[i], periods_there[i], out[i]);
+}
+
+void TpmsSolid::periods(std::span<const dvec3> points, std::span<double> out) const {
+    if (!constant_period_) return settings_.period->numbers(points, out);
+    std::fill(out.begin(), out.end(), period_);
+}
+
+void TpmsSolid::thicknesses(std::span<const dvec3> points, std::span<double> out) const {
+    if (!constant_thickness_) return settings_.thickness->numbers(points, out);
+    std::fill(out.begin(), out.end(), thickness_);
 }
 
 Interval TpmsSolid::range(const Box& box) const {

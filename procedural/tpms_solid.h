@@ -23,6 +23,7 @@ class TpmsSolid {
     double thickness_at(dvec3 p) const {
         return constant_thickness_ ? thickness_ : settings_.thickness->at(p);
     }
+    void thicknesses(std::span<const dvec3> points, std::span<double> out) const;
     Interval thickness_over(const Box& box) const {
         return constant_thickness_ ? Interval{thickness_, thickness_} : settings_.thickness->range(box);
     }
@@ -42,10 +43,13 @@ class TpmsSolid {
     /// The values of g that are solid: strictly between these.
     Interval solid_levels(double period, double thickness) const;
 
-    double value(dvec3 p) const;
+    double value(dvec3 p) const { return value(p, period_at(p), thickness_at(p)); }
+    void values(std::span<const dvec3> points, std::span<double> out) const;
     Interval range(const Box& box) const;
 
   private:
+    double value(dvec3 p, double period, double thickness) const;
+    void periods(std::span<const dvec3> points, std::span<double> out) const;
     dvec3 survey_gradings() const;
 
     static constexpr double turn = 6.28318530717958647693;

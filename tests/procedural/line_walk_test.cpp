@@ -8,10 +8,27 @@ using namespace lamella;
 
 namespace {
 
+/// The same function along each line, shifted by as much as the line says.
+template <typename Value>
+class Shifted : public LineFunction {
+  public:
+    Shifted(const Value& value, double steepest, double shift)
+        : value_(value), steepest_(steepest), shift_(shift) {}
+    void values(std::span<const LinePoint> points, std::span<double> out) const override {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            out[i] = value_(points[i].u + shift_ * static_cast<double>(points[i].line));
+    }
+    double steepest(std::size_t /*line*/) const override { return steepest_; }
+
+  private:
+    const Value& value_;
+    double steepest_, shift_;
+};
+
 template <typename Value>
 std::vector<Run> walk(const Value& value, double steepest, int lo, int hi) {
     SpanRows out;
-    LineWalk(value, steepest, lo * run_unit, hi * run_unit, out).walk();
+    walk_lines(Shifted(value, steepest, 0), 1, lo * run_unit, hi * run_unit, out);
     REQUIRE(out.lines() == 1);
     return {out.runs().begin(), out.runs().end()};
 }
@@ -78,4 +95,23 @@ TEST_CASE("a walk takes what is not a number for outside, and ends at jumps", "[
     CHECK(walk([&](double) { return nan; }, 1, 0, 20).empty());
     CHECK(walk([](double) { return -1.0; }, 1, -3, 20) == std::vector<Run>{{-3 * run_unit, 20 * run_unit}});
     CHECK(walk([](double) { return -1.0; }, 1, 5, 5).empty());
+}
+
+TEST_CASE("many lines are each walked as if alone", "[line_walk]") {
+    const auto wave = [](double u) { return std::sin(u / 301) + std::cos(u / 97) - 0.3; };
+    // So many and so long that they are walked in several turns.
+    constexpr std::size_t count = 700;
+    constexpr int hi = 400;
+    constexpr double shift = 37;
+    SpanRows out;
+    walk_lines(Shifted(wave, 0.02, shift), count, 0, hi * run_unit, out);
+    REQUIRE(out.lines() == count);
+    for (std::size_t l = 0; l < count; ++l) {
+        const auto alone = [&](double u) { return wave(u + shift * static_cast<double>(l)); };
+        const auto line = out.line(l);
+        CHECK(std::vector<Run>(line.begin(), line.end()) == walk(alone, 0.02, 0, hi));
+    }
+    SpanRows none;
+    walk_lines(Shifted(wave, 0.02, shift), 0, 0, hi * run_unit, none);
+    CHECK(none.lines() == 0);
 }
