@@ -2,6 +2,8 @@
 // square roots only. Angles in radians. A NaN argument gives NaN.
 #pragma once
 
+#include <span>
+
 namespace lamella {
 
 struct SineCosine {
@@ -11,6 +13,8 @@ struct SineCosine {
 
 /// Sine and cosine of an angle in radians; absolute error below 2e-15 for |x| < 1e5, NaN beyond 1e15.
 SineCosine sine_cosine(double x);
+/// Those of many angles at once, by SIMD; the same bits.
+void sines_cosines(std::span<const double> angles, std::span<SineCosine> out);
 double sine(double x);
 double cosine(double x);
 /// Relative error below 1e-14 where |x| < 1e5 and |tan x| lies in [1e-4, 1e4]; NaN beyond 1e15.

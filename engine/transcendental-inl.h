@@ -1,6 +1,6 @@
 // The transcendental functions, written once for one number and for SIMD lanes. Included inside a namespace
 // that defines the vocabulary (Constant, Add, Mul, ..., PowerOfTwo, Exponent, Significand) for the type V:
-// double in deterministic_math.cpp, a vector of doubles in formula_batch.cpp. Both give the same bits,
+// double in deterministic_math.cpp, a vector of doubles in lane_math-inl.h. Both give the same bits,
 // because both do the same IEEE operations in the same order. No include guard: it is included once per
 // target.
 

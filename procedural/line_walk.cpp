@@ -66,7 +66,9 @@ class Turn {
 class Walk {
   public:
     Walk(const LineFunction& function, std::size_t first, std::size_t last, std::int32_t lo, std::int32_t hi)
-        : function_(function), first_(first), last_(last), lo_(lo), hi_(hi) {}
+        : function_(function), first_(first), last_(last), lo_(lo), hi_(hi) {
+        for (std::size_t line = first; line < last; ++line) steepest_.push_back(function.steepest(line));
+    }
 
     void run(SpanRows& out) {
         ask_stretches();
@@ -112,16 +114,17 @@ class Walk {
 
     /// Whether nothing can turn between points on one side; false where a value is NaN.
     bool is_proven(const Pair& pair) const {
-        return std::abs(pair.v0) + std::abs(pair.v1) >= function_.steepest(pair.line) * pair.gap();
+        return std::abs(pair.v0) + std::abs(pair.v1) >= steepest_[pair.line - first_] * pair.gap();
     }
 
     void halve() {
         points_.clear();
         for (const Pair& pair : pairs_) points_.push_back({pair.line, pair.middle()});
         ask();
-        const std::vector<Pair> wholes = std::exchange(pairs_, {});
-        for (std::size_t i = 0; i < wholes.size(); ++i) {
-            const auto& [line, u0, v0, u1, v1] = wholes[i];
+        std::swap(pairs_, wholes_);
+        pairs_.clear();
+        for (std::size_t i = 0; i < wholes_.size(); ++i) {
+            const auto& [line, u0, v0, u1, v1] = wholes_[i];
             consider({line, u0, v0, points_[i].u, values_[i]});
             consider({line, points_[i].u, values_[i], u1, v1});
         }
@@ -159,11 +162,13 @@ class Walk {
     const LineFunction& function_;
     std::size_t first_, last_;
     std::int32_t lo_, hi_;
+    std::vector<double> steepest_;  // of the lines
     std::vector<LinePoint> points_;
     std::vector<double> values_;
     std::vector<bool> begins_solid_;
-    std::vector<Pair> pairs_;  // between whose points something may turn, line by line
-    std::vector<Turn> turns_;  // line by line
+    std::vector<Pair> pairs_,
+        wholes_;  // between whose points something may turn, and what they were cut from
+    std::vector<Turn> turns_;
 };
 
 }  // namespace

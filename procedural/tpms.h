@@ -38,7 +38,7 @@ struct TpmsSettings {
 
 /// The solid, which fills space; the region is its bounds, and only there are runs made. With one period and
 /// one thickness over the region the runs are closed forms and the metric is `bound`. Otherwise the metric is
-/// `sign`, and runs are found by a walk along each line (LineWalk) that sees what is wider than a quarter
+/// `sign`, and runs are found by a walk along the lines (walk_lines) that sees what is wider than a quarter
 /// pixel; how steep the gradings are it takes from their differences over 1/16 of the region, with half as
 /// much again for safety. Throws InputError for numbers out of range over the region: not
 /// positive, more than 10,000 periods along a side, or so thick that nothing is left open.

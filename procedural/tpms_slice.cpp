@@ -49,12 +49,15 @@ class TpmsLines : public LineFunction {
             places[i][1 - along_] = places_[points[i].line];
         }
         if (!solid_.has_constant_period()) return solid_.values(places, out);
-        solid_.thicknesses(places, out);
         const double period = solid_.period(), center = solid_.center()[along_];
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const SineCosine angle = TpmsSolid::angle(places[i][along_] - center, period);
-            out[i] = solid_.value_of(waves_[points[i].line].at(angle), period, out[i]);
-        }
+        std::vector<double> angles(points.size());
+        std::vector<SineCosine> turns(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i)
+            angles[i] = TpmsSolid::angle_of(places[i][along_] - center, period);
+        sines_cosines(angles, turns);
+        solid_.thicknesses(places, out);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            out[i] = solid_.value_of(waves_[points[i].line].at(turns[i]), period, out[i]);
     }
     double steepest(std::size_t line) const override {
         return unit_ *

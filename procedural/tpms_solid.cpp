@@ -81,17 +81,29 @@ Interval TpmsSolid::solid_levels(double period, double thickness) const {
     return {-g_.steepest_surface * steps, g_.steepest_surface * steps};
 }
 
-double TpmsSolid::value(dvec3 p, double period, double thickness) const {
+double TpmsSolid::value(dvec3 p) const {
+    const double period = period_at(p);
     const dvec3 d = p - center_;
     const Wave wave = tpms_wave(kind(), Axis::x, angle(d.y, period), angle(d.z, period));
-    return value_of(wave.at(angle(d.x, period)), period, thickness);
+    return value_of(wave.at(angle(d.x, period)), period, thickness_at(p));
 }
 
 void TpmsSolid::values(std::span<const dvec3> points, std::span<double> out) const {
-    std::vector<double> periods_there(points.size());
-    periods(points, periods_there);
+    std::vector<double> period(points.size()), angles(3 * points.size());
+    std::vector<SineCosine> turns(angles.size());
+    periods(points, period);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const dvec3 d = points[i] - center_;
+        angles[3 * i] = angle_of(d.x, period[i]);
+        angles[3 * i + 1] = angle_of(d.y, period[i]);
+        angles[3 * i + 2] = angle_of(d.z, period[i]);
+    }
+    sines_cosines(angles, turns);
     thicknesses(points, out);
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = value(points[i], periods_there[i], out[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Wave wave = tpms_wave(kind(), Axis::x, turns[3 * i + 1], turns[3 * i + 2]);
+        out[i] = value_of(wave.at(turns[3 * i]), period[i], out[i]);
+    }
 }
 
 void TpmsSolid::periods(std::span<const dvec3> points, std::span<double> out) const {

@@ -29,7 +29,11 @@ class TpmsSolid {
     }
 
     /// Sine and cosine of the angle at a distance from the centre along an axis, mm.
-    static SineCosine angle(double distance, double period) { return sine_cosine(distance * turn / period); }
+    static SineCosine angle(double distance, double period) {
+        return sine_cosine(angle_of(distance, period));
+    }
+    /// That angle, as sine_cosine() takes it.
+    static double angle_of(double distance, double period) { return distance * turn / period; }
     /// The value where g is g, mm.
     double value_of(double g, double period, double thickness) const;
     /// How much the value changes per mm at most along a line in the direction of `axis` (0 to 2) on which g
@@ -43,12 +47,11 @@ class TpmsSolid {
     /// The values of g that are solid: strictly between these.
     Interval solid_levels(double period, double thickness) const;
 
-    double value(dvec3 p) const { return value(p, period_at(p), thickness_at(p)); }
+    double value(dvec3 p) const;
     void values(std::span<const dvec3> points, std::span<double> out) const;
     Interval range(const Box& box) const;
 
   private:
-    double value(dvec3 p, double period, double thickness) const;
     void periods(std::span<const dvec3> points, std::span<double> out) const;
     dvec3 survey_gradings() const;
 

@@ -1,10 +1,15 @@
 // Own transcendental functions against the C library in long double.
 #include "engine/deterministic_math.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
+
+#include "engine/simd_target.h"
 
 using namespace lamella;
 
@@ -148,4 +153,31 @@ TEST_CASE("small whole powers are multiplied out, others come from exp and ln") 
         const double error = static_cast<double>(std::fabs(power(x, y) - exact) / exact);
         REQUIRE(error < 4e-16 * (2 + std::fabs(y * std::log(x))));
     }
+}
+
+TEST_CASE("sines and cosines of many angles are those of one, to the bit, on every target",
+          "[deterministic_math]") {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> exponent(-20, 18), sign(-1, 1);
+    std::vector<double> angles{0, -0.0, inf, -inf, std::numeric_limits<double>::quiet_NaN()};
+    // No multiple of any number of lanes.
+    while (angles.size() < 100'003) angles.push_back(std::pow(10.0, exponent(random)) * sign(random));
+    const auto same = [](double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+               (std::isnan(a) && std::isnan(b));
+    };
+    for (const std::string& target : simd_targets()) {
+        INFO(target);
+        force_simd_target(target);
+        std::vector<SineCosine> found(angles.size());
+        sines_cosines(angles, found);
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            const SineCosine one = sine_cosine(angles[i]);
+            differ += same(one.sine, found[i].sine) && same(one.cosine, found[i].cosine) ? 0 : 1;
+        }
+        CHECK(differ == 0);
+    }
+    force_simd_target("");
+    sines_cosines({}, {});
 }
