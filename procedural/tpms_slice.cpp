@@ -21,7 +21,7 @@ Rect region_at(const Box& region, double z) {
     return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
 }
 
-/// The values along consecutive lines of a band, per run unit.
+/// The solid along lines of a band.
 class TpmsLines : public LineFunction {
   public:
     TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,

@@ -9,6 +9,7 @@
 #include "engine/slice_context.h"
 #include "procedural/tpms_surface.h"
 #include "tests/engine/gradings.h"
+#include "tests/procedural/grading_checks.h"
 
 using namespace lamella;
 
@@ -119,6 +120,16 @@ bool hangs_together(TpmsKind kind, double level) {
     const auto x = static_cast<int>(deepest) % turns, y = static_cast<int>(deepest) / turns % turns,
                z = static_cast<int>(deepest) / turns / turns;
     return solid[index(x + n, y, z)] == 2 && solid[index(x, y + n, z)] == 2 && solid[index(x, y, z + n)] == 2;
+}
+
+/// Whether values asked for together are those asked for one by one, to the last bit.
+void check_values(const Field& field, const Box& box) {
+    std::mt19937 random(3);
+    std::vector<dvec3> points;
+    for (int i = 0; i < 101; ++i) points.push_back(checks::random_point(random, box));
+    std::vector<double> together(points.size());
+    field.values(points, together);
+    for (std::size_t i = 0; i < points.size(); ++i) CHECK(together[i] == field.value(points[i]));
 }
 
 }  // namespace
@@ -256,6 +267,7 @@ TEST_CASE("a solid with one graded number has the runs of its definition", "[tpm
                 }
                 const auto field = make_tpms(s);
                 CHECK(field->metric() == Metric::sign);
+                check_values(*field, region);
                 const double z = -0.43, pitch = 0.08;
                 for (const Axis axis : {Axis::x, Axis::y}) {
                     const RowBand band = band_over(region, axis, pitch);

@@ -142,6 +142,25 @@ class Gradings(unittest.TestCase):
         )
         self.same_layers(self.recipe("2 + 0.125 * x"), computed)
 
+    def test_walls_are_asked_for_at_many_points_at_once(self) -> None:
+        walls = (
+            '[part]\nshape = "box"\nsize = [8, 8, 2]\n[foam]\nkind = "gyroid"\ncell = 3\nwall = "size_here"\n'
+            "[layers]\nheight = 0.5\n"
+        )
+        asked: list[int] = []
+
+        def values(points: np.ndarray) -> np.ndarray:
+            asked.append(len(points))
+            return 0.4 + 0.02 * points[:, 0]
+
+        computed = self.recipe(text=walls)
+        computed.add_grading("size_here", values, 0.2, 0.6, identity="along x")
+        self.same_layers(self.recipe("0.4 + 0.02 * x", walls), computed)
+        section = computed.build().section(0)
+        asked.clear()
+        section.coverage(self.raster)
+        self.assertGreater(sum(asked), 50 * len(asked))
+
     def test_another_function_makes_other_layers(self) -> None:
         told = self.recipe("2 + 0.125 * x").build()
         other = self.recipe()
