@@ -49,6 +49,7 @@ std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::in
     return {first, last};
 }
 
+/// What stands before the runs of each line, so that the first of them finds a last one, too.
 constexpr Run joins_nothing{std::numeric_limits<std::int32_t>::max(),
                             std::numeric_limits<std::int32_t>::min()};
 

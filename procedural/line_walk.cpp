@@ -166,8 +166,8 @@ class Walk {
     std::vector<LinePoint> points_;
     std::vector<double> values_;
     std::vector<bool> begins_solid_;
-    std::vector<Pair> pairs_,
-        wholes_;  // between whose points something may turn, and what they were cut from
+    std::vector<Pair> pairs_;   // between whose points something may turn
+    std::vector<Pair> wholes_;  // those that pairs_ are halves of
     std::vector<Turn> turns_;
 };
 

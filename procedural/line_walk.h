@@ -7,7 +7,7 @@
 
 namespace lamella {
 
-/// A point of one of several lines, at run coordinate u.
+/// A point of one of several lines; u is its run coordinate, run units.
 struct LinePoint {
     std::size_t line;
     double u;
@@ -17,7 +17,7 @@ struct LinePoint {
 class LineFunction {
   public:
     virtual ~LineFunction() = default;
-    /// Its values at the points, each a function of that point alone.
+    /// Its values at the points, as many; each a function of that point alone.
     virtual void values(std::span<const LinePoint> points, std::span<double> out) const = 0;
     /// How much it changes at most per run unit along a line.
     virtual double steepest(std::size_t line) const = 0;

@@ -23,6 +23,7 @@ class TpmsSolid {
     double thickness_at(dvec3 p) const {
         return constant_thickness_ ? thickness_ : settings_.thickness->at(p);
     }
+    /// Those at many points, as many; and so with values().
     void thicknesses(std::span<const dvec3> points, std::span<double> out) const;
     Interval thickness_over(const Box& box) const {
         return constant_thickness_ ? Interval{thickness_, thickness_} : settings_.thickness->range(box);
