@@ -1,8 +1,8 @@
 // Ranks over MPI: a module that is loaded when mpirun has started the program.
 #include <mpi.h>
 
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <deque>
 #include <limits>
@@ -23,17 +23,15 @@ class MpiRanks : public Ranks {
         if (level < MPI_THREAD_SERIALIZED) throw FaultError("this MPI serves programs with one thread only");
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
-        // Large messages move on only while someone calls MPI.
-        mover_ = std::thread([this] {
-            while (!done_) {
-                outstanding();
-                std::this_thread::sleep_for(std::chrono::microseconds(500));
-            }
-        });
+        mover_ = std::thread([this] { keep_moving(); });
     }
     ~MpiRanks() override {
         while (outstanding() > 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
-        done_ = true;
+        {
+            const std::lock_guard lock(calling_);
+            done_ = true;
+        }
+        sent_.notify_one();
         mover_.join();
         MPI_Finalize();
     }
@@ -51,6 +49,7 @@ class MpiRanks : public Ranks {
         message.bytes = std::move(bytes);
         MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, tag,
                   MPI_COMM_WORLD, &message.request);
+        sent_.notify_one();
     }
 
     std::optional<std::string> receive(int from, int tag) override {
@@ -68,11 +67,7 @@ class MpiRanks : public Ranks {
 
     std::size_t outstanding() override {
         const std::lock_guard lock(calling_);
-        std::erase_if(on_the_way_, [](Message& message) {
-            int has_arrived = 0;
-            MPI_Test(&message.request, &has_arrived, MPI_STATUS_IGNORE);
-            return has_arrived != 0;
-        });
+        drop_what_has_arrived();
         return on_the_way_.size();
     }
 
@@ -87,10 +82,32 @@ class MpiRanks : public Ranks {
         MPI_Request request = MPI_REQUEST_NULL;
     };
 
+    void drop_what_has_arrived() {
+        std::erase_if(on_the_way_, [](Message& message) {
+            int has_arrived = 0;
+            MPI_Test(&message.request, &has_arrived, MPI_STATUS_IGNORE);
+            return has_arrived != 0;
+        });
+    }
+
+    /// Large messages move on only while someone calls MPI. Costs nothing while none is on the way.
+    void keep_moving() {
+        std::unique_lock lock(calling_);
+        for (;;) {
+            sent_.wait(lock, [this] { return done_ || !on_the_way_.empty(); });
+            if (done_) return;
+            drop_what_has_arrived();
+            lock.unlock();
+            std::this_thread::sleep_for(std::chrono::microseconds(500));
+            lock.lock();
+        }
+    }
+
     int rank_ = 0, size_ = 1;
     std::mutex calling_;
     std::deque<Message> on_the_way_;  // whose messages stay where they are until they have arrived
-    std::atomic<bool> done_{false};
+    std::condition_variable sent_;    // something is on the way, or it is all done
+    bool done_ = false;
     std::thread mover_;
 };
 
