@@ -35,6 +35,7 @@ enum RankTag : int {
     ask_tag,        ///< a rank is free for a task
     task_tag,       ///< what it is to do
     result_tag,     ///< what came of it
+    turn_tag,       ///< who makes which of the next layers
     first_layer_tag = 16
 };
 

@@ -8,9 +8,10 @@
 
 namespace lamella {
 
-/// The process of rank 0 streams layers to its outputs, of which it renders every size-th block itself and
-/// gets the others from the ranks that these belong to. What is written is what one process would write.
-/// Throws what stream_layers throws, and FaultError where another rank failed.
+/// The process of rank 0 streams layers to its outputs. It renders some of them itself, as many as it has
+/// time for, and gets the others from the ranks that it has given them to. What is written is what one
+/// process would write, whoever renders what. Throws what stream_layers throws, and FaultError where another
+/// rank failed.
 StreamReport spread_layers(Ranks& ranks, const Job& job, std::unique_ptr<Backend>& outputs,
                            const StreamOptions& options);
 

@@ -33,14 +33,21 @@ StreamReport spread(const Folder& folder, const std::string& output, int size, i
     StreamOptions options;
     options.range = {0, built.job.layer_count};
     options.threads = 1;
+    CancelToken aborted;
+    StreamOptions options_there = options;
+    options_there.cancel = &aborted;
     std::vector<std::thread> others;
     for (int rank = 1; rank < size; ++rank) {
         others.emplace_back([&, rank] {
             RanksInside ranks(post, rank, size);
             std::vector<Output> mine = outputs;
             if (rank == failing) mine.front().printer.vector.tolerance = -1;
-            tell_failures(
-                ranks, [&] { render_blocks(ranks, built.job, make_renderer(mine, options.range), options); });
+            try {
+                tell_failures(ranks, [&] {
+                    render_blocks(ranks, built.job, make_renderer(mine, options.range), options_there);
+                });
+            } catch (const Interrupted&) {
+            }
         });
     }
     RanksInside first(post, 0, size);
@@ -53,16 +60,7 @@ StreamReport spread(const Folder& folder, const std::string& output, int size, i
         join();
         return report;
     } catch (...) {
-        // The others wait until what they sent is taken, which an abort ends in earnest.
-        {
-            const std::lock_guard lock(post.access);
-            for (auto& [rank, count] : post.outstanding) count = 0;
-        }
-        for (int tries = 0; tries < 2000; ++tries) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            const std::lock_guard lock(post.access);
-            for (auto& [rank, count] : post.outstanding) count = 0;
-        }
+        aborted.cancel();  // as all processes are
         join();
         throw;
     }
