@@ -12,6 +12,7 @@
 
 namespace lamella {
 
+/// What a rank other than 0 renders in one turn.
 inline constexpr int layers_in_a_block = 8;
 
 /// Successive layers: some of rank 0, which has to write all of them besides, then a block of each other
@@ -33,7 +34,8 @@ struct Turn {
     void carry(Parcel& parcel) { parcel(first, own); }
 };
 
-/// How long something takes with a layer, on the average so far. Thread-safe.
+/// How long something takes with a layer, on the average so far. For deciding who does it, never for what
+/// comes of it. Thread-safe.
 class LayerTime {
   public:
     /// Does it with one layer.
@@ -68,8 +70,8 @@ struct WorkTimes {
     std::optional<double> fair_share(int ranks) const;
 };
 
-/// The turns, planned where rank 0 is some of them ahead, so that nobody waits for a plan. Thread-safe. Takes
-/// eight bytes for each turn.
+/// The turns of a run. Two are planned ahead of the layer that rank 0 is at, so that nobody waits for a plan.
+/// Thread-safe. Takes eight bytes for each turn.
 class LayerTurns {
   public:
     /// tell: called with each turn in order, once it is planned. The times must outlive this.
