@@ -13,15 +13,23 @@ namespace lamella {
 
 namespace {
 
-constexpr int skip_level = 2;  // empty blocks of 8 cells are crossed in one step
+/// The whole number at or below v. A grid's positions are small; std::floor is a call where the processor may
+/// be an old one.
+int whole_below(double v) {
+    const int towards_zero = static_cast<int>(v);
+    return towards_zero - (v < towards_zero ? 1 : 0);
+}
 
-/// Where the ray leaves the block of this edge that holds p.
-double leaving(dvec3 p, dvec3 start, dvec3 direction, double edge) {
+/// Rounded up: only truly empty blocks are 0.
+std::uint8_t mean_of_eight(unsigned sum) { return static_cast<std::uint8_t>((sum + 7) / 8); }
+
+/// Where the ray leaves the block that holds a cell; blocks are 2^`doublings` cells wide.
+double leaving(glm::ivec3 cell, int doublings, dvec3 start, dvec3 direction) {
     double exit = infinity;
     for (int k = 0; k < 3; ++k) {
         if (direction[k] == 0) continue;
-        const double low = std::floor(p[k] / edge) * edge;
-        const double wall = direction[k] > 0 ? low + edge : low;
+        const int low = cell[k] >> doublings << doublings;
+        const int wall = direction[k] > 0 ? low + (1 << doublings) : low;
         exit = std::min(exit, (wall - start[k]) / direction[k]);
     }
     return exit;
@@ -70,13 +78,12 @@ void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z, Mark mar
         for (std::size_t line = 0; line < rows.lines(); ++line) {
             const double y = band.line(static_cast<int>(line));
             if (y < bounds.lo.y || y > bounds.hi.y) continue;
-            const std::size_t row = static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) +
-                                    line / static_cast<std::size_t>(samples);
+            std::uint64_t* const cells = &bits_[row(static_cast<int>(line) / samples, z)];
             for (const Run& run : rows.line(line)) {
                 const std::int32_t begin = std::max(run.begin, low), end = std::min(run.end, high);
                 const int last = (end + end_shift) / run_unit;
                 for (int x = (begin + begin_shift) / run_unit; x < last; ++x) {
-                    bits_[row * words_ + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
+                    cells[x >> 6] |= std::uint64_t{1} << (x & 63);
                 }
             }
         }
@@ -84,37 +91,50 @@ void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z, Mark mar
 }
 
 void VoxelGrid::build_pyramid() {
-    int nx = nx_, ny = ny_, nz = nz_;
-    while (levels_.empty() || std::max({nx, ny, nz}) > 2) {
-        Level level{(nx + 1) / 2, (ny + 1) / 2, (nz + 1) / 2, {}};
-        level.density.resize(static_cast<std::size_t>(level.nx) * static_cast<std::size_t>(level.ny) *
-                             static_cast<std::size_t>(level.nz));
-        const Level* below = levels_.empty() ? nullptr : &levels_.back();
-        const auto child = [&](int x, int y, int z) -> unsigned {
-            if (x >= nx || y >= ny || z >= nz) return 0;
-            if (!below) return solid(x, y, z) ? 255 : 0;
-            return below->density[(static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) +
-                                   static_cast<std::size_t>(y)) *
-                                      static_cast<std::size_t>(nx) +
-                                  static_cast<std::size_t>(x)];
-        };
-        tbb::parallel_for(0, level.nz, [&](int z) {
-            std::size_t at = static_cast<std::size_t>(z) * static_cast<std::size_t>(level.ny) *
-                             static_cast<std::size_t>(level.nx);
-            for (int y = 0; y < level.ny; ++y) {
-                for (int x = 0; x < level.nx; ++x) {
-                    unsigned sum = 7;  // rounds up: only truly empty blocks are 0
-                    for (int c = 0; c < 8; ++c)
-                        sum += child(2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2));
-                    level.density[at++] = static_cast<std::uint8_t>(sum / 8);
+    levels_.push_back(first_level());
+    while (std::max({levels_.back().nx, levels_.back().ny, levels_.back().nz}) > 2)
+        levels_.push_back(level_above(levels_.back()));
+}
+
+VoxelGrid::Level VoxelGrid::first_level() const {
+    Level level((nx_ + 1) / 2, (ny_ + 1) / 2, (nz_ + 1) / 2, 0.5);
+    const std::vector<std::uint64_t> beyond(words_, 0);
+    const auto words = [&](int y, int z) { return y < ny_ && z < nz_ ? &bits_[row(y, z)] : beyond.data(); };
+    tbb::parallel_for(0, level.nz, [&](int z) {
+        for (int y = 0; y < level.ny; ++y) {
+            const std::uint64_t* const rows[4] = {words(2 * y, 2 * z), words(2 * y + 1, 2 * z),
+                                                  words(2 * y, 2 * z + 1), words(2 * y + 1, 2 * z + 1)};
+            std::uint8_t* const out = &level.density[level.at(0, y, z)];
+            for (std::size_t w = 0; w < words_; ++w) {
+                if ((rows[0][w] | rows[1][w] | rows[2][w] | rows[3][w]) == 0) continue;
+                for (std::size_t x = 32 * w; x < std::min(32 * (w + 1), static_cast<std::size_t>(level.nx));
+                     ++x) {
+                    unsigned full = 0;
+                    for (const std::uint64_t* bits : rows) {
+                        const std::uint64_t pair = bits[w] >> (2 * x & 63);
+                        full += static_cast<unsigned>((pair & 1) + (pair >> 1 & 1));
+                    }
+                    out[x] = mean_of_eight(255 * full);
                 }
             }
-        });
-        nx = level.nx;
-        ny = level.ny;
-        nz = level.nz;
-        levels_.push_back(std::move(level));
-    }
+        }
+    });
+    return level;
+}
+
+VoxelGrid::Level VoxelGrid::level_above(const Level& below) {
+    Level level((below.nx + 1) / 2, (below.ny + 1) / 2, (below.nz + 1) / 2, below.per_cell / 2);
+    tbb::parallel_for(0, level.nz, [&](int z) {
+        for (int y = 0; y < level.ny; ++y) {
+            for (int x = 0; x < level.nx; ++x) {
+                unsigned sum = 0;
+                for (int c = 0; c < 8; ++c)
+                    sum += below.density[below.at(2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2))];
+                level.density[level.at(x, y, z)] = mean_of_eight(sum);
+            }
+        }
+    });
+    return level;
 }
 
 std::vector<dvec3> VoxelGrid::solid_places() const {
@@ -122,11 +142,11 @@ std::vector<dvec3> VoxelGrid::solid_places() const {
     const Level& level = levels_[depth];
     const double edge = static_cast<double>(std::size_t{2} << depth);
     std::vector<dvec3> places;
-    std::size_t cell = 0;
     for (int z = 0; z < level.nz; ++z) {
         for (int y = 0; y < level.ny; ++y) {
-            for (int x = 0; x < level.nx; ++x, ++cell) {
-                if (level.density[cell] > 0) places.push_back(to_part((dvec3(x, y, z) + 0.5) * edge));
+            for (int x = 0; x < level.nx; ++x) {
+                if (level.density[level.at(x, y, z)] > 0)
+                    places.push_back(to_part((dvec3(x, y, z) + 0.5) * edge));
             }
         }
     }
@@ -135,36 +155,36 @@ std::vector<dvec3> VoxelGrid::solid_places() const {
 
 std::optional<Interval> VoxelGrid::next_solid(dvec3 start, dvec3 direction, double from, double to) const {
     constexpr double nudge = 1e-4;  // cells; carries the walk over a wall in spite of rounding
-    const std::size_t skip = std::min<std::size_t>(skip_level, levels_.size() - 1);
-    const Level& blocks = levels_[skip];
-    const double edge = static_cast<double>(2 << skip);
     for (double t = from; t < to;) {
         const dvec3 p = start + direction * (t + nudge);
-        const int x = static_cast<int>(std::floor(p.x));
-        const int y = static_cast<int>(std::floor(p.y));
-        const int z = static_cast<int>(std::floor(p.z));
-        if (x < 0 || y < 0 || z < 0 || x >= nx_ || y >= ny_ || z >= nz_) {
-            t = std::max(t + nudge, leaving(p, start, direction, 1));
+        const glm::ivec3 cell(whole_below(p.x), whole_below(p.y), whole_below(p.z));
+        if (!holds(cell)) {
+            t = std::max(t + nudge, leaving(cell, 0, start, direction));
             continue;
         }
-        const std::size_t block =
-            (static_cast<std::size_t>(z >> (skip + 1)) * static_cast<std::size_t>(blocks.ny) +
-             static_cast<std::size_t>(y >> (skip + 1))) *
-                static_cast<std::size_t>(blocks.nx) +
-            static_cast<std::size_t>(x >> (skip + 1));
-        const bool block_empty = blocks.density[block] == 0;
-        const double exit = std::max(t + nudge, leaving(p, start, direction, block_empty ? edge : 1));
-        if (!block_empty && solid(x, y, z)) return Interval{t, std::min(exit, to)};
+        const int empty = empty_doublings(cell);
+        const double exit = std::max(t + nudge, leaving(cell, empty, start, direction));
+        if (empty == 0 && solid(cell.x, cell.y, cell.z)) return Interval{t, std::min(exit, to)};
         t = exit;
     }
     return std::nullopt;
 }
 
+/// The largest empty block about a cell that is crossed in one step, as of `leaving`.
+int VoxelGrid::empty_doublings(glm::ivec3 cell) const {
+    for (const int doublings : {5, 3}) {
+        const auto k = static_cast<std::size_t>(doublings - 1);
+        if (k >= levels_.size()) continue;
+        const Level& blocks = levels_[k];
+        if (blocks.density[blocks.at(cell.x >> doublings, cell.y >> doublings, cell.z >> doublings)] == 0)
+            return doublings;
+    }
+    return 0;
+}
+
 bool VoxelGrid::solid_at(dvec3 p) const {
-    const dvec3 cell = glm::floor(p);
-    if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= nx_ || cell.y >= ny_ || cell.z >= nz_)
-        return false;
-    return solid(static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z));
+    const glm::ivec3 cell(whole_below(p.x), whole_below(p.y), whole_below(p.z));
+    return holds(cell) && solid(cell.x, cell.y, cell.z);
 }
 
 dvec3 VoxelGrid::slope(dvec3 p) const {
@@ -173,27 +193,33 @@ dvec3 VoxelGrid::slope(dvec3 p) const {
     for (int k = 0; k < 3; ++k) {
         dvec3 aside(0);
         aside[k] = step;
-        slope[k] =
-            (density(levels_.front(), 2, p + aside) - density(levels_.front(), 2, p - aside)) / (2 * step);
+        slope[k] = (density(0, p + aside) - density(0, p - aside)) / (2 * step);
     }
     return slope;
 }
 
-double VoxelGrid::density(const Level& level, double scale, dvec3 p) const {
-    const dvec3 q = p / scale - 0.5;
-    const dvec3 base = glm::floor(q);
-    const dvec3 f = q - base;
-    const int x0 = static_cast<int>(base.x), y0 = static_cast<int>(base.y), z0 = static_cast<int>(base.z);
+double VoxelGrid::density(std::size_t k, dvec3 p) const {
+    const Level& level = levels_[k];
+    const dvec3 q = p * level.per_cell - 0.5;
+    const int x = whole_below(q.x), y = whole_below(q.y), z = whole_below(q.z);
+    const auto far = [](int at, int count) { return at < -1 || at >= count; };
+    if (far(x, level.nx) || far(y, level.ny) || far(z, level.nz)) return 0;
+    const std::uint8_t* const near = &level.density[level.at(x, y, z)];
+    const std::size_t row = level.row(), plane = level.plane();
+    // Most of what is asked about is air.
+    unsigned any = 0;
+    for (const std::size_t pair : {std::size_t{0}, row, plane, plane + row})
+        any |= near[pair] | near[pair + 1U];
+    if (any == 0) return 0;
+    const dvec3 f = q - dvec3(x, y, z);
+    const double along[2] = {1 - f.x, f.x}, across[2] = {1 - f.y, f.y}, up[2] = {1 - f.z, f.z};
     double sum = 0;
-    for (int c = 0; c < 8; ++c) {
-        const int dx = c & 1, dy = c >> 1 & 1, dz = c >> 2;
-        const int x = x0 + dx, y = y0 + dy, z = z0 + dz;
-        if (x < 0 || y < 0 || z < 0 || x >= level.nx || y >= level.ny || z >= level.nz) continue;
-        const std::size_t at =
-            (static_cast<std::size_t>(z) * static_cast<std::size_t>(level.ny) + static_cast<std::size_t>(y)) *
-                static_cast<std::size_t>(level.nx) +
-            static_cast<std::size_t>(x);
-        sum += (dx ? f.x : 1 - f.x) * (dy ? f.y : 1 - f.y) * (dz ? f.z : 1 - f.z) * level.density[at];
+    for (std::size_t z_side = 0; z_side < 2; ++z_side) {
+        for (std::size_t y_side = 0; y_side < 2; ++y_side) {
+            const std::uint8_t* const pair = near + z_side * plane + y_side * row;
+            for (std::size_t x_side = 0; x_side < 2; ++x_side)
+                sum += along[x_side] * across[y_side] * up[z_side] * pair[x_side];
+        }
     }
     return sum / 255;
 }
@@ -218,7 +244,7 @@ double VoxelGrid::cone(dvec3 start, dvec3 direction, double spread, double reach
         }
         const double step = 0.5 * width;
         // A stretch of density d per cell's width dims the light by (1 - d) to the number of widths crossed.
-        light *= std::max(0.0, 1 - density(levels_[k], scale, p) * std::min(1.0, step / scale * 1.2));
+        light *= std::max(0.0, 1 - density(k, p) * std::min(1.0, step / scale * 1.2));
         t += step;
     }
     return light;

@@ -42,19 +42,40 @@ class VoxelGrid {
     double cone(dvec3 start, dvec3 direction, double spread, double reach) const;
 
   private:
+    /// Densities with an empty cell on every side, so that a place between cells has eight of them everywhere
+    /// about the grid.
     struct Level {
         int nx, ny, nz;
+        double per_cell;                    ///< cells of this level in one of the grid
         std::vector<std::uint8_t> density;  ///< 255 full; 0 only where all below is empty
+
+        Level(int x, int y, int z, double cells)
+            : nx(x), ny(y), nz(z), per_cell(cells), density(plane() * (static_cast<std::size_t>(z) + 2)) {}
+        std::size_t row() const { return static_cast<std::size_t>(nx) + 2; }
+        std::size_t plane() const { return row() * (static_cast<std::size_t>(ny) + 2); }
+        std::size_t at(int x, int y, int z) const {
+            return static_cast<std::size_t>(z + 1) * plane() + static_cast<std::size_t>(y + 1) * row() +
+                   static_cast<std::size_t>(x + 1);
+        }
     };
 
+    bool holds(glm::ivec3 cell) const {
+        return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < nx_ && cell.y < ny_ && cell.z < nz_;
+    }
     bool solid(int x, int y, int z) const {
-        const std::size_t row =
-            static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y);
-        return bits_[row * words_ + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
+        return bits_[row(y, z) + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
+    }
+    /// Where a row's words begin.
+    std::size_t row(int y, int z) const {
+        return words_ *
+               (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y));
     }
     void mark_plane(const Field& part, const Box& bounds, int z, Mark mark);
     void build_pyramid();
-    double density(const Level& level, double scale, dvec3 p) const;
+    Level first_level() const;
+    static Level level_above(const Level& below);
+    int empty_doublings(glm::ivec3 cell) const;
+    double density(std::size_t level, dvec3 p) const;
 
     dvec3 origin_;
     double pitch_;
