@@ -13,12 +13,16 @@ namespace {
 constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
 
+bool any_floats(const std::vector<std::uint8_t>& floats) {
+    return std::ranges::find(floats, 1) != floats.end();
+}
+
 /// Those components of a layer do not float that touch rows of one below.
 void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
-    for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
-        if (below.line(static_cast<std::size_t>(r)).empty()) continue;
-        for (int near = r - 1; near <= r + 1; ++near) {
-            for_touching(labelled.row(near), below.line(static_cast<std::size_t>(r)),
+    for (const int aside : {0, -1, 1}) {  // most lie right above something
+        if (!any_floats(floats)) return;
+        for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
+            for_touching(labelled.row(r + aside), below.line(static_cast<std::size_t>(r)),
                          [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
         }
     }
@@ -112,7 +116,7 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
         sink_touching(printed, below_[k].rows.supports, floats);
-    if (std::ranges::find(floats, 1) == floats.end()) return empty_rows(layer.printed.lines());
+    if (!any_floats(floats)) return empty_rows(layer.printed.lines());
     SpanRows floating = rows_of(layer.printed, printed, floats);
     PassingComponents one_layer;
     one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);

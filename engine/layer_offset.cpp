@@ -76,9 +76,7 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
     });
     std::vector<SpanRows> layers(count);
     for (std::size_t z = 0; z < count; ++z) {
-        for (const std::vector<SpanRows>& strip : strips) {
-            for (std::size_t l = 0; l < strip[z].lines(); ++l) layers[z].append_line(strip[z].line(l));
-        }
+        for (const std::vector<SpanRows>& strip : strips) layers[z].append_lines(strip[z]);
     }
     return layers;
 }

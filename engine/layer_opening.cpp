@@ -14,11 +14,6 @@ LayerLattice widened(LayerLattice lattice, std::size_t margin) {
     return lattice;
 }
 
-/// Appends lines [first, first + count).
-void append_lines(const SpanRows& rows, std::size_t first, std::size_t count, SpanRows& out) {
-    for (std::size_t l = first; l < first + count; ++l) out.append_line(rows.line(l));
-}
-
 }  // namespace
 
 LayerLattice ball_lattice(const RowBand& band, double layer_height, double across, double up) {
@@ -78,7 +73,7 @@ void ClosedLayers::push_empty() {
 void ClosedLayers::push(const SpanRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
     SpanRows wide = empty_rows(margin_);
-    append_lines(layer, 0, lines_, wide);
+    wide.append_lines(layer);
     for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
     grown_.push(BallRows(wide, radius_));
     ++to_come_;
@@ -104,7 +99,7 @@ bool ClosedLayers::pop(SpanRows& out) {
     if (to_come_ == 0 || !shrunk_.pop(wide)) return false;
     --to_come_;
     out.clear();
-    append_lines(wide, margin_, lines_, out);
+    out.append_lines(wide, margin_, lines_);
     return true;
 }
 

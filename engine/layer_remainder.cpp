@@ -10,42 +10,82 @@
 namespace lamella {
 namespace {
 
-/// Takes runs that reach further to both sides out of sorted ones. The buffer is for what is left.
-void take_away(std::span<const Run> taken, const BallReach& reach, std::vector<Run>& runs,
-               std::vector<Run>& buffer) {
-    const Run *t = taken.data(), *const end = t + taken.size();
-    while (t != end && t->end + reach.ahead <= runs.front().begin) ++t;
-    if (t == end || t->begin - reach.back >= runs.back().end) return;
-    buffer.resize(runs.size() + static_cast<std::size_t>(end - t));
-    Run* left = buffer.data();
-    for (const Run& run : runs) {
-        while (t != end && t->end + reach.ahead <= run.begin) ++t;
-        std::int32_t from = run.begin;
-        for (const Run* cut = t; cut != end && cut->begin - reach.back < run.end; ++cut) {
-            if (cut->begin - reach.back > from) *left++ = {from, cut->begin - reach.back};
-            from = std::max(from, cut->end + reach.ahead);
-        }
-        if (from < run.end) *left++ = {from, run.end};
+/// Runs of a line, of which more and more is taken away. Room is made once for many.
+class LeftRuns {
+  public:
+    void assign(std::span<const Run> runs) {
+        count_ = runs.size();
+        make_room(count_);
+        std::ranges::copy(runs, runs_.begin());
     }
-    buffer.resize(static_cast<std::size_t>(left - buffer.data()));
-    runs.swap(buffer);
+    bool empty() const { return count_ == 0; }
+    std::span<const Run> all() const { return {runs_.data(), count_}; }
+
+    /// Takes away sorted runs that reach further to both sides.
+    void take_away(std::span<const Run> taken, const BallReach& reach) {
+        const Run *t = taken.data(), *const end = t + taken.size();
+        const std::int32_t first = runs_.front().begin - reach.ahead;
+        while (t != end && t->end <= first) ++t;
+        if (t == end || t->begin - reach.back >= runs_[count_ - 1].end) return;
+        make_room(count_ + static_cast<std::size_t>(end - t));
+        Run* left = buffer_.data();
+        for (const Run& run : all()) {
+            while (t != end && t->end + reach.ahead <= run.begin) ++t;
+            std::int32_t from = run.begin;
+            for (const Run* cut = t; cut != end && cut->begin - reach.back < run.end; ++cut) {
+                if (cut->begin - reach.back > from) *left++ = {from, cut->begin - reach.back};
+                from = std::max(from, cut->end + reach.ahead);
+            }
+            if (from < run.end) *left++ = {from, run.end};
+        }
+        count_ = static_cast<std::size_t>(left - buffer_.data());
+        runs_.swap(buffer_);
+    }
+
+  private:
+    void make_room(std::size_t count) {
+        if (buffer_.size() < count) buffer_.resize(2 * count);
+        if (runs_.size() < count) runs_.resize(2 * count);
+    }
+    std::vector<Run> runs_, buffer_;  // of which count_ are runs left
+    std::size_t count_ = 0;
+};
+
+/// Whether rows have a run from row `first` to row `last`; both may lie beside them.
+bool any_run(const SpanRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
+    const auto count = static_cast<std::ptrdiff_t>(rows.lines());
+    const std::span<const Run> lowest =
+                                   rows.line(static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0))),
+                               highest = rows.line(static_cast<std::size_t>(std::min(last, count - 1)));
+    return lowest.data() != highest.data() + highest.size();
 }
 
 /// Appends lines [first, last) of what is left. layer_at(k) is what is grown k layers on, or null.
 template <typename LayerAt>
 void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& ball, std::size_t first,
                       std::size_t last, SpanRows& out) {
-    std::vector<Run> left, buffer;
+    LeftRuns left;
+    const auto anything_near = [&](std::ptrdiff_t row) {
+        for (int k = -ball.layers(); k <= ball.layers(); ++k) {
+            const SpanRows* taken = layer_at(k);
+            if (taken != nullptr && any_run(*taken, row - ball.rows(), row + ball.rows())) return true;
+        }
+        return false;
+    };
     for (std::size_t l = first; l < last; ++l) {
-        left.assign(from.line(l).begin(), from.line(l).end());
+        if (from.line(l).empty() || !anything_near(static_cast<std::ptrdiff_t>(l))) {
+            out.append_line(from.line(l));
+            continue;
+        }
+        left.assign(from.line(l));
         for (const BallLines::Line& line : ball.lines()) {
             if (left.empty()) break;
             const SpanRows* taken = layer_at(line.layer);
             const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(l) + line.row;
             if (taken == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(taken->lines())) continue;
-            take_away(taken->line(static_cast<std::size_t>(row)), line.reach, left, buffer);
+            left.take_away(taken->line(static_cast<std::size_t>(row)), line.reach);
         }
-        out.append_line(left);
+        out.append_line(left.all());
     }
 }
 
@@ -55,16 +95,16 @@ void check_lines(const SpanRows& from, const SpanRows& taken) {
 
 }  // namespace
 
-BallLines::BallLines(const LayerLattice& lattice, double radius) {
+BallLines::BallLines(const LayerLattice& lattice, double radius)
+    : layers_(static_cast<int>(lattice.layers_within(radius))),
+      rows_(static_cast<int>(lattice.lines_within(radius))) {
     struct Way {
         double squared;
         int layer, row;
     };
     std::vector<Way> ways;
-    const int layers = static_cast<int>(lattice.layers_within(radius)),
-              rows = static_cast<int>(lattice.lines_within(radius));
-    for (int k = -layers; k <= layers; ++k) {
-        for (int r = -rows; r <= rows; ++r) {
+    for (int k = -layers_; k <= layers_; ++k) {
+        for (int r = -rows_; r <= rows_; ++r) {
             const double up = k == 0 ? 0 : k * lattice.layer_pitch, across = r * lattice.row_pitch,
                          squared = up * up + across * across;
             if (squared <= radius * radius) ways.push_back({squared, k, r});
@@ -104,9 +144,7 @@ bool RemainingLayers::pop(SpanRows& out) {
                          strips[s]);
     });
     out.clear();
-    for (const SpanRows& strip : strips) {
-        for (std::size_t l = 0; l < strip.lines(); ++l) out.append_line(strip.line(l));
-    }
+    for (const SpanRows& strip : strips) out.append_lines(strip);
     layers_[past_].from.clear();
     if (past_ == reach_) {
         layers_.pop_front();

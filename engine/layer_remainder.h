@@ -21,8 +21,12 @@ class BallLines {
     };
     BallLines(const LayerLattice& lattice, double radius);
     const std::vector<Line>& lines() const { return lines_; }
+    /// How many layers and rows it reaches to either side.
+    int layers() const { return layers_; }
+    int rows() const { return rows_; }
 
   private:
+    int layers_, rows_;
     std::vector<Line> lines_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 /// Rows with `margin` empty ones on either side.
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
     SpanRows wide = empty_rows(margin);
-    for (std::size_t l = 0; l < rows.lines(); ++l) wide.append_line(rows.line(l));
+    wide.append_lines(rows);
     for (std::size_t l = 0; l < margin; ++l) wide.end_line();
     return wide;
 }
@@ -20,7 +20,7 @@ SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_o
 
 void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.clear();
-    for (std::size_t l = margin; l + margin < wide.lines(); ++l) out.append_line(wide.line(l));
+    out.append_lines(wide, margin, wide.lines() - 2 * margin);
 }
 
 /// What of a lies further than `reach` from all that lies further than `radius` from b.

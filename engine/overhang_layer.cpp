@@ -14,7 +14,7 @@ SpanRows all_rows(const Layer& layer, RowBand band) {
     for (band.first = 0; band.first < count; band.first += band_rows) {
         band.count = std::min(band_rows, count - band.first);
         layer.spans(band, some);
-        for (std::size_t l = 0; l < some.lines(); ++l) all.append_line(some.line(l));
+        all.append_lines(some);
     }
     return all;
 }

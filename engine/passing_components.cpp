@@ -84,10 +84,15 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
     std::vector<PassingComponent> fresh = of_layer(layer, index, tags);
     const auto old_count = static_cast<std::uint32_t>(live_.size());
     DisjointSets sets(live_.size() + fresh.size());
+    std::vector<std::uint32_t> joined_last(fresh.size(), UINT32_MAX);  // most pairs say the same again
     for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
+        if (layer.row(r).empty()) continue;
         for (int near = r - 1; near <= r + 1; ++near) {
             for_touching(layer.row(r), last_.row(near),
                          [&](const LabelledRun& run, const LabelledRun& older) {
+                             std::uint32_t& last = joined_last[run.component];
+                             if (last == older.component) return;
+                             last = older.component;
                              sets.join(old_count + run.component, older.component);
                          });
         }

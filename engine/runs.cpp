@@ -17,6 +17,14 @@ Rect RowBand::rect() const {
     return axis == Axis::x ? Rect{{u.lo, v.lo}, {u.hi, v.hi}} : Rect{{v.lo, u.lo}, {v.hi, u.hi}};
 }
 
+void SpanRows::append_lines(const SpanRows& rows, std::size_t first, std::size_t count) {
+    const std::span<const std::uint32_t> starts = std::span(rows.starts_).subspan(first, count + 1);
+    const std::uint32_t begin = starts.front();
+    const auto before = static_cast<std::uint32_t>(runs_.size());
+    runs_.insert(runs_.end(), rows.runs_.begin() + begin, rows.runs_.begin() + starts.back());
+    for (const std::uint32_t end : starts.subspan(1)) starts_.push_back(before + (end - begin));
+}
+
 std::int64_t SpanRows::total_length() const {
     std::int64_t sum = 0;
     for (const Run& run : runs_) sum += run.end - run.begin;

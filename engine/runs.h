@@ -99,6 +99,9 @@ class SpanRows {
         runs_.insert(runs_.end(), runs.begin(), runs.end());
         end_line();
     }
+    /// Appends lines [first, first + count) of other rows.
+    void append_lines(const SpanRows& rows, std::size_t first, std::size_t count);
+    void append_lines(const SpanRows& rows) { append_lines(rows, 0, rows.lines()); }
     /// Sum of the lengths of all runs, in run units.
     std::int64_t total_length() const;
     /// Packs or unpacks. Throws FaultError for what are no rows.

@@ -28,7 +28,7 @@ SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratc
     for (band.first = 0; band.first < whole.count; band.first += band_rows) {
         band.count = std::min(band_rows, whole.count - band.first);
         slice.spans(band, scratch, *some);
-        for (std::size_t l = 0; l < some->lines(); ++l) all.append_line(some->line(l));
+        all.append_lines(*some);
     }
     return all;
 }

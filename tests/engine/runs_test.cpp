@@ -82,6 +82,23 @@ TEST_CASE("runs that meet are joined, empty ones vanish") {
     REQUIRE(rows.total_length() == 30);
 }
 
+TEST_CASE("lines appended at once are the lines appended one by one") {
+    std::mt19937 random(7);
+    const SpanRows rows = random_rows(random, 20), more = random_rows(random, 30);
+    SpanRows at_once = rows, one_by_one = rows;
+    at_once.append_lines(more, 4, 17);
+    at_once.append_lines(more, 30, 0);
+    at_once.append_lines(more);
+    for (std::size_t l = 4; l < 21; ++l) one_by_one.append_line(more.line(l));
+    for (std::size_t l = 0; l < 30; ++l) one_by_one.append_line(more.line(l));
+    CHECK(at_once == one_by_one);
+    at_once.push(1, 2);  // a line that follows is a line of its own
+    at_once.end_line();
+    CHECK(at_once.lines() == 68);
+    CHECK(at_once.line(67).size() == 1);
+    CHECK(at_once.line(66).size() == more.line(29).size());
+}
+
 TEST_CASE("lines lie at the same place however the rows are split into bands") {
     const RowBand whole{Axis::x, 1.5, 0.025, -3.25, 0.05, 0, 640, 4, 0, 100};
     RowBand part = whole;
