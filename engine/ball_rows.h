@@ -40,11 +40,18 @@ class BallRows {
         return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};
     }
     std::span<const BallRun> runs() const { return runs_; }
+    /// The place in runs() of a line's first run; of what lies behind the last line, the number of runs.
+    std::size_t start(std::size_t l) const { return starts_[l]; }
+    /// The line of each run.
+    std::span<const std::int32_t> lines_of_runs() const { return lines_of_runs_; }
     double most_weight() const { return most_weight_; }
     void append_line(std::span<const BallRun> runs);
 
   private:
+    void end_line();
+
     std::vector<BallRun> runs_;
+    std::vector<std::int32_t> lines_of_runs_;
     std::vector<std::size_t> starts_;
     double most_weight_ = 0;
 };

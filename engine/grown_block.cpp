@@ -10,6 +10,9 @@ namespace {
 /// Far more than rounding makes of squares of lengths, run units^2.
 constexpr double surely = 1;
 
+/// Blocks of so few lines are no longer halved: what they could still forget costs less to grow.
+constexpr std::int32_t lines_at_last = 4;
+
 double square(double x) { return x * x; }
 
 /// How far a line or layer lies from `count` of them, at least and at most.
@@ -64,8 +67,8 @@ void GrownBlock::gather(std::span<const BallRows* const> layers) {
 
 /// Level `depth` holds what the block above left.
 void GrownBlock::refine(const LineBlock& block, std::size_t depth) {
-    if (block.layers == 1 && block.lines == 1) {
-        finish_line(block, levels_[depth]);
+    if (block.layers * block.lines <= lines_at_last) {
+        finish_lines(block, levels_[depth]);
         return;
     }
     if (levels_.size() < depth + 2) levels_.resize(depth + 2);
@@ -224,21 +227,28 @@ void GrownBlock::keep_visible(const LineBlock& block, std::size_t depth) {
     }
 }
 
-void GrownBlock::finish_line(const LineBlock& block, const Level& level) {
-    for (const Run& run : level.covered) union_.add(run.begin, run.end);
+void GrownBlock::finish_lines(const LineBlock& block, const Level& level) {
+    for (std::int32_t z = 0; z < block.layers; ++z) {
+        for (std::int32_t l = 0; l < block.lines; ++l) finish_line(block.layer + z, block.line + l, level);
+    }
+}
+
+void GrownBlock::finish_line(std::int32_t layer, std::int32_t line, const Level& level) {
+    const RunUnion::Cells cells = union_.cells();
+    for (const Run& run : level.covered) cells.add(run.begin, run.end);
     for (const SourceLine& source : level.lines) {
-        const double across = (block.line - source.line) * lattice_.row_pitch;
-        const double up = (block.layer - source.layer) * lattice_.layer_pitch;
+        const double across = (line - source.line) * lattice_.row_pitch;
+        const double up = (layer - source.layer) * lattice_.layer_pitch;
         for (const BallRun& run : source.runs) {
             const double left = run.weight - across * across - up * up;
             if (left < 0) continue;
             const BallReach reach(std::sqrt(left));
-            union_.add(run.begin - reach.back, run.end + reach.ahead);
+            cells.add(run.begin - reach.back, run.end + reach.ahead);
         }
     }
     const std::size_t from = runs_.size();
     union_.take(runs_);
-    places_[place_of(block.layer - block_.layer, block.line - block_.line)] = {from, runs_.size() - from};
+    places_[place_of(layer - block_.layer, line - block_.line)] = {from, runs_.size() - from};
 }
 
 /// All lines of a block get the same runs.

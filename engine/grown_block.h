@@ -84,7 +84,8 @@ class GrownBlock {
     std::size_t find_beside(std::size_t from, const Source& source, std::int32_t up) const;
     bool outdoes(const LineBlock& block, Source other, const Visible& seen, bool left, bool right) const;
     void keep_visible(const LineBlock& block, std::size_t depth);
-    void finish_line(const LineBlock& block, const Level& level);
+    void finish_lines(const LineBlock& block, const Level& level);
+    void finish_line(std::int32_t layer, std::int32_t line, const Level& level);
     void place(const LineBlock& block, std::span<const Run> runs);
 
     LayerLattice lattice_;

@@ -1,4 +1,4 @@
-// Blocks of lines, strip by strip; the void in place of the solid.
+// Lines or blocks of them, strip by strip; the void in place of the solid.
 #include "engine/layer_offset.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -9,6 +9,7 @@
 
 #include "engine/error.h"
 #include "engine/grown_block.h"
+#include "engine/grown_line.h"
 #include "engine/parallel_strips.h"
 #include "engine/row_sets.h"
 
@@ -45,23 +46,72 @@ std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
     return std::clamp(std::bit_floor(lattice.lines_within(reach)), least, most);
 }
 
+/// Whether the lines that a ball reaches in a stack of so many layers are few enough to look at each of them
+/// for every line that is grown: about where foams and single beams were measured to take as long in blocks.
+bool is_small(const LayerLattice& lattice, double weight, std::size_t layers) {
+    constexpr std::size_t most_lines = 200;  // a ball of eight lines
+    const double reach = std::sqrt(weight);
+    const std::size_t up_to = std::min(lattice.layers_within(reach), layers - 1);
+    std::size_t lines = 2 * lattice.lines_within(reach) + 1;
+    for (std::size_t k = 1; k <= up_to && lines <= most_lines; ++k) {
+        const double up = static_cast<double>(k) * lattice.layer_pitch;
+        lines += 2 * (2 * lattice.lines_within(std::sqrt(std::max(weight - up * up, 0.0))) + 1);
+    }
+    return lines <= most_lines;
+}
+
+/// Appends a grown line; what goes on without an end reaches the ends of the extent.
+void append_line(std::span<const Run> grown, Run extent, SpanRows& out) {
+    for (const Run& run : grown) {
+        out.push(run.begin == extent.begin ? -far_out : run.begin, run.end == extent.end ? far_out : run.end);
+    }
+    out.end_line();
+}
+
 /// The lines of a block one after another.
 void append_lines(const GrownBlock& grown, std::int32_t layer, std::int32_t lines, Run extent,
                   SpanRows& out) {
-    for (std::int32_t l = 0; l < lines; ++l) {
-        for (const Run& run : grown.line(layer, l)) {
-            out.push(run.begin == extent.begin ? -far_out : run.begin,
-                     run.end == extent.end ? far_out : run.end);
-        }
-        out.end_line();
-    }
+    for (std::int32_t l = 0; l < lines; ++l) append_line(grown.line(layer, l), extent, out);
 }
 
-/// Grows layers [from, from + count) of a stack, in blocks `edge` lines wide.
-std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice, std::size_t edge,
+using Strips = std::vector<std::vector<SpanRows>>;  // layer by layer
+
+std::vector<SpanRows> side_by_side(const Strips& strips, std::size_t layer_count) {
+    std::vector<SpanRows> layers(layer_count);
+    for (std::size_t z = 0; z < layer_count; ++z) {
+        for (const std::vector<SpanRows>& strip : strips) layers[z].append_lines(strip[z]);
+    }
+    return layers;
+}
+
+/// Grows layers [from, from + count) of a stack line by line.
+std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& lattice, double most_weight,
+                                 std::size_t from, std::size_t count) {
+    const Run extent = extent_of(stack);
+    constexpr std::size_t lines_at_once = 32;
+    Strips strips((lattice.lines + lines_at_once - 1) / lines_at_once);
+    oneapi::tbb::enumerable_thread_specific<GrownLine> lines(lattice, most_weight, extent);
+    for_all_strips(strips.size(), [&](std::size_t s) {
+        GrownLine& grown = lines.local();
+        const std::size_t first = s * lines_at_once, last = std::min(first + lines_at_once, lattice.lines);
+        std::vector<Run> runs;
+        for (std::size_t z = from; z < from + count; ++z) {
+            SpanRows& layer = strips[s].emplace_back();
+            for (std::size_t l = first; l < last; ++l) {
+                runs.clear();
+                grown.grow(stack, z, l, runs);
+                append_line(runs, extent, layer);
+            }
+        }
+    });
+    return side_by_side(strips, count);
+}
+
+/// The same in blocks `edge` lines wide.
+std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice, std::size_t edge,
                                   std::size_t from, std::size_t count) {
     const Run extent = extent_of(stack);
-    std::vector<std::vector<SpanRows>> strips((lattice.lines + edge - 1) / edge);  // layer by layer
+    Strips strips((lattice.lines + edge - 1) / edge);
     oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, extent);
     for_all_strips(strips.size(), [&](std::size_t s) {
         GrownBlock& grown = blocks.local();
@@ -74,11 +124,17 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
                 append_lines(grown, i, lines, extent, strips[s].emplace_back());
         }
     });
-    std::vector<SpanRows> layers(count);
-    for (std::size_t z = 0; z < count; ++z) {
-        for (const std::vector<SpanRows>& strip : strips) layers[z].append_lines(strip[z]);
-    }
-    return layers;
+    return side_by_side(strips, count);
+}
+
+/// The same in whichever way is faster.
+std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice, std::size_t from,
+                                  std::size_t count) {
+    double most_weight = 0;
+    for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
+    if (is_small(lattice, most_weight, stack.size()))
+        return grow_lines(stack, lattice, most_weight, from, count);
+    return grow_blocks(stack, lattice, edge_of_blocks(lattice, std::sqrt(most_weight)), from, count);
 }
 
 /// The void of a line between far left and far right.
@@ -118,8 +174,7 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 
 void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
     const LayerLattice lattice{row_pitch, row_pitch, rows.lines()};
-    const std::size_t edge = edge_of_blocks(lattice, std::sqrt(rows.most_weight()));
-    out = std::move(grow_within({&rows}, lattice, edge, 0, 1).front());
+    out = std::move(grow_within({&rows}, lattice, 0, 1).front());
 }
 
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
@@ -133,8 +188,7 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
 GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
     : lattice_(lattice),
       reach_(lattice.layers_within(most_reach)),
-      edge_(edge_of_blocks(lattice, most_reach)),
-      block_(std::max(edge_, least_block)) {}
+      block_(std::max(edge_of_blocks(lattice, most_reach), least_block)) {}
 
 void GrowingLayers::push(BallRows layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
@@ -155,8 +209,7 @@ void GrowingLayers::finish_block() {
     const std::size_t window = std::min(past_ + count + reach_, layers_.size());
     LayerStack stack;
     for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
-    for (SpanRows& layer : grow_within(stack, lattice_, edge_, past_, count))
-        done_.push_back(std::move(layer));
+    for (SpanRows& layer : grow_within(stack, lattice_, past_, count)) done_.push_back(std::move(layer));
     const std::size_t forgotten = past_ + count - std::min(past_ + count, reach_);
     layers_.erase(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(forgotten));
     past_ += count - forgotten;

@@ -16,9 +16,9 @@ void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out);
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out);
 
 /// Grows layers by a ball about each of their points, exactly (thesis 3.2; Chen, Panozzo and Dumas 2018),
-/// in blocks of lines (GrownBlock). Layers come out in the order in which they went in, once all are known
-/// that reach them: what is held depends on the ball's height alone. Independent blocks are worked on in
-/// parallel.
+/// in blocks of lines (GrownBlock), or line by line where balls are small (GrownLine). Layers come out in the
+/// order in which they went in, once all are known that reach them: what is held depends on the ball's height
+/// alone. Independent blocks are worked on in parallel.
 class GrowingLayers {
   public:
     /// `most_reach` bounds the radius of all runs, run units.
@@ -36,7 +36,6 @@ class GrowingLayers {
 
     LayerLattice lattice_;
     std::size_t reach_;  // layers that a ball reaches up
-    std::size_t edge_;   // lines, and layers, that are grown as one block
     std::size_t block_;  // layers that are finished together
     bool finished_ = false;
     std::deque<BallRows> layers_;  // those that may still be reached from or are to be finished

@@ -17,28 +17,44 @@ class RunUnion {
     /// Runs are clipped to `extent`.
     explicit RunUnion(Run extent);
 
-    void add(std::int32_t begin, std::int32_t end) {
-        begin = std::max(begin, extent_.begin);
-        end = std::min(end, extent_.end);
-        if (begin >= end) return;
-        const std::size_t cell = cell_of(begin);
-        if (cell_of(end) == cell) {
-            small_.push_back({begin, end});
-            return;
+    void add(std::int32_t begin, std::int32_t end) { cells().add(begin, end); }
+
+    /// The cells by themselves: for loops, which cannot know that runs do not change where cells lie.
+    class Cells {
+      public:
+        void add(std::int32_t begin, std::int32_t end) const {
+            begin = std::max(begin, extent_.begin);
+            end = std::min(end, extent_.end);
+            if (begin >= end) return;
+            const std::size_t cell = cell_of(begin);
+            if (cell_of(end) == cell) {
+                small_->push_back({begin, end});
+                return;
+            }
+            used_[cell / 64] |= std::uint64_t{1} << (cell % 64);
+            Run& run = cells_[cell];
+            run.begin = std::min(run.begin, begin);
+            run.end = std::max(run.end, end);
         }
-        used_[cell / 64] |= std::uint64_t{1} << (cell % 64);
-        Run& run = cells_[cell];
-        run.begin = std::min(run.begin, begin);
-        run.end = std::max(run.end, end);
-    }
+
+      private:
+        friend class RunUnion;
+        Cells(Run extent, Run* cells, std::uint64_t* used, std::vector<Run>* small)
+            : extent_(extent), cells_(cells), used_(used), small_(small) {}
+        std::size_t cell_of(std::int32_t at) const {
+            return static_cast<std::uint32_t>(at - extent_.begin) / run_unit;
+        }
+        Run extent_;
+        Run* cells_;
+        std::uint64_t* used_;
+        std::vector<Run>* small_;
+    };
+    Cells cells() { return {extent_, cells_.data(), used_.data(), &small_}; }
+
     /// Appends the runs of the union, sorted, disjoint and not touching, and forgets them.
     void take(std::vector<Run>& out);
 
   private:
-    std::size_t cell_of(std::int32_t at) const {
-        return static_cast<std::uint32_t>(at - extent_.begin) / run_unit;
-    }
-
     Run extent_;
     std::vector<Run> cells_, small_;
     std::vector<std::uint64_t> used_;  // a bit for each cell

@@ -209,6 +209,28 @@ TEST_CASE("grown layers equal brute force", "[morphology]") {
     }
 }
 
+TEST_CASE("balls on either side of the size from which blocks are faster grow the same", "[morphology]") {
+    std::mt19937 random(8);
+    constexpr int size = 40;
+    for (int round = 0; round < 12; ++round) {
+        // 50 to 320 lines in reach; ends that fall on a line or a layer, and that do not.
+        const double radius = (5 + round / 2) * run_unit * (round % 2 == 0 ? 1 : 0.77);
+        const LayerLattice lattice{256, round % 3 == 0 ? 256 : 320.5, size};
+        const Stack stack = random_stack(random, size, size, [&](double unit) {
+            return round % 4 < 2 || unit < 0.5 ? radius : unit * radius;
+        });
+        CAPTURE(round, radius);
+        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+        REQUIRE(out.size() == stack.size());
+        for (int z = 0; z < size; z += 5) {
+            for (int l = 0; l < size; l += 3) {
+                check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)),
+                            grown_line(stack, lattice, z, l));
+            }
+        }
+    }
+}
+
 TEST_CASE("shrunk layers equal brute force", "[morphology]") {
     std::mt19937 random(4);
     for (int round = 0; round < 10; ++round) {
