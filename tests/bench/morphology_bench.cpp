@@ -1,13 +1,16 @@
-// A foam and a capsule of 40 mm grown by balls, as dexels of one core; by blocks of lines and by brute force.
+// A foam, a capsule and a gyroid of 40 mm grown by balls, as dexels of one core; by blocks of lines and by
+// brute force.
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/csg.h"
 #include "engine/layer.h"
 #include "engine/layer_offset.h"
 #include "engine/primitives.h"
+#include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
 
 namespace {
@@ -18,6 +21,13 @@ constexpr double edge = 40;  // mm
 
 FieldPtr solid(std::int64_t kind) {
     if (kind == 1) return make_round_cone(Beam{{0, 0, -8}, 10, {0, 0, 8}, 10});
+    if (kind == 2) {
+        TpmsSettings settings;
+        settings.period = make_constant_grading(8);
+        settings.thickness = make_constant_grading(0.8);
+        settings.region = {dvec3(-edge / 2), dvec3(edge / 2)};
+        return make_intersection({make_sphere(dvec3(0), 18), make_tpms(settings)});
+    }
     FoamSettings settings;
     settings.cell = 4;
     settings.beam_radius = 0.3;
@@ -43,7 +53,7 @@ std::vector<SpanRows> dexels(std::int64_t kind, int n) {
     return layers;
 }
 
-/// Arguments: 0 foam or 1 capsule, n, radius in tenths of a dexel.
+/// Arguments: 0 foam, 1 capsule or 2 ball of gyroid, n, radius in tenths of a dexel.
 void grow_layers(benchmark::State& state) {
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     const int n = static_cast<int>(state.range(1));
@@ -74,6 +84,7 @@ void sizes(benchmark::internal::Benchmark* bench) {
             for (const int radius : {10, 25, 50, 100, 200, 400, 640}) bench->Args({kind, n, radius});
         }
     }
+    for (const int radius : {30, 80, 160}) bench->Args({2, 256, radius});
     bench->Unit(benchmark::kMillisecond)->Iterations(1);
 }
 BENCHMARK(grow_layers)->Apply(sizes);
