@@ -19,9 +19,14 @@ bool any_floats(const std::vector<std::uint8_t>& floats) {
 
 /// Those components of a layer do not float that touch rows of one below.
 void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
+    const auto row_floats = [&](int r) {
+        return std::ranges::any_of(labelled.row(r),
+                                   [&](const LabelledRun& run) { return floats[run.component] != 0; });
+    };
     for (const int aside : {0, -1, 1}) {  // most lie right above something
         if (!any_floats(floats)) return;
         for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
+            if (aside != 0 && !row_floats(r + aside)) continue;
             for_touching(labelled.row(r + aside), below.line(static_cast<std::size_t>(r)),
                          [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
         }

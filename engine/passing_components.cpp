@@ -24,6 +24,16 @@ std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, co
     return components;
 }
 
+/// Which members do not belong to the set that most of them belong to.
+std::vector<std::uint8_t> apart_from_most(DisjointSets& sets) {
+    std::vector<std::uint32_t> members(sets.size(), 0);
+    for (std::uint32_t c = 0; c < sets.size(); ++c) ++members[sets.find(c)];
+    const auto most = static_cast<std::uint32_t>(std::ranges::max_element(members) - members.begin());
+    std::vector<std::uint8_t> apart(sets.size());
+    for (std::uint32_t c = 0; c < sets.size(); ++c) apart[c] = sets.find(c) != most ? 1 : 0;
+    return apart;
+}
+
 }  // namespace
 
 void LayerPatch::measure(const PlacedRun& run) {
@@ -79,24 +89,41 @@ void PassingComponent::include(PassingComponent other) {
     }
 }
 
+/// Joins what touches: a layer's components, which follow those that live, and these.
+void PassingComponents::join_touching(const LabelledLayer& layer, DisjointSets& sets) const {
+    const auto old_count = static_cast<std::uint32_t>(live_.size());
+    std::vector<std::uint32_t> joined_last(layer.components.size(), UINT32_MAX);  // most say the same again
+    const auto join = [&](const LabelledRun& run, const LabelledRun& older) {
+        std::uint32_t& last = joined_last[run.component];
+        if (last == older.component) return;
+        last = older.component;
+        sets.join(old_count + run.component, older.component);
+    };
+    const int first = layer.first_row, end = first + layer.rows();
+    for (int r = first; r < end; ++r) for_touching(layer.row(r), last_.row(r), join);
+    // Rows beside each other matter where something is not yet joined to what all the rest is.
+    const std::vector<std::uint8_t> apart = apart_from_most(sets);
+    const auto any_apart = [&](std::span<const LabelledRun> row, std::uint32_t from) {
+        return std::ranges::any_of(row,
+                                   [&](const LabelledRun& run) { return apart[from + run.component] != 0; });
+    };
+    std::vector<std::uint8_t> older_apart;  // of rows from one before the first to one behind the last
+    for (int r = first - 1; r <= end; ++r) older_apart.push_back(any_apart(last_.row(r), 0) ? 1 : 0);
+    auto before = older_apart.begin();
+    for (int r = first; r < end; ++r, ++before) {
+        if (layer.row(r).empty()) continue;
+        const bool is_apart = any_apart(layer.row(r), old_count);
+        if (is_apart || before[0] != 0) for_touching(layer.row(r), last_.row(r - 1), join);
+        if (is_apart || before[2] != 0) for_touching(layer.row(r), last_.row(r + 1), join);
+    }
+}
+
 void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags& tags,
                             std::vector<EndedComponent>& ended) {
     std::vector<PassingComponent> fresh = of_layer(layer, index, tags);
     const auto old_count = static_cast<std::uint32_t>(live_.size());
     DisjointSets sets(live_.size() + fresh.size());
-    std::vector<std::uint32_t> joined_last(fresh.size(), UINT32_MAX);  // most pairs say the same again
-    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
-        if (layer.row(r).empty()) continue;
-        for (int near = r - 1; near <= r + 1; ++near) {
-            for_touching(layer.row(r), last_.row(near),
-                         [&](const LabelledRun& run, const LabelledRun& older) {
-                             std::uint32_t& last = joined_last[run.component];
-                             if (last == older.component) return;
-                             last = older.component;
-                             sets.join(old_count + run.component, older.component);
-                         });
-        }
-    }
+    join_touching(layer, sets);
     // The layer's own components first: the runs of one layer belong together before layers are compared.
     std::vector<PassingComponent> joined(sets.size());
     std::vector<std::uint8_t> goes_on(sets.size(), 0);

@@ -74,6 +74,8 @@ class PassingComponents {
     }
 
   private:
+    void join_touching(const LabelledLayer& layer, DisjointSets& sets) const;
+
     LabelledLayer last_;                  // components are places in live_
     std::vector<PassingComponent> live_;  // the earliest first
 };
