@@ -10,9 +10,6 @@ namespace {
 /// Far more than rounding makes of squares of lengths, run units^2.
 constexpr double surely = 1;
 
-/// Blocks of so few lines are no longer halved: what they could still forget costs less to grow.
-constexpr std::int32_t lines_at_last = 4;
-
 double square(double x) { return x * x; }
 
 /// How far a line or layer lies from `count` of them, at least and at most.
@@ -25,49 +22,154 @@ struct Distances {
     }
 };
 
+/// How far the runs of a line reach on lines of a block, from the squares of the least and the most distance
+/// across.
+class LineReaches {
+  public:
+    LineReaches(double near, double far) : near_(near - surely), far_(far + surely) {}
+    const Reaches& of(double weight) {
+        if (weight != weight_) {  // most lines have one
+            weight_ = weight;
+            const double least = weight - far_, most = weight - near_;
+            reaches_ = {least < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(least)),
+                        most < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(most)) + 1};
+        }
+        return reaches_;
+    }
+
+  private:
+    double near_, far_, weight_ = -1;
+    Reaches reaches_{};
+};
+
 /// By how much the square of the distance from `a` is less than that from `b`, at least, in [first, last].
-double nearer(double a, double b, double first, double last) {
-    return (a - b) * (first + last - a - b) - std::abs(a - b) * (last - first);
+double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t last) {
+    const std::int64_t farthest = a < b ? last : first;  // from a, beside b
+    return static_cast<double>((a - b) * (2 * farthest - a - b));
 }
 
 }  // namespace
 
 GrownBlock::GrownBlock(const LayerLattice& lattice, Run extent)
-    : lattice_(lattice), levels_(1), union_(extent), table_(extent) {}
+    : lattice_(lattice), levels_(1), union_(extent), table_(extent), gaps_(lattice, extent) {}
 
 void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
     block_ = block;
     runs_.clear();
     places_.assign(place_of(block.layers, 0), {0, 0});
     gather(layers);
+    if (levels_.front().lines.empty()) return place(block, levels_.front().covered);
     refine(block, 0);
 }
 
-/// Takes all runs of lines that may reach the block.
+/// Finds what some of the lines about the block cover there: it leaves few runs to be looked at closely.
+void GrownBlock::cover_by_some(std::span<const BallRows* const> layers) {
+    constexpr double share = 0.75;        // of the reach: lines farther away cover little
+    constexpr double lines_in_reach = 5;  // of those that are looked at
+    const double reach = std::sqrt(farthest_weight_);
+    const auto stride = [&](double pitch) {
+        return std::max(static_cast<std::int32_t>(reach / pitch / lines_in_reach), 2);
+    };
+    const auto first = [&](std::int32_t of_block, double pitch) {
+        return std::max(of_block - static_cast<std::int32_t>(share * reach / pitch), 0);
+    };
+    const auto end = [&](std::int32_t of_block, double pitch, std::size_t most) {
+        return std::min(of_block + static_cast<std::int32_t>(share * reach / pitch),
+                        static_cast<std::int32_t>(most));
+    };
+    const double up_pitch = lattice_.layer_pitch, across_pitch = lattice_.row_pitch;
+    const std::int32_t first_line = first(block_.line, across_pitch),
+                       end_line = end(block_.line + block_.lines, across_pitch, lattice_.lines),
+                       end_layer = end(block_.layer + block_.layers, up_pitch, layers.size());
+    for (std::int32_t z = first(block_.layer, up_pitch); z < end_layer; z += stride(up_pitch)) {
+        const Distances up(z, block_.layer, block_.layers, up_pitch);
+        for (std::int32_t l = first_line; l < end_line; l += stride(across_pitch)) {
+            const Distances across(l, block_.line, block_.lines, across_pitch);
+            LineReaches reaches(square(up.least) + square(across.least),
+                                square(up.most) + square(across.most));
+            for (const BallRun& run :
+                 layers[static_cast<std::size_t>(z)]->line(static_cast<std::size_t>(l))) {
+                const std::int32_t least = reaches.of(run.weight).least;
+                if (least >= 0) union_.add(run.begin - least, run.end + least);
+            }
+        }
+    }
+    covered_.clear();
+    union_.take(covered_);
+    table_.assign(covered_);
+}
+
+/// Takes the runs of all lines that may reach the block, but for those that only reach what is covered.
 void GrownBlock::gather(std::span<const BallRows* const> layers) {
+    double most_weight = 0;
+    for (const BallRows* layer : layers) most_weight = std::max(most_weight, layer->most_weight());
+    list_farthest(most_weight);
+    cover_by_some(layers);
     Level& all = levels_.front();
+    all.covered = covered_;
     all.lines.clear();
-    all.covered.clear();
-    for (std::size_t z = 0; z < layers.size(); ++z) {
-        const auto layer = static_cast<std::int32_t>(z);
-        const double left =
-            layers[z]->most_weight() -
-            square(Distances(layer, block_.layer, block_.layers, lattice_.layer_pitch).least) + surely;
-        if (left < 0) continue;
-        const auto reach = static_cast<std::int32_t>(lattice_.lines_within(std::sqrt(left)));
-        const std::int32_t from = std::max(block_.line - reach, 0);
-        const std::int32_t to =
-            std::min(block_.line + block_.lines + reach, static_cast<std::int32_t>(lattice_.lines));
-        for (std::int32_t line = from; line < to; ++line) {
-            const std::span<const BallRun> runs = layers[z]->line(static_cast<std::size_t>(line));
-            if (!runs.empty()) all.lines.push_back({layer, line, runs});
+    all.runs.clear();
+    for (std::size_t z = 0; z < layers.size(); ++z) gather_layer(static_cast<std::int32_t>(z), *layers[z]);
+    // Only now do the runs lie where they stay.
+    auto runs = all.runs.begin();
+    for (SourceLine& line : all.lines) {
+        line.runs = {runs, line.runs.size()};
+        runs += static_cast<std::ptrdiff_t>(line.runs.size());
+    }
+}
+
+void GrownBlock::gather_layer(std::int32_t layer, const BallRows& rows) {
+    const std::int32_t below = block_.layer - layer, above = layer - (block_.layer + block_.layers - 1);
+    const auto away = static_cast<std::size_t>(std::max({below, above, 0}));
+    if (away >= farthest_.size()) return;
+    const std::vector<std::int32_t>& farthest = farthest_[away];
+    const auto beside = (static_cast<std::int32_t>(farthest.size()) - block_.lines) / 2;
+    const std::int32_t before = block_.line - beside;  // the first line of the list
+    const auto first = static_cast<std::size_t>(std::max(before, 0)),
+               end = std::min(static_cast<std::size_t>(block_.line + block_.lines + beside), lattice_.lines);
+    const std::size_t from = rows.start(first), to = rows.start(end);
+    uncovered_.resize(std::max(uncovered_.size(), to - from));
+    const BallRun* const runs = rows.runs().data();
+    const std::int32_t* const lines = rows.lines_of_runs().data();
+    std::uint32_t* kept = uncovered_.data();
+    for (std::size_t i = from; i < to; ++i) {
+        const std::int32_t most = farthest[static_cast<std::size_t>(lines[i] - before)];
+        *kept = static_cast<std::uint32_t>(i);
+        kept += !table_.surely_covers(table_.clip({runs[i].begin - most, runs[i].end + most}));
+    }
+    Level& all = levels_.front();
+    for (const std::uint32_t* i = uncovered_.data(); i != kept; ++i) {
+        if (all.lines.empty() || all.lines.back().line != lines[*i] || all.lines.back().layer != layer)
+            all.lines.push_back({layer, lines[*i], {}});
+        std::span<const BallRun>& of_line = all.lines.back().runs;
+        of_line = {runs, of_line.size() + 1};  // so many; where, is known in the end
+        all.runs.push_back(runs[*i]);
+    }
+}
+
+/// Lists how far a run may reach from lines about a block.
+void GrownBlock::list_farthest(double most_weight) {
+    if (most_weight == farthest_weight_ && block_.lines == farthest_lines_) return;
+    farthest_weight_ = most_weight;
+    farthest_lines_ = block_.lines;
+    farthest_.clear();
+    for (std::size_t layers = 0;; ++layers) {
+        const double up = static_cast<double>(layers) * lattice_.layer_pitch;
+        const double left = most_weight + surely - square(up);
+        if (left < 0) break;
+        const auto beside = static_cast<std::int32_t>(lattice_.lines_within(std::sqrt(left)));
+        std::vector<std::int32_t>& farthest = farthest_.emplace_back();
+        for (std::int32_t l = -beside; l < block_.lines + beside; ++l) {
+            const double across = Distances(l, 0, block_.lines, lattice_.row_pitch).least;
+            farthest.push_back(static_cast<std::int32_t>(std::sqrt(std::max(left - square(across), 0.0))) +
+                               1);
         }
     }
 }
 
 /// Level `depth` holds what the block above left.
 void GrownBlock::refine(const LineBlock& block, std::size_t depth) {
-    if (block.layers * block.lines <= lines_at_last) {
+    if (block.layers <= GapLimits::edge && block.lines <= GapLimits::edge) {
         finish_lines(block, levels_[depth]);
         return;
     }
@@ -97,16 +199,14 @@ void GrownBlock::cover(const LineBlock& block, const Level& above, std::vector<R
         if (source.layer != layer) {
             layer = source.layer;
             const Distances up(layer, block.layer, block.layers, lattice_.layer_pitch);
-            near_layer = square(up.least) - surely;
-            far_layer = square(up.most) + surely;
+            near_layer = square(up.least);
+            far_layer = square(up.most);
         }
         const Distances across(source.line, block.line, block.lines, lattice_.row_pitch);
-        const double near = near_layer + square(across.least), far = far_layer + square(across.most);
+        LineReaches of_line(near_layer + square(across.least), far_layer + square(across.most));
         for (const BallRun& run : source.runs) {
-            const double least = run.weight - far, most = run.weight - near;
-            const Reaches reaches{least < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(least)),
-                                  most < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(most)) + 1};
-            if (least >= 0) union_.add(run.begin - reaches.least, run.end + reaches.least);
+            const Reaches& reaches = of_line.of(run.weight);
+            if (reaches.least >= 0) union_.add(run.begin - reaches.least, run.end + reaches.least);
             reaches_.push_back(reaches);
         }
     }
@@ -228,27 +328,21 @@ void GrownBlock::keep_visible(const LineBlock& block, std::size_t depth) {
 }
 
 void GrownBlock::finish_lines(const LineBlock& block, const Level& level) {
-    for (std::int32_t z = 0; z < block.layers; ++z) {
-        for (std::int32_t l = 0; l < block.lines; ++l) finish_line(block.layer + z, block.line + l, level);
+    cover(block, level, covered_);
+    gaps_.begin(block, covered_);
+    auto reaches = reaches_.begin();
+    for (const SourceLine& line : level.lines) {
+        for (const BallRun& run : line.runs) gaps_.add(run, line.layer, line.line, *reaches++);
     }
-}
-
-void GrownBlock::finish_line(std::int32_t layer, std::int32_t line, const Level& level) {
-    const RunUnion::Cells cells = union_.cells();
-    for (const Run& run : level.covered) cells.add(run.begin, run.end);
-    for (const SourceLine& source : level.lines) {
-        const double across = (line - source.line) * lattice_.row_pitch;
-        const double up = (layer - source.layer) * lattice_.layer_pitch;
-        for (const BallRun& run : source.runs) {
-            const double left = run.weight - across * across - up * up;
-            if (left < 0) continue;
-            const BallReach reach(std::sqrt(left));
-            cells.add(run.begin - reach.back, run.end + reach.ahead);
+    gaps_.grow();
+    for (std::int32_t z = 0; z < block.layers; ++z) {
+        for (std::int32_t l = 0; l < block.lines; ++l) {
+            const std::size_t from = runs_.size();
+            gaps_.append_line(z, l, runs_);
+            places_[place_of(block.layer - block_.layer + z, block.line - block_.line + l)] = {
+                from, runs_.size() - from};
         }
     }
-    const std::size_t from = runs_.size();
-    union_.take(runs_);
-    places_[place_of(layer - block_.layer, line - block_.line)] = {from, runs_.size() - from};
 }
 
 /// All lines of a block get the same runs.

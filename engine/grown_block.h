@@ -5,16 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/ball_rows.h"
+#include "engine/block_gaps.h"
 #include "engine/run_union.h"
 
 namespace lamella {
-
-/// A rectangle of neighbouring lines of neighbouring layers.
-struct LineBlock {
-    std::int32_t layer, line;    ///< the first
-    std::int32_t layers, lines;  ///< how many
-};
 
 /// Grows lines by what all lines about them give them, by halving blocks of them (branch and bound).
 ///
@@ -23,7 +17,7 @@ struct LineBlock {
 /// Gaps that the former leave contain the gaps of each of the lines. Before a block is halved, runs are
 /// forgotten that do not even by the latter reach into a gap, and those that nowhere reach as far into it as
 /// another one does: of two points, which one is nearer changes at a plane (power diagrams; Chen, Panozzo
-/// and Dumas 2018).
+/// and Dumas 2018). Small blocks are not halved any more but grown line by line, by SIMD (BlockGaps).
 class GrownBlock {
   public:
     /// What is covered is clipped to `extent`.
@@ -45,12 +39,8 @@ class GrownBlock {
     /// What may reach into the gaps of a block.
     struct Level {
         std::vector<SourceLine> lines;
-        std::vector<BallRun> runs;  // of the lines, where these are not whole
+        std::vector<BallRun> runs;  // of the lines
         std::vector<Run> covered;   // anyway
-    };
-    /// How far a run reaches on lines of a block.
-    struct Reaches {
-        std::int32_t least, most;  // negative where not all or none are reached
     };
     struct Source {
         const SourceLine* line;
@@ -75,7 +65,10 @@ class GrownBlock {
         return static_cast<std::size_t>(layer) * static_cast<std::size_t>(block_.lines) +
                static_cast<std::size_t>(line);
     }
+    void cover_by_some(std::span<const BallRows* const> layers);
     void gather(std::span<const BallRows* const> layers);
+    void gather_layer(std::int32_t layer, const BallRows& rows);
+    void list_farthest(double most_weight);
     void refine(const LineBlock& block, std::size_t depth);
     void cover(const LineBlock& block, const Level& above, std::vector<Run>& covered);
     void see(const Level& above, std::span<const Run> covered);
@@ -85,7 +78,6 @@ class GrownBlock {
     bool outdoes(const LineBlock& block, Source other, const Visible& seen, bool left, bool right) const;
     void keep_visible(const LineBlock& block, std::size_t depth);
     void finish_lines(const LineBlock& block, const Level& level);
-    void finish_line(std::int32_t layer, std::int32_t line, const Level& level);
     void place(const LineBlock& block, std::span<const Run> runs);
 
     LayerLattice lattice_;
@@ -93,7 +85,13 @@ class GrownBlock {
     std::vector<Level> levels_;  // by how often a block was halved
     RunUnion union_;
     CoverTable table_;
+    BlockGaps gaps_;
+    std::vector<Run> covered_;
     std::vector<Reaches> reaches_;
+    std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
+    double farthest_weight_ = -1;                      // for which they were listed
+    std::int32_t farthest_lines_ = 0;
+    std::vector<std::uint32_t> uncovered_;
     std::vector<Visible> visible_;
     std::vector<Champions> champions_;
     std::size_t below_ = 0, above_ = 0;  // in visible_, about where a layer below or above is looked at

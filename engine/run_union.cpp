@@ -42,17 +42,25 @@ void RunUnion::take(std::vector<Run>& out) {
     small_.clear();
 }
 
-CoverTable::CoverTable(Run extent) : extent_(extent), cells_(cells_of(extent), 0) {}
+CoverTable::CoverTable(Run extent) : extent_(extent), cells_(cells_of(extent), 0), until_(cells_.size(), 0) {}
 
 void CoverTable::assign(std::span<const Run> runs) {
     ends_.clear();
-    auto cell = cells_.begin();
+    std::size_t cell = 0;
+    const auto begin_of = [&](std::size_t c) {
+        return extent_.begin + static_cast<std::int32_t>(c) * run_unit;
+    };
     for (const Run& run : runs) {
-        const auto last = cells_.begin() + (run.end - extent_.begin) / run_unit;
-        for (; cell <= last; ++cell) *cell = static_cast<std::uint32_t>(ends_.size());
+        const auto last = static_cast<std::size_t>((run.end - extent_.begin) / run_unit);
+        for (; cell <= last; ++cell) {
+            cells_[cell] = static_cast<std::uint32_t>(ends_.size());
+            until_[cell] = run.begin <= begin_of(cell) ? run.end : nothing.end;
+        }
         ends_.push_back(run.end);
     }
-    std::fill(cell, cells_.end(), static_cast<std::uint32_t>(ends_.size()));
+    std::fill(cells_.begin() + static_cast<std::ptrdiff_t>(cell), cells_.end(),
+              static_cast<std::uint32_t>(ends_.size()));
+    std::fill(until_.begin() + static_cast<std::ptrdiff_t>(cell), until_.end(), nothing.end);
 }
 
 }  // namespace lamella

@@ -66,6 +66,11 @@ class CoverTable {
     explicit CoverTable(Run extent);
     /// `runs` of a union.
     void assign(std::span<const Run> runs);
+    /// Whether a run that lies in the extent is covered; it may say no where one begins in the cell of the
+    /// run's own begin.
+    bool surely_covers(const Run& run) const {
+        return until_[static_cast<std::uint32_t>(run.begin - extent_.begin) / run_unit] >= run.end;
+    }
     Run clip(Run run) const { return {std::max(run.begin, extent_.begin), std::min(run.end, extent_.end)}; }
     /// The first run that ends right of what lies in the extent; or the number of runs.
     std::size_t first_run(std::int32_t at) const {
@@ -77,6 +82,7 @@ class CoverTable {
   private:
     Run extent_;
     std::vector<std::uint32_t> cells_;  // the first run that ends in the cell or behind it
+    std::vector<std::int32_t> until_;  // where the run ends that covers the cell's begin, or the least number
     std::vector<std::int32_t> ends_;
 };
 

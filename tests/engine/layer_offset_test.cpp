@@ -256,7 +256,7 @@ TEST_CASE("large balls leave the right gaps between sparse solids", "[morphology
     std::uniform_real_distribution<double> unit(0, 1);
     for (int round = 0; round < 8; ++round) {
         // Blocks are halved up to five times; some balls are small beside others.
-        const double radius = run_unit * (18 + 24 * unit(random));
+        const double radius = run_unit * (18 + 40 * unit(random));
         const LayerLattice lattice{256, round % 2 == 0 ? 256.0 : 201.5, 50};
         Stack stack(90, Lines(50));
         const int sites = round < 4 ? 12 : 150;

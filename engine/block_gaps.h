@@ -1,0 +1,60 @@
+// BlockGaps: what runs, grown by balls, leave of the gaps between what is covered on all lines of a small
+// block.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/gap_limits.h"
+#include "engine/run_union.h"
+
+namespace lamella {
+
+/// How far a run reaches on lines of a block, run units.
+struct Reaches {
+    std::int32_t least, most;  ///< negative where not all or none are reached
+};
+
+/// Grows lines of small blocks by all that reaches into their gaps (thesis 3.2).
+///
+/// A run that begins left of a gap covers on each line all of the gap up to where it reaches, and one that
+/// ends right of it all from there on: of such runs one number a line is kept, by SIMD over the lines. What
+/// lies within a gap mostly grows until it touches a side, and moves that; the rest is united run by run.
+class BlockGaps {
+  public:
+    /// Lines are clipped to `extent`.
+    BlockGaps(const LayerLattice& lattice, Run extent);
+
+    /// Begins a block of at most GapLimits::edge layers of as many lines, of which all lines have these runs.
+    void begin(const LineBlock& block, std::span<const Run> covered);
+    /// Adds a run that may reach into gaps, and how far it reaches in the block.
+    void add(const BallRun& run, std::int32_t layer, std::int32_t line, const Reaches& reaches);
+    /// Grows all that was added.
+    void grow();
+    /// Appends the runs of a grown line, counted from the block's first: sorted, disjoint and not touching.
+    void append_line(std::int32_t layer, std::int32_t line, std::vector<Run>& out);
+
+  private:
+    /// Between two covered runs, or beside them.
+    struct Gap {
+        Run run;
+        std::vector<GapSource> left, right;          // about the farthest of each comes first
+        std::int32_t farthest_left, farthest_right;  // twice the ends of these, about
+        std::vector<GapSource> within;
+        GapLimits limits;
+    };
+    void add(Gap& gap, const GapSource& source, const Reaches& reaches);
+
+    LayerLattice lattice_;
+    Run extent_;
+    LineBlock block_{};
+    std::vector<Run> covered_;
+    std::vector<Gap> gaps_;  // one more than covered_; and some for later
+    std::size_t gap_count_ = 0;
+    std::array<std::vector<Run>, GapLimits::lines> islands_;  // of each line
+    CoverTable table_;
+    RunUnion union_;
+};
+
+}  // namespace lamella
