@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-BlockGaps::BlockGaps(const LayerLattice& lattice, Run extent)
-    : lattice_(lattice), extent_(extent), table_(extent), union_(extent) {}
+BlockGaps::BlockGaps(const LayerLattice& lattice, const BallReaches& reaches, Run extent)
+    : lattice_(lattice), ball_(reaches), extent_(extent), table_(extent), union_(extent) {}
 
 void BlockGaps::begin(const LineBlock& block, std::span<const Run> covered) {
     block_ = block;
@@ -60,9 +60,9 @@ void BlockGaps::grow() {
     for (std::size_t g = 0; g < gap_count_; ++g) {
         Gap& gap = gaps_[g];
         gap.limits.begin(block_, gap.run);
-        gap.limits.grow_left(lattice_, block_, gap.left);
-        gap.limits.grow_right(lattice_, block_, gap.right);
-        gap.limits.grow_within(lattice_, block_, gap.within, islands_);
+        gap.limits.grow_left(lattice_, ball_, block_, gap.left);
+        gap.limits.grow_right(lattice_, ball_, block_, gap.right);
+        gap.limits.grow_within(lattice_, ball_, block_, gap.within, islands_);
     }
 }
 

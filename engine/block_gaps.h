@@ -23,8 +23,8 @@ struct Reaches {
 /// lies within a gap mostly grows until it touches a side, and moves that; the rest is united run by run.
 class BlockGaps {
   public:
-    /// Lines are clipped to `extent`.
-    BlockGaps(const LayerLattice& lattice, Run extent);
+    /// Lines are clipped to `extent`. `reaches` are those of most runs, and outlive this.
+    BlockGaps(const LayerLattice& lattice, const BallReaches& reaches, Run extent);
 
     /// Begins a block of at most GapLimits::edge layers of as many lines, of which all lines have these runs.
     void begin(const LineBlock& block, std::span<const Run> covered);
@@ -47,6 +47,7 @@ class BlockGaps {
     void add(Gap& gap, const GapSource& source, const Reaches& reaches);
 
     LayerLattice lattice_;
+    const BallReaches& ball_;
     Run extent_;
     LineBlock block_{};
     std::vector<Run> covered_;

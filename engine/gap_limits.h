@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/ball_rows.h"
+#include "engine/ball_reaches.h"
 
 namespace lamella {
 
@@ -28,22 +28,25 @@ struct GapSource {
 /// are `edge` layers of as many lines at most.
 class GapLimits {
   public:
-    static constexpr std::int32_t edge = 8;
+    static constexpr std::int32_t edge = BallReaches::edge;
     static constexpr std::size_t lines = static_cast<std::size_t>(edge) * edge;
 
     /// Begins with the whole gap.
     void begin(const LineBlock& block, Run gap);
     /// Grows runs that begin left of the gap or where it begins. Those that reach far had better come first.
-    void grow_left(const LayerLattice& lattice, const LineBlock& block, std::span<const GapSource> sources);
+    /// `reaches` are those of most of the runs.
+    void grow_left(const LayerLattice& lattice, const BallReaches& reaches, const LineBlock& block,
+                   std::span<const GapSource> sources);
     /// The same of those that end right of it.
-    void grow_right(const LayerLattice& lattice, const LineBlock& block, std::span<const GapSource> sources);
+    void grow_right(const LayerLattice& lattice, const BallReaches& reaches, const LineBlock& block,
+                    std::span<const GapSource> sources);
     /// Grows runs within the gap. Those that then reach neither side are added to a list for each line.
-    void grow_within(const LayerLattice& lattice, const LineBlock& block, std::span<const GapSource> sources,
-                     std::array<std::vector<Run>, lines>& islands);
+    void grow_within(const LayerLattice& lattice, const BallReaches& reaches, const LineBlock& block,
+                     std::span<const GapSource> sources, std::array<std::vector<Run>, lines>& islands);
     /// What is left of it on a line, counted from the block's first; nothing where it ends before it begins.
     Run at(std::int32_t layer, std::int32_t line) const {
         const std::size_t i = place(layer, line);
-        return {static_cast<std::int32_t>(begins_[i]), static_cast<std::int32_t>(ends_[i])};
+        return {begins_[i], -ends_[i]};
     }
 
     /// Of a line, counted from the block's first, among `lines`.
@@ -52,7 +55,8 @@ class GapLimits {
     }
 
   private:
-    alignas(64) std::array<double, lines> begins_, ends_;
+    alignas(64) std::array<std::int32_t, lines> begins_;
+    alignas(64) std::array<std::int32_t, lines> ends_;  // below zero, so that both grow
 };
 
 }  // namespace lamella

@@ -50,8 +50,8 @@ double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t l
 
 }  // namespace
 
-GrownBlock::GrownBlock(const LayerLattice& lattice, Run extent)
-    : lattice_(lattice), levels_(1), union_(extent), table_(extent), gaps_(lattice, extent) {}
+GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent)
+    : lattice_(lattice), levels_(1), union_(extent), table_(extent), gaps_(lattice, reaches, extent) {}
 
 void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
     block_ = block;

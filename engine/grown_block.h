@@ -20,8 +20,8 @@ namespace lamella {
 /// and Dumas 2018). Small blocks are not halved any more but grown line by line, by SIMD (BlockGaps).
 class GrownBlock {
   public:
-    /// What is covered is clipped to `extent`.
-    GrownBlock(const LayerLattice& lattice, Run extent);
+    /// What is covered is clipped to `extent`. `reaches` are those of most runs, and outlive this.
+    GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent);
 
     /// Grows the lines of a block of a stack of layers.
     void grow(const LineBlock& block, std::span<const BallRows* const> layers);

@@ -110,11 +110,12 @@ std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& la
 }
 
 /// The same in blocks `edge` lines wide.
-std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice, std::size_t edge,
-                                  std::size_t from, std::size_t count) {
+std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
+                                  const BallReaches& reaches, std::size_t edge, std::size_t from,
+                                  std::size_t count) {
     const Run extent = extent_of(stack);
     Strips strips((lattice.lines + edge - 1) / edge);
-    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, extent);
+    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
     for_all_strips(strips.size(), [&](std::size_t s) {
         GrownBlock& grown = blocks.local();
         const auto line = static_cast<std::int32_t>(s * edge);
@@ -130,13 +131,13 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
 }
 
 /// The same in whichever way is faster.
-std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice, std::size_t from,
-                                  std::size_t count) {
+std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
+                                  const BallReaches& reaches, std::size_t from, std::size_t count) {
     double most_weight = 0;
     for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
     if (is_small(lattice, most_weight, stack.size()))
         return grow_lines(stack, lattice, most_weight, from, count);
-    return grow_blocks(stack, lattice, edge_of_blocks(lattice, std::sqrt(most_weight)), from, count);
+    return grow_blocks(stack, lattice, reaches, edge_of_blocks(lattice, std::sqrt(most_weight)), from, count);
 }
 
 /// The void of a line between far left and far right.
@@ -176,7 +177,7 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 
 void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
     const LayerLattice lattice{row_pitch, row_pitch, rows.lines()};
-    out = std::move(grow_within({&rows}, lattice, 0, 1).front());
+    out = std::move(grow_within({&rows}, lattice, BallReaches(lattice, rows.most_weight()), 0, 1).front());
 }
 
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
@@ -189,6 +190,7 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
 
 GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
     : lattice_(lattice),
+      ball_(lattice, most_reach * most_reach),
       reach_(lattice.layers_within(most_reach)),
       block_(std::max(edge_of_blocks(lattice, most_reach), least_block)) {}
 
@@ -211,7 +213,8 @@ void GrowingLayers::finish_block() {
     const std::size_t window = std::min(past_ + count + reach_, layers_.size());
     LayerStack stack;
     for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
-    for (SpanRows& layer : grow_within(stack, lattice_, past_, count)) done_.push_back(std::move(layer));
+    for (SpanRows& layer : grow_within(stack, lattice_, ball_, past_, count))
+        done_.push_back(std::move(layer));
     const std::size_t forgotten = past_ + count - std::min(past_ + count, reach_);
     layers_.erase(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(forgotten));
     past_ += count - forgotten;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/ball_rows.h"
+#include "engine/ball_reaches.h"
 
 namespace lamella {
 
@@ -35,6 +35,7 @@ class GrowingLayers {
     void finish_block();
 
     LayerLattice lattice_;
+    BallReaches ball_;   // of most_reach
     std::size_t reach_;  // layers that a ball reaches up
     std::size_t block_;  // layers that are finished together
     bool finished_ = false;

@@ -17,6 +17,7 @@ constexpr Run gap{1000, 9000};
 struct Scene {
     LayerLattice lattice;
     LineBlock block;
+    double radius;  // of about half of the balls
     std::vector<GapSource> left, right, within;
 };
 
@@ -24,11 +25,12 @@ Scene random_scene(std::mt19937& random) {
     const auto between = [&](int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(random); };
     Scene scene{{256.0 * between(1, 3), 256 + 0.37 * between(0, 500), 100},
                 {between(0, 40), between(0, 40), between(1, GapLimits::edge), between(1, GapLimits::edge)},
+                static_cast<double>(between(1, 5000)),
                 {},
                 {},
                 {}};
     const auto source = [&](std::int32_t begin, std::int32_t end) {
-        const double radius = between(1, 5000);
+        const double radius = between(0, 1) == 0 ? scene.radius : between(1, 5000);
         return GapSource{begin,
                          end,
                          radius * radius,
@@ -77,15 +79,16 @@ TEST_CASE("what grown runs leave of a gap is what each of them leaves", "[morpho
     std::mt19937 random(11);
     for (int round = 0; round < 60; ++round) {
         const Scene scene = random_scene(random);
+        const BallReaches reaches(scene.lattice, scene.radius * scene.radius);
         for (const std::string& target : simd_targets()) {
             INFO("round " << round << ", " << target);
             force_simd_target(target);
             GapLimits limits;
             std::array<std::vector<Run>, GapLimits::lines> islands;
             limits.begin(scene.block, gap);
-            limits.grow_left(scene.lattice, scene.block, scene.left);
-            limits.grow_right(scene.lattice, scene.block, scene.right);
-            limits.grow_within(scene.lattice, scene.block, scene.within, islands);
+            limits.grow_left(scene.lattice, reaches, scene.block, scene.left);
+            limits.grow_right(scene.lattice, reaches, scene.block, scene.right);
+            limits.grow_within(scene.lattice, reaches, scene.block, scene.within, islands);
             force_simd_target("");
             for (int z = 0; z < scene.block.layers; ++z) {
                 for (int l = 0; l < scene.block.lines; ++l) {
