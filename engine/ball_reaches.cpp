@@ -19,15 +19,18 @@ BallReaches::BallReaches(const LayerLattice& lattice, double weight) : weight_(w
     const double radius = std::sqrt(weight);
     // One more than there should be, in case that these are rounded down.
     const std::size_t lines = lattice.lines_within(radius) + 1, layers = lattice.layers_within(radius) + 1;
-    if (lines > most_entries || layers > most_entries ||
-        4 * (lines + edge) * (layers + edge) > most_entries) {
+    const bool fits = lines <= most_entries && layers <= most_entries &&
+                      4 * (lines + edge) * (layers + edge) <= most_entries;
+    if (fits) {
+        lines_ = static_cast<std::int32_t>(lines);
+        layers_ = static_cast<std::int32_t>(layers);
+    } else {
         weight_ = -1;  // that of no ball
-        return;
     }
-    lines_ = static_cast<std::int32_t>(lines);
-    layers_ = static_cast<std::int32_t>(layers);
-    ahead_.assign(stride() * (2 * (layers + edge) + 1), none);
+    const auto rows = 2 * static_cast<std::size_t>(layers_ + edge) + 1;
+    ahead_.assign(stride() * rows, none);
     back_ = ahead_;
+    if (!fits) return;
     for (std::int32_t z = 0; z <= layers_; ++z) {
         for (std::int32_t l = 0; l <= lines_; ++l) {
             const double left = weight - square(l, lattice.row_pitch) - square(z, lattice.layer_pitch);

@@ -11,11 +11,6 @@
 
 namespace lamella {
 
-/// How far a run reaches on lines of a block, run units.
-struct Reaches {
-    std::int32_t least, most;  ///< negative where not all or none are reached
-};
-
 /// Grows lines of small blocks by all that reaches into their gaps (thesis 3.2).
 ///
 /// A run that begins left of a gap covers on each line all of the gap up to where it reaches, and one that

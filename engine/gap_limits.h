@@ -6,15 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/ball_reaches.h"
+#include "engine/block_reaches.h"
 
 namespace lamella {
-
-/// A rectangle of neighbouring lines of neighbouring layers.
-struct LineBlock {
-    std::int32_t layer, line;    ///< the first
-    std::int32_t layers, lines;  ///< how many
-};
 
 /// A run that may reach into a gap of a block, run units.
 struct GapSource {

@@ -12,36 +12,6 @@ constexpr double surely = 1;
 
 double square(double x) { return x * x; }
 
-/// How far a line or layer lies from `count` of them, at least and at most.
-struct Distances {
-    double least, most;
-    Distances(std::int32_t at, std::int32_t first, std::int32_t count, double pitch) {
-        const double half = 0.5 * (count - 1), from_middle = std::abs(at - first - half);
-        least = std::max(from_middle - half, 0.0) * pitch;
-        most = (from_middle + half) * pitch;
-    }
-};
-
-/// How far the runs of a line reach on lines of a block, from the squares of the least and the most distance
-/// across.
-class LineReaches {
-  public:
-    LineReaches(double near, double far) : near_(near - surely), far_(far + surely) {}
-    const Reaches& of(double weight) {
-        if (weight != weight_) {  // most lines have one
-            weight_ = weight;
-            const double least = weight - far_, most = weight - near_;
-            reaches_ = {least < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(least)),
-                        most < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(most)) + 1};
-        }
-        return reaches_;
-    }
-
-  private:
-    double near_, far_, weight_ = -1;
-    Reaches reaches_{};
-};
-
 /// By how much the square of the distance from `a` is less than that from `b`, at least, in [first, last].
 double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t last) {
     const std::int64_t farthest = a < b ? last : first;  // from a, beside b
@@ -51,7 +21,12 @@ double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t l
 }  // namespace
 
 GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent)
-    : lattice_(lattice), levels_(1), union_(extent), table_(extent), gaps_(lattice, reaches, extent) {}
+    : lattice_(lattice),
+      ball_(reaches),
+      levels_(1),
+      union_(extent),
+      table_(extent),
+      gaps_(lattice, reaches, extent) {}
 
 void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
     block_ = block;
@@ -81,12 +56,10 @@ void GrownBlock::cover_by_some(std::span<const BallRows* const> layers) {
     const std::int32_t first_line = first(block_.line, across_pitch),
                        end_line = end(block_.line + block_.lines, across_pitch, lattice_.lines),
                        end_layer = end(block_.layer + block_.layers, up_pitch, layers.size());
+    BlockReaches reaches(lattice_, ball_, block_);
     for (std::int32_t z = first(block_.layer, up_pitch); z < end_layer; z += stride(up_pitch)) {
-        const Distances up(z, block_.layer, block_.layers, up_pitch);
         for (std::int32_t l = first_line; l < end_line; l += stride(across_pitch)) {
-            const Distances across(l, block_.line, block_.lines, across_pitch);
-            LineReaches reaches(square(up.least) + square(across.least),
-                                square(up.most) + square(across.most));
+            reaches.turn_to(z, l);
             for (const BallRun& run :
                  layers[static_cast<std::size_t>(z)]->line(static_cast<std::size_t>(l))) {
                 const std::int32_t least = reaches.of(run.weight).least;
@@ -160,7 +133,7 @@ void GrownBlock::list_farthest(double most_weight) {
         const auto beside = static_cast<std::int32_t>(lattice_.lines_within(std::sqrt(left)));
         std::vector<std::int32_t>& farthest = farthest_.emplace_back();
         for (std::int32_t l = -beside; l < block_.lines + beside; ++l) {
-            const double across = Distances(l, 0, block_.lines, lattice_.row_pitch).least;
+            const double across = LinesAway(l, 0, block_.lines).least * lattice_.row_pitch;
             farthest.push_back(static_cast<std::int32_t>(std::sqrt(std::max(left - square(across), 0.0))) +
                                1);
         }
@@ -193,20 +166,13 @@ void GrownBlock::refine(const LineBlock& block, std::size_t depth) {
 void GrownBlock::cover(const LineBlock& block, const Level& above, std::vector<Run>& covered) {
     reaches_.clear();
     for (const Run& run : above.covered) union_.add(run.begin, run.end);
-    std::int32_t layer = -1;
-    double near_layer = 0, far_layer = 0;
+    BlockReaches of_block(lattice_, ball_, block);
+    const RunUnion::Cells cells = union_.cells();
     for (const SourceLine& source : above.lines) {
-        if (source.layer != layer) {
-            layer = source.layer;
-            const Distances up(layer, block.layer, block.layers, lattice_.layer_pitch);
-            near_layer = square(up.least);
-            far_layer = square(up.most);
-        }
-        const Distances across(source.line, block.line, block.lines, lattice_.row_pitch);
-        LineReaches of_line(near_layer + square(across.least), far_layer + square(across.most));
+        of_block.turn_to(source.layer, source.line);
         for (const BallRun& run : source.runs) {
-            const Reaches& reaches = of_line.of(run.weight);
-            if (reaches.least >= 0) union_.add(run.begin - reaches.least, run.end + reaches.least);
+            const Reaches& reaches = of_block.of(run.weight);
+            if (reaches.least >= 0) cells.add(run.begin - reaches.least, run.end + reaches.least);
             reaches_.push_back(reaches);
         }
     }
