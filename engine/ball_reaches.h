@@ -31,6 +31,8 @@ class BallReaches {
     const std::int32_t* back(std::int32_t layers, std::int32_t lines) const {
         return back_.data() + place(layers, lines);
     }
+    /// Balls reach no line that is so many lines away.
+    std::int32_t lines_away() const { return lines_ + 1; }
     std::size_t stride() const { return 2 * static_cast<std::size_t>(lines_ + edge) + 1; }
 
   private:

@@ -41,9 +41,12 @@ class BlockReaches {
         if (layer != layer_) {
             layer_ = layer;
             up_ = LinesAway(layer, block_.layer, block_.layers);
+            back_ = table_.back(up_.most, 0);
+            ahead_ = table_.ahead(up_.least, 0);
         }
         across_ = LinesAway(line, block_.line, block_.lines);
-        of_table_ = {*table_.back(up_.most, across_.most), *table_.ahead(up_.least, across_.least) + 1};
+        of_table_ = {back_[std::min(across_.most, table_.lines_away())],
+                     ahead_[std::min(across_.least, table_.lines_away())] + 1};
         weight_ = -1;
     }
     /// Of a run of that line.
@@ -70,6 +73,7 @@ class BlockReaches {
     const BallReaches& table_;
     LineBlock block_;
     std::int32_t layer_ = -1;
+    const std::int32_t *back_ = nullptr, *ahead_ = nullptr;  // of the layer
     LinesAway up_{0, 0, 1}, across_{0, 0, 1};
     double weight_ = -1;
     Reaches of_table_{}, calculated_{};
