@@ -81,6 +81,7 @@ class GrownBlock {
     void place(const LineBlock& block, std::span<const Run> runs);
 
     LayerLattice lattice_;
+    double layer_square_, row_square_;  // of its pitches
     const BallReaches& ball_;
     LineBlock block_{};
     std::vector<Level> levels_;  // by how often a block was halved
