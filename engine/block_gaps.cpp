@@ -9,6 +9,18 @@ namespace lamella {
 BlockGaps::BlockGaps(const LayerLattice& lattice, const BallReaches& reaches, Run extent)
     : lattice_(lattice), ball_(reaches), extent_(extent), table_(extent), union_(extent) {}
 
+void BlockGaps::Beside::clear() {
+    sources.clear();
+    farthest = 0;
+    reached = std::numeric_limits<std::int32_t>::min();
+}
+
+std::span<const GapSource> BlockGaps::Beside::sorted() {
+    if (farthest > 0) std::swap(sources[farthest], sources.front());
+    farthest = 0;
+    return sources;
+}
+
 void BlockGaps::begin(const LineBlock& block, std::span<const Run> covered) {
     block_ = block;
     covered_.assign(covered.begin(), covered.end());
@@ -23,7 +35,6 @@ void BlockGaps::begin(const LineBlock& block, std::span<const Run> covered) {
         gap.left.clear();
         gap.right.clear();
         gap.within.clear();
-        gap.farthest_left = gap.farthest_right = std::numeric_limits<std::int32_t>::min();
     }
 }
 
@@ -33,25 +44,32 @@ void BlockGaps::add(const BallRun& run, std::int32_t layer, std::int32_t line, c
     if (most.begin >= most.end) return;
     std::size_t gap = table_.first_run(most.begin);
     if (gap < covered_.size() && most.begin >= covered_[gap].begin) ++gap;
-    for (; gap < gap_count_ && most.end > gaps_[gap].run.begin; ++gap)
-        add(gaps_[gap], {run.begin, run.end, run.weight, layer, line, reaches.most}, reaches);
-}
-
-void BlockGaps::add(Gap& gap, const GapSource& source, const Reaches& reaches) {
-    const auto add_beside = [&](std::vector<GapSource>& beside, std::int32_t end, std::int32_t& farthest) {
-        beside.push_back(source);
-        if (reaches.least < 0 || std::abs(end) >= far_out) return;
-        const std::int32_t about = 2 * end + reaches.least + reaches.most;
-        if (about <= farthest) return;
-        farthest = about;
-        std::swap(beside.back(), beside.front());
+    const auto append = [&](std::vector<GapSource>& to) {
+        // Part by part: a whole that was just put together would have to be waited for.
+        GapSource& source = to.emplace_back();
+        source.begin = run.begin;
+        source.end = run.end;
+        source.weight = run.weight;
+        source.layer = layer;
+        source.line = line;
+        source.most = reaches.most;
     };
-    if (source.begin <= gap.run.begin) {
-        add_beside(gap.left, source.end, gap.farthest_left);
-    } else if (source.end >= gap.run.end) {
-        add_beside(gap.right, -source.begin, gap.farthest_right);
-    } else {
-        gap.within.push_back(source);
+    const auto append_beside = [&](Beside& beside, std::int32_t end) {
+        append(beside.sources);
+        const std::int32_t about = 2 * end + reaches.least + reaches.most;
+        if (about <= beside.reached || reaches.least < 0 || std::abs(end) >= far_out) return;
+        beside.reached = about;
+        beside.farthest = beside.sources.size() - 1;
+    };
+    for (; gap < gap_count_ && most.end > gaps_[gap].run.begin; ++gap) {
+        Gap& into = gaps_[gap];
+        if (run.begin <= into.run.begin) {
+            append_beside(into.left, run.end);
+        } else if (run.end >= into.run.end) {
+            append_beside(into.right, -run.begin);
+        } else {
+            append(into.within);
+        }
     }
 }
 
@@ -60,8 +78,8 @@ void BlockGaps::grow() {
     for (std::size_t g = 0; g < gap_count_; ++g) {
         Gap& gap = gaps_[g];
         gap.limits.begin(block_, gap.run);
-        gap.limits.grow_left(lattice_, ball_, block_, gap.left);
-        gap.limits.grow_right(lattice_, ball_, block_, gap.right);
+        gap.limits.grow_left(lattice_, ball_, block_, gap.left.sorted());
+        gap.limits.grow_right(lattice_, ball_, block_, gap.right.sorted());
         gap.limits.grow_within(lattice_, ball_, block_, gap.within, islands_);
     }
 }

@@ -31,15 +31,22 @@ class BlockGaps {
     void append_line(std::int32_t layer, std::int32_t line, std::vector<Run>& out);
 
   private:
+    /// Runs that reach into a gap from one side.
+    struct Beside {
+        std::vector<GapSource> sources;
+        std::size_t farthest;  // the place of what reaches farthest, about
+        std::int32_t reached;  // twice its end, about
+        void clear();
+        /// The farthest first.
+        std::span<const GapSource> sorted();
+    };
     /// Between two covered runs, or beside them.
     struct Gap {
         Run run;
-        std::vector<GapSource> left, right;          // about the farthest of each comes first
-        std::int32_t farthest_left, farthest_right;  // twice the ends of these, about
+        Beside left, right;
         std::vector<GapSource> within;
         GapLimits limits;
     };
-    void add(Gap& gap, const GapSource& source, const Reaches& reaches);
 
     LayerLattice lattice_;
     const BallReaches& ball_;

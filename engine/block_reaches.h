@@ -45,13 +45,13 @@ class BlockReaches {
             ahead_ = table_.ahead(up_.least, 0);
         }
         across_ = LinesAway(line, block_.line, block_.lines);
-        of_table_ = {back_[std::min(across_.most, table_.lines_away())],
-                     ahead_[std::min(across_.least, table_.lines_away())] + 1};
+        least_of_table_ = back_[std::min(across_.most, table_.lines_away())];
+        most_of_table_ = ahead_[std::min(across_.least, table_.lines_away())] + 1;
         weight_ = -1;
     }
     /// Of a run of that line.
-    const Reaches& of(double weight) {
-        if (table_.are_of(weight)) return of_table_;
+    Reaches of(double weight) {
+        if (table_.are_of(weight)) return {least_of_table_, most_of_table_};
         if (weight != weight_) calculate(weight);
         return calculated_;
     }
@@ -76,7 +76,8 @@ class BlockReaches {
     const std::int32_t *back_ = nullptr, *ahead_ = nullptr;  // of the layer
     LinesAway up_{0, 0, 1}, across_{0, 0, 1};
     double weight_ = -1;
-    Reaches of_table_{}, calculated_{};
+    std::int32_t least_of_table_ = -1, most_of_table_ = -1;
+    Reaches calculated_{};
 };
 
 }  // namespace lamella

@@ -173,7 +173,7 @@ void GrownBlock::cover(const LineBlock& block, const Level& above, std::vector<R
     for (const SourceLine& source : above.lines) {
         of_block.turn_to(source.layer, source.line);
         for (const BallRun& run : source.runs) {
-            const Reaches& reaches = of_block.of(run.weight);
+            const Reaches reaches = of_block.of(run.weight);
             if (reaches.least >= 0) cells.add(run.begin - reaches.least, run.end + reaches.least);
             reaches_.push_back(reaches);
         }
