@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/run_components.h"
+
 namespace lamella {
 namespace {
 
@@ -31,12 +33,58 @@ GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, 
       gaps_(lattice, reaches, extent) {}
 
 void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
+    begin(block, layers);
+    cover_by_some(layers);
+    grow_covered(layers);
+}
+
+bool GrownBlock::grow_solid(const LineBlock& block, std::span<const BallRows* const> layers) {
+    begin(block, layers);
+    cover_by_own(layers);
+    if (covered_.empty()) return false;
+    grow_covered(layers);
+    return true;
+}
+
+void GrownBlock::begin(const LineBlock& block, std::span<const BallRows* const> layers) {
     block_ = block;
     runs_.clear();
     places_.assign(place_of(block.layers, 0), {0, 0});
+    double most_weight = 0;
+    for (const BallRows* layer : layers) most_weight = std::max(most_weight, layer->most_weight());
+    list_farthest(most_weight);
+}
+
+/// Grows the lines from what is known to be covered.
+void GrownBlock::grow_covered(std::span<const BallRows* const> layers) {
+    table_.assign(covered_);
     gather(layers);
-    if (levels_.front().lines.empty()) return place(block, levels_.front().covered);
-    refine(block, 0);
+    if (levels_.front().lines.empty()) return place(block_, levels_.front().covered);
+    refine(block_, 0);
+}
+
+/// Finds what is solid on all lines of the block.
+void GrownBlock::cover_by_own(std::span<const BallRows* const> layers) {
+    covered_.clear();
+    for (std::int32_t z = 0; z < block_.layers; ++z) {
+        const BallRows& rows = *layers[static_cast<std::size_t>(block_.layer + z)];
+        for (std::int32_t l = 0; l < block_.lines; ++l) {
+            const std::span<const BallRun> runs = rows.line(static_cast<std::size_t>(block_.line + l));
+            if (z == 0 && l == 0) {
+                for (const BallRun& run : runs) covered_.push_back({run.begin, run.end});
+            } else {
+                common_.clear();
+                for_touching(std::span<const Run>(covered_), runs, [&](const Run& a, const BallRun& b) {
+                    common_.push_back({std::max(a.begin, b.begin), std::min(a.end, b.end)});
+                });
+                covered_.swap(common_);
+            }
+            if (covered_.empty()) return;
+        }
+    }
+    for (const Run& run : covered_) union_.add(run.begin, run.end);
+    covered_.clear();
+    union_.take(covered_);
 }
 
 /// Finds what some of the lines about the block cover there: it leaves few runs to be looked at closely.
@@ -71,15 +119,10 @@ void GrownBlock::cover_by_some(std::span<const BallRows* const> layers) {
     }
     covered_.clear();
     union_.take(covered_);
-    table_.assign(covered_);
 }
 
 /// Takes the runs of all lines that may reach the block, but for those that only reach what is covered.
 void GrownBlock::gather(std::span<const BallRows* const> layers) {
-    double most_weight = 0;
-    for (const BallRows* layer : layers) most_weight = std::max(most_weight, layer->most_weight());
-    list_farthest(most_weight);
-    cover_by_some(layers);
     Level& all = levels_.front();
     all.covered = covered_;
     all.lines.clear();

@@ -25,6 +25,9 @@ class GrownBlock {
 
     /// Grows the lines of a block of a stack of layers.
     void grow(const LineBlock& block, std::span<const BallRows* const> layers);
+    /// The same of a block that is solid somewhere on all of its lines, before these are grown. Returns false
+    /// for others, which small balls do not make any more so.
+    bool grow_solid(const LineBlock& block, std::span<const BallRows* const> layers);
     /// A grown line of the block, counted from its first.
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
         const Place& at = places_[place_of(layer, line)];
@@ -65,6 +68,9 @@ class GrownBlock {
         return static_cast<std::size_t>(layer) * static_cast<std::size_t>(block_.lines) +
                static_cast<std::size_t>(line);
     }
+    void begin(const LineBlock& block, std::span<const BallRows* const> layers);
+    void grow_covered(std::span<const BallRows* const> layers);
+    void cover_by_own(std::span<const BallRows* const> layers);
     void cover_by_some(std::span<const BallRows* const> layers);
     void gather(std::span<const BallRows* const> layers);
     void gather_layer(std::int32_t layer, const BallRows& rows);
@@ -88,7 +94,7 @@ class GrownBlock {
     RunUnion union_;
     CoverTable table_;
     BlockGaps gaps_;
-    std::vector<Run> covered_;
+    std::vector<Run> covered_, common_;
     std::vector<Reaches> reaches_;
     std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
     double farthest_weight_ = -1;                      // for which they were listed

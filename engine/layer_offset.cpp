@@ -18,6 +18,12 @@ namespace {
 
 constexpr std::size_t least_block = 16;  // layers that are finished together
 
+/// Where a ball reaches so few lines, each of them is looked at for every line that is grown: about where
+/// foams and single beams were measured to take as long in blocks. Balls of six lines and a half.
+constexpr std::size_t most_lines_by_line = 140;
+/// Down to here, which are balls of three lines, blocks are faster inside of solids.
+constexpr std::size_t least_lines_in_solids = 30;
+
 using LayerStack = std::vector<const BallRows*>;
 
 /// Where what is grown from these layers can begin and end, runs without an end apart.
@@ -48,18 +54,16 @@ std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
     return lines < 48 ? 16 : 32;
 }
 
-/// Whether the lines that a ball reaches in a stack of so many layers are few enough to look at each of them
-/// for every line that is grown: about where foams and single beams were measured to take as long in blocks.
-bool is_small(const LayerLattice& lattice, double weight, std::size_t layers) {
-    constexpr std::size_t most_lines = 140;  // a ball of six lines and a half
+/// How many lines a ball reaches in a stack of so many layers.
+std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_t layers) {
     const double reach = std::sqrt(weight);
     const std::size_t up_to = std::min(lattice.layers_within(reach), layers - 1);
     std::size_t lines = 2 * lattice.lines_within(reach) + 1;
-    for (std::size_t k = 1; k <= up_to && lines <= most_lines; ++k) {
+    for (std::size_t k = 1; k <= up_to && lines <= most_lines_by_line; ++k) {
         const double up = static_cast<double>(k) * lattice.layer_pitch;
         lines += 2 * (2 * lattice.lines_within(std::sqrt(std::max(weight - up * up, 0.0))) + 1);
     }
-    return lines <= most_lines;
+    return lines;
 }
 
 /// Appends a grown line; what goes on without an end reaches the ends of the extent.
@@ -68,12 +72,6 @@ void append_line(std::span<const Run> grown, Run extent, SpanRows& out) {
         out.push(run.begin == extent.begin ? -far_out : run.begin, run.end == extent.end ? far_out : run.end);
     }
     out.end_line();
-}
-
-/// The lines of a block one after another.
-void append_lines(const GrownBlock& grown, std::int32_t layer, std::int32_t lines, Run extent,
-                  SpanRows& out) {
-    for (std::int32_t l = 0; l < lines; ++l) append_line(grown.line(layer, l), extent, out);
 }
 
 using Strips = std::vector<std::vector<SpanRows>>;  // layer by layer
@@ -86,25 +84,61 @@ std::vector<SpanRows> side_by_side(const Strips& strips, std::size_t layer_count
     return layers;
 }
 
-/// Grows layers [from, from + count) of a stack line by line.
-std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& lattice, double most_weight,
+/// Lines that are worked on by one thread at once.
+constexpr std::size_t strip_lines = 32;
+
+/// Cuts layers [from, from + count) into blocks of `edge` lines and calls grow(block, layers) for each: it
+/// appends the block's lines to those of `layers`.
+template <typename Grow>
+void for_blocks(std::size_t strip, const LayerLattice& lattice, std::size_t edge, std::size_t from,
+                std::size_t count, std::vector<SpanRows>& layers, Grow grow) {
+    layers.resize(count);
+    const std::size_t first = strip * strip_lines, last = std::min(first + strip_lines, lattice.lines);
+    for (std::size_t z = 0; z < count; z += edge) {
+        const std::size_t end = std::min(z + edge, count);
+        for (std::size_t l = first; l < last; l += edge) {
+            const LineBlock block{static_cast<std::int32_t>(from + z), static_cast<std::int32_t>(l),
+                                  static_cast<std::int32_t>(end - z),
+                                  static_cast<std::int32_t>(std::min(edge, last - l))};
+            grow(block, std::span<SpanRows>(layers).subspan(z, end - z));
+        }
+    }
+}
+
+/// The lines of a block one after another.
+void append_block(const GrownBlock& grown, const LineBlock& block, Run extent, std::span<SpanRows> layers) {
+    for (std::int32_t z = 0; z < block.layers; ++z) {
+        for (std::int32_t l = 0; l < block.lines; ++l)
+            append_line(grown.line(z, l), extent, layers[static_cast<std::size_t>(z)]);
+    }
+}
+
+/// Grows layers [from, from + count) of a stack line by line, but for blocks inside of solids if these are
+/// to be looked for.
+std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& lattice,
+                                 const BallReaches& reaches, double most_weight, bool in_solids,
                                  std::size_t from, std::size_t count) {
     const Run extent = extent_of(stack);
-    constexpr std::size_t lines_at_once = 32;
-    Strips strips((lattice.lines + lines_at_once - 1) / lines_at_once);
+    Strips strips((lattice.lines + strip_lines - 1) / strip_lines);
+    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
     oneapi::tbb::enumerable_thread_specific<GrownLine> lines(lattice, most_weight, extent);
     for_all_strips(strips.size(), [&](std::size_t s) {
-        GrownLine& grown = lines.local();
-        const std::size_t first = s * lines_at_once, last = std::min(first + lines_at_once, lattice.lines);
+        GrownBlock& grown = blocks.local();
+        GrownLine& line = lines.local();
         std::vector<Run> runs;
-        for (std::size_t z = from; z < from + count; ++z) {
-            SpanRows& layer = strips[s].emplace_back();
-            for (std::size_t l = first; l < last; ++l) {
-                runs.clear();
-                grown.grow(stack, z, l, runs);
-                append_line(runs, extent, layer);
+        const auto grow = [&](const LineBlock& block, std::span<SpanRows> layers) {
+            if (in_solids && grown.grow_solid(block, stack))
+                return append_block(grown, block, extent, layers);
+            for (std::int32_t z = 0; z < block.layers; ++z) {
+                for (std::int32_t l = 0; l < block.lines; ++l) {
+                    runs.clear();
+                    line.grow(stack, static_cast<std::size_t>(block.layer + z),
+                              static_cast<std::size_t>(block.line + l), runs);
+                    append_line(runs, extent, layers[static_cast<std::size_t>(z)]);
+                }
             }
-        }
+        };
+        for_blocks(s, lattice, GapLimits::edge, from, count, strips[s], grow);
     });
     return side_by_side(strips, count);
 }
@@ -114,18 +148,15 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
                                   const BallReaches& reaches, std::size_t edge, std::size_t from,
                                   std::size_t count) {
     const Run extent = extent_of(stack);
-    Strips strips((lattice.lines + edge - 1) / edge);
+    Strips strips((lattice.lines + strip_lines - 1) / strip_lines);
     oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
     for_all_strips(strips.size(), [&](std::size_t s) {
         GrownBlock& grown = blocks.local();
-        const auto line = static_cast<std::int32_t>(s * edge);
-        const auto lines = static_cast<std::int32_t>(std::min(edge, lattice.lines - s * edge));
-        for (std::size_t z = 0; z < count; z += edge) {
-            const auto layers = static_cast<std::int32_t>(std::min(edge, count - z));
-            grown.grow({static_cast<std::int32_t>(from + z), line, layers, lines}, stack);
-            for (std::int32_t i = 0; i < layers; ++i)
-                append_lines(grown, i, lines, extent, strips[s].emplace_back());
-        }
+        for_blocks(s, lattice, edge, from, count, strips[s],
+                   [&](const LineBlock& block, std::span<SpanRows> layers) {
+                       grown.grow(block, stack);
+                       append_block(grown, block, extent, layers);
+                   });
     });
     return side_by_side(strips, count);
 }
@@ -135,8 +166,9 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
                                   const BallReaches& reaches, std::size_t from, std::size_t count) {
     double most_weight = 0;
     for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
-    if (is_small(lattice, most_weight, stack.size()))
-        return grow_lines(stack, lattice, most_weight, from, count);
+    const std::size_t lines = lines_reached(lattice, most_weight, stack.size());
+    if (lines <= most_lines_by_line)
+        return grow_lines(stack, lattice, reaches, most_weight, lines >= least_lines_in_solids, from, count);
     return grow_blocks(stack, lattice, reaches, edge_of_blocks(lattice, std::sqrt(most_weight)), from, count);
 }
 
