@@ -32,7 +32,10 @@ int main(void) { return lamella_abi_version() == LAMELLA_ABI_VERSION ? 0 : 1; }'
 done
 
 echo "install: nothing is leaked or read wrongly, and many calls need no more memory than some"
-valgrind -q --error-exitcode=9 --leak-check=full "$scratch/build/foam_in_polygons" >/dev/null
+# libhwy times itself at its start by an instruction that valgrind knows on some machines only: here it does not.
+echo 'namespace hwy::platform { unsigned long TimerResolution() { return 1; } }' |
+    g++ -std=c++17 -shared -fPIC -x c++ - -o "$scratch/no_timer.so"
+LD_PRELOAD=$scratch/no_timer.so valgrind -q --error-exitcode=9 --leak-check=full "$scratch/build/foam_in_polygons" >/dev/null
 gcc -std=c99 -O2 -Wall -Wextra -Werror -pedantic $(pkg-config --cflags lamella) tests/bindings/many_calls.c \
     $(pkg-config --libs lamella) -Wl,-rpath,"$library" -o "$scratch/many_calls"
 "$scratch/many_calls" 10000
