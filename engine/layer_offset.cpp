@@ -123,12 +123,12 @@ std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& la
     oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
     oneapi::tbb::enumerable_thread_specific<GrownLine> lines(lattice, most_weight, extent);
     for_all_strips(strips.size(), [&](std::size_t s) {
-        GrownBlock& grown = blocks.local();
+        GrownBlock* const solid = in_solids ? &blocks.local() : nullptr;
         GrownLine& line = lines.local();
         std::vector<Run> runs;
         const auto grow = [&](const LineBlock& block, std::span<SpanRows> layers) {
-            if (in_solids && grown.grow_solid(block, stack))
-                return append_block(grown, block, extent, layers);
+            if (solid != nullptr && solid->grow_solid(block, stack))
+                return append_block(*solid, block, extent, layers);
             for (std::int32_t z = 0; z < block.layers; ++z) {
                 for (std::int32_t l = 0; l < block.lines; ++l) {
                     runs.clear();
@@ -208,7 +208,9 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 }  // namespace
 
 void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
-    const LayerLattice lattice{row_pitch, row_pitch, rows.lines()};
+    // Other layers, of which there are none, lie beyond every disc.
+    const double beyond = 2 * std::sqrt(rows.most_weight()) + row_pitch;
+    const LayerLattice lattice{row_pitch, beyond, rows.lines()};
     out = std::move(grow_within({&rows}, lattice, BallReaches(lattice, rows.most_weight()), 0, 1).front());
 }
 

@@ -36,20 +36,23 @@ FieldPtr solid(std::int64_t kind) {
     return make_voronoi_foam(settings);
 }
 
-/// n^3 dexels.
-std::vector<SpanRows> dexels(std::int64_t kind, int n) {
-    const FieldPtr field = solid(kind);
+/// Layer z of n^3 dexels.
+SpanRows dexel_layer(const Field& field, int n, int z) {
     RowBand band;
     band.along_pitch = band.across_pitch = edge / n;
     band.along_origin = band.across_origin = -edge / 2;
     band.count = band.hi = n;
-    std::vector<SpanRows> layers(static_cast<std::size_t>(n));
+    SliceContext context;
     Scratch scratch;
-    for (int z = 0; z < n; ++z) {
-        SliceContext context;
-        const double height = -edge / 2 + (z + 0.5) * edge / n;
-        context.slice(*field, height).spans(band, scratch, layers[static_cast<std::size_t>(z)]);
-    }
+    SpanRows layer;
+    context.slice(field, -edge / 2 + (z + 0.5) * edge / n).spans(band, scratch, layer);
+    return layer;
+}
+
+std::vector<SpanRows> dexels(std::int64_t kind, int n) {
+    const FieldPtr field = solid(kind);
+    std::vector<SpanRows> layers;
+    for (int z = 0; z < n; ++z) layers.push_back(dexel_layer(*field, n, z));
     return layers;
 }
 
@@ -88,6 +91,18 @@ void sizes(benchmark::internal::Benchmark* bench) {
     bench->Unit(benchmark::kMillisecond)->Iterations(1);
 }
 BENCHMARK(grow_layers)->Apply(sizes);
+
+/// One layer of n^2 dexels grown by discs, within itself. Arguments as above.
+void grow_one_layer(benchmark::State& state) {
+    const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const int n = static_cast<int>(state.range(1));
+    const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
+    const BallRows rows(dexel_layer(*solid(state.range(0)), n, n / 2), radius);
+    SpanRows out;
+    for (auto _ : state) grow_rows(rows, run_unit, out);
+    state.counters["area"] = static_cast<double>(out.total_length()) / run_unit;
+}
+BENCHMARK(grow_one_layer)->ArgsProduct({{0, 1}, {2048}, {20, 100, 500, 2000}})->Unit(benchmark::kMillisecond);
 
 /// The union over all rows within reach, for every 16th layer alone.
 void grow_layers_brute(benchmark::State& state) {
