@@ -1,7 +1,7 @@
 // What a print check found, as text, as JSON and as a sentence.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/check_limits.h"

@@ -1,5 +1,6 @@
 // `lamella check`: whether a part can be made by a machine's process, and where it cannot.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 

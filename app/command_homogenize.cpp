@@ -1,5 +1,6 @@
 // `lamella homogenize`: how stiff the foam of a recipe is.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,6 @@
 // `lamella supports`: what holds a part while it is printed, as figures or as every piece.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>

@@ -2,6 +2,7 @@
 #include "app/island_report.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace lamella {
 

@@ -1,7 +1,7 @@
 // What an island survey found, for people and for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "engine/island_survey.h"

@@ -1,7 +1,7 @@
 // What a finished job holds: its facts, and the areas of its masks.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "printers/read_job.h"

@@ -2,6 +2,7 @@
 #include "app/stiffness_report.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // What homogenisation found, for people and for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "recipe/foam_stiffness.h"

@@ -2,6 +2,7 @@
 #include "recipe/build_enclosure.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

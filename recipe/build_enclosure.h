@@ -1,7 +1,7 @@
 // From a recipe's [cavity] to a hollow part, and from its [shield] to a wall about the print.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

@@ -2,6 +2,7 @@
 #include "recipe/modulus_report.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // How stiff the foam of a part gets, beside what was asked for.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 #include "recipe/place_dowels.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/csg.h"
 #include "engine/error.h"

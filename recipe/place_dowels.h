@@ -1,7 +1,7 @@
 // Dowel holes: upright holes at the same place in every layer, for pins that align a stack.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 #include "recipe/place_drains.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/error.h"
 #include "engine/island_survey.h"

@@ -2,6 +2,7 @@
 #include "recipe/repair_job.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/csg.h"
 #include "engine/island_survey.h"

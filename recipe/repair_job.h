@@ -1,7 +1,7 @@
 // Repairs before a part is printed: pieces joined, and what of its outlines is mended.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "recipe/build_job.h"

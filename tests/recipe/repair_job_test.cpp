@@ -2,6 +2,7 @@
 #include "recipe/repair_job.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "recipe/identity.h"
 #include "tests/app/recipes.h"
