@@ -66,11 +66,11 @@ void GrownBlock::grow_covered(std::span<const BallRows* const> layers) {
 /// Finds what is solid on all lines of the block.
 void GrownBlock::cover_by_own(std::span<const BallRows* const> layers) {
     covered_.clear();
-    for (std::int32_t z = 0; z < block_.layers; ++z) {
-        const BallRows& rows = *layers[static_cast<std::size_t>(block_.layer + z)];
-        for (std::int32_t l = 0; l < block_.lines; ++l) {
-            const std::span<const BallRun> runs = rows.line(static_cast<std::size_t>(block_.line + l));
-            if (z == 0 && l == 0) {
+    for (std::int32_t z = block_.layer; z < block_.layer + block_.layers; ++z) {
+        const BallRows& rows = *layers[static_cast<std::size_t>(z)];
+        for (std::int32_t l = block_.line; l < block_.line + block_.lines; ++l) {
+            const std::span<const BallRun> runs = rows.line(static_cast<std::size_t>(l));
+            if (z == block_.layer && l == block_.line) {
                 for (const BallRun& run : runs) covered_.push_back({run.begin, run.end});
             } else {
                 common_.clear();

@@ -129,12 +129,14 @@ std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& la
         const auto grow = [&](const LineBlock& block, std::span<SpanRows> layers) {
             if (solid != nullptr && solid->grow_solid(block, stack))
                 return append_block(*solid, block, extent, layers);
-            for (std::int32_t z = 0; z < block.layers; ++z) {
-                for (std::int32_t l = 0; l < block.lines; ++l) {
+            const auto first_layer = static_cast<std::size_t>(block.layer),
+                       first_line = static_cast<std::size_t>(block.line),
+                       last_line = first_line + static_cast<std::size_t>(block.lines);
+            for (std::size_t z = 0; z < layers.size(); ++z) {
+                for (std::size_t l = first_line; l < last_line; ++l) {
                     runs.clear();
-                    line.grow(stack, static_cast<std::size_t>(block.layer + z),
-                              static_cast<std::size_t>(block.line + l), runs);
-                    append_line(runs, extent, layers[static_cast<std::size_t>(z)]);
+                    line.grow(stack, first_layer + z, l, runs);
+                    append_line(runs, extent, layers[z]);
                 }
             }
         };
