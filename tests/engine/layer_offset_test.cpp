@@ -280,26 +280,37 @@ TEST_CASE("large balls leave the right gaps between sparse solids", "[morphology
     }
 }
 
-TEST_CASE("a convex solid grows by large balls as by brute force", "[morphology]") {
+TEST_CASE("solids grow by balls of every size as by brute force", "[morphology]") {
     constexpr int size = 96;
-    const LayerLattice lattice{256, 256, size};
-    const double radius = 33.3 * run_unit;
-    Stack stack(size, Lines(size));
-    for (int z = 0; z < size; ++z) {
-        for (int l = 0; l < size; ++l) {
-            const double left = 30 * 30 - (z - 48) * (z - 48) - (l - 40.2) * (l - 40.2);
-            if (left <= 0) continue;
-            const double half = std::sqrt(left) * run_unit;
-            stack[static_cast<std::size_t>(z)][static_cast<std::size_t>(l)] = {
-                {round_run(-half), round_run(half) + 1, radius * radius}};
-        }
-    }
-    const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
-    REQUIRE(out.size() == stack.size());
-    for (int z = 0; z < size; z += 3) {
-        for (int l = z % 2; l < size; l += 2) {
-            check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)),
-                        grown_line(stack, lattice, z, l));
+    for (const double lines : {4.4, 6.2, 12.5, 33.3, 50.1}) {
+        for (const bool slotted : {false, true}) {
+            CAPTURE(lines, slotted);
+            const LayerLattice lattice{256, slotted ? 201.5 : 256, size};
+            const double radius = lines * run_unit, weight = radius * radius;
+            Stack stack(size, Lines(size));
+            for (int z = 0; z < size; ++z) {
+                for (int l = 0; l < size; ++l) {
+                    const double left = 30 * 30 - (z - 48) * (z - 48) - (l - 40.2) * (l - 40.2);
+                    if (left <= 0) continue;
+                    const std::int32_t half = round_run(std::sqrt(left) * run_unit);
+                    std::vector<BallRun>& line =
+                        stack[static_cast<std::size_t>(z)][static_cast<std::size_t>(l)];
+                    const std::int32_t slot = slotted && half > 4000 ? 1500 + 20 * l : 0;
+                    if (slot == 0) {
+                        line = {{-half, half + 1, weight}};
+                    } else {
+                        line = {{-half, -slot, weight}, {slot, half, weight}};
+                    }
+                }
+            }
+            const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+            REQUIRE(out.size() == stack.size());
+            for (int z = 0; z < size; z += 3) {
+                for (int l = z % 4; l < size; l += 4) {
+                    check_equal(out[static_cast<std::size_t>(z)].line(static_cast<std::size_t>(l)),
+                                grown_line(stack, lattice, z, l));
+                }
+            }
         }
     }
 }
