@@ -59,6 +59,8 @@ class SimulatedGrbl {
     }
     const std::vector<std::string>& executed() const { return executed_; }
     bool held() const { return held_; }
+    /// Nothing is left to do.
+    bool idle() const { return ring_.empty(); }
 
     std::string alarm_at;  ///< the line that runs into a limit
     std::size_t fullest = 0;
