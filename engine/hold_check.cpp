@@ -19,16 +19,12 @@ bool any_floats(const std::vector<std::uint8_t>& floats) {
 
 /// Those components of a layer do not float that touch rows of one below.
 void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
-    const auto row_floats = [&](int r) {
-        return std::ranges::any_of(labelled.row(r),
-                                   [&](const LabelledRun& run) { return floats[run.component] != 0; });
-    };
+    const auto run_floats = [&](const LabelledRun& run) { return floats[run.component] != 0; };
     for (const int aside : {0, -1, 1}) {  // most lie right above something
         if (!any_floats(floats)) return;
         for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
-            if (aside != 0 && !row_floats(r + aside)) continue;
-            for_touching(labelled.row(r + aside), below.line(static_cast<std::size_t>(r)),
-                         [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
+            for_first_touching(labelled.row(r + aside), run_floats, below.line(static_cast<std::size_t>(r)),
+                               [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
         }
     }
 }
@@ -38,6 +34,13 @@ SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
     SpanRows out;
     subtract_grown(a, b, pitches * run_unit, run_unit, out);
     return out;
+}
+
+/// Where something of rows that meet these cells may lie further than that from what fills the others.
+SpanRows maybe_beyond(const SpanRows& rows, const CellRows& met, const CellRows& filled, double pitches) {
+    CellRows suspected = met;
+    suspected.subtract(filled.grown(cells_covered(pitches * run_unit, run_unit)));
+    return suspected.any() ? suspected.of(rows, suspected.lattice().margin_lines) : empty_rows(rows.lines());
 }
 
 /// The runs of those components of a layer that are chosen.
@@ -85,14 +88,14 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       overhangs_(most),
       bridges_(most) {}
 
-void HoldCheck::add(HoldingRows layer, const LabelledLayer& printed, int index) {
-    Below next;
+void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, int index) {
+    Below next{{}, std::move(cells.filled), {}};
     if (below_.empty()) {
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
         const SpanRows islands = find_islands(layer, printed, index);
-        if (follows_overhangs_) follow_overhangs(layer, islands, next, index);
+        if (follows_overhangs_) follow_overhangs(layer, cells.met, islands, next, index);
     }
     supports_.add(layer.supports);
     next.rows = std::move(layer);
@@ -101,15 +104,18 @@ void HoldCheck::add(HoldingRows layer, const LabelledLayer& printed, int index) 
 }
 
 /// Tells of what hangs beside islands; `next` is to hold what of it may.
-void HoldCheck::follow_overhangs(const HoldingRows& layer, const SpanRows& islands, Below& next, int index) {
+void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands,
+                                 Below& next, int index) {
     const SpanRows held = supports_.held();
     // Rows see a border up to a pitch late.
-    const SpanRows out = beyond(layer.part, below_.back().rows.part, step_ + 1);
+    const Below& below = below_.back();
+    const SpanRows out =
+        beyond(maybe_beyond(layer.part, met, below.filled, step_ + 1), below.rows.part, step_ + 1);
     const SpanRows hanging = without(without(out, held), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    below_.push_back({{}, next.hung});  // what hangs in this layer explains itself
-    const SpanRows steep = too_steep(layer, held);
+    below_.push_back({{}, next.filled, next.hung});  // what hangs in this layer explains itself
+    const SpanRows steep = too_steep(layer, met, held);
     below_.pop_back();
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
@@ -136,13 +142,16 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
 }
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) const {
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held) const {
     if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
-    const SpanRows out = without(beyond(layer.part, below_[first].rows.part, far), held);
     // Parts of small pieces are small: they need not be looked at further.
-    SpanRows steep = large_pieces(out, limits_.free_stretch, grid_);
+    const SpanRows maybe = large_pieces(maybe_beyond(layer.part, met, below_[first].filled, far),
+                                        limits_.free_stretch, grid_);
+    if (maybe.runs().empty()) return maybe;
+    SpanRows steep = large_pieces(without(beyond(maybe, below_[first].rows.part, far), held),
+                                  limits_.free_stretch, grid_);
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
@@ -154,7 +163,7 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const SpanRows& held) co
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
 SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index) {
     std::vector<std::vector<Run>> bad(hanging.lines());
-    if (!hanging.runs().empty()) {
+    if (!large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) {
         const SpanRows held = without(layer.printed, hanging);
         for (const HangingRegion& region :
              find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
@@ -182,8 +191,12 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
 /// What stands out over the layer below about what was found: from layer to layer that hangs together.
 SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found) const {
     if (found.runs().empty()) return found;
-    const SpanRows all = without(layer.part, below_.back().rows.printed);
-    return without(all, beyond(all, found, 2 * step_ + 2));
+    const double reach = 2 * step_ + 2;
+    const CellLattice& lattice = below_.back().filled.lattice();
+    const CellRows near = LayerCells(found, lattice).met.grown(cells_met(reach * run_unit, run_unit));
+    const SpanRows all =
+        without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed);
+    return without(all, beyond(all, found, reach));
 }
 
 void HoldCheck::add_overhang(const SpanRows& rows, int index) {

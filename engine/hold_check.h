@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "engine/cell_rows.h"
 #include "engine/hanging_regions.h"
 #include "engine/support_hold.h"
 
@@ -26,8 +27,9 @@ class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
-    /// `printed` is what the layer prints, labelled without growth.
-    void add(HoldingRows layer, const LabelledLayer& printed, int index);
+    /// `cells` are those of the part, on one lattice for all layers; `printed` is what the layer prints,
+    /// labelled without growth.
+    void add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, int index);
     void finish();
 
     const FaultList& islands() const { return islands_; }
@@ -38,11 +40,13 @@ class HoldCheck {
     /// A layer below and what hung in it and may, or is told of as an island.
     struct Below {
         HoldingRows rows;
+        CellRows filled;  // by the part
         SpanRows hung;
     };
-    void follow_overhangs(const HoldingRows& layer, const SpanRows& islands, Below& next, int index);
+    void follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands, Below& next,
+                          int index);
     SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index);
-    SpanRows too_steep(const HoldingRows& layer, const SpanRows& held) const;
+    SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);

@@ -1,6 +1,8 @@
 // What is far from what is far from the border.
 #include "engine/layer_thinness.h"
 
+#include <algorithm>
+
 #include "engine/error.h"
 #include "engine/row_sets.h"
 
@@ -16,6 +18,18 @@ SpanRows widened(const SpanRows& rows, std::size_t margin) {
     return wide;
 }
 
+/// From the first begin to the last end of a run of any line.
+Run extent_of(const SpanRows& rows) {
+    Run extent{0, 0};
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        if (rows.line(l).empty()) continue;
+        const std::int32_t begin = rows.line(l).front().begin, end = rows.line(l).back().end;
+        extent = extent.begin == extent.end ? Run{begin, end}
+                                            : Run{std::min(extent.begin, begin), std::max(extent.end, end)};
+    }
+    return extent;
+}
+
 SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_out); }
 
 void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
@@ -23,36 +37,54 @@ void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
 }
 
-/// What of a lies further than `reach` from all that lies further than `radius` from b.
-SpanRows far_from_what_is_far(const SpanRows& a, const SpanRows& b, double radius, double reach,
-                              double row_pitch) {
-    SpanRows core, out;
-    subtract_grown(a, b, radius, row_pitch, core);
-    subtract_grown(a, core, reach, row_pitch, out);
-    return out;
-}
-
 /// Rows beyond the given ones that decide about them.
 std::size_t margin_of(const Thinness& thinness, double row_pitch) {
     return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
 }
 
-}  // namespace
-
-void thin_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch, SpanRows& out) {
-    const std::size_t margin = margin_of(thinness, row_pitch);
-    const SpanRows wide = widened(rows, margin);
-    without_margin(far_from_what_is_far(wide, void_of(wide), thinness.radius,
-                                        thinness.radius + thinness.slack, row_pitch),
-                   margin, out);
+/// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie near
+/// enough to cells that discs do not reach from what is `beside` it.
+CellRows suspects(CellRows touched, const CellRows& beside, const Thinness& thinness, double row_pitch) {
+    const CellRows core = beside.grown(cells_met(thinness.radius, row_pitch)).complement();
+    touched.subtract(core.grown(cells_covered(thinness.radius + thinness.slack, row_pitch)));
+    return touched;
 }
 
-void narrow_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch, SpanRows& out) {
-    const std::size_t margin = margin_of(thinness, row_pitch);
-    const SpanRows wide = widened(rows, margin);
-    without_margin(far_from_what_is_far(void_of(wide), wide, thinness.radius,
-                                        thinness.radius + thinness.slack, row_pitch),
-                   margin, out);
+/// The points of a medium that are too thin, out of the suspected cells. They are looked at run by run.
+void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, const Thinness& thinness,
+                double row_pitch, SpanRows& out) {
+    if (!suspected.any()) {
+        out = empty_rows(rows.lines());
+        return;
+    }
+    const std::size_t margin = suspected.lattice().margin_lines;
+    const double reach = thinness.radius + thinness.slack;
+    SpanRows solid = widened(rows, margin), voids = void_of(solid);
+    if (medium == Medium::gaps) std::swap(solid, voids);
+    // Where balls fit matters no further from there than they reach.
+    const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).of(solid, 0);
+    SpanRows core, thin;
+    subtract_grown(near, voids, thinness.radius, row_pitch, core);
+    subtract_grown(suspected.of(solid, 0), core, reach, row_pitch, thin);
+    without_margin(thin, margin, out);
+}
+
+}  // namespace
+
+double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
+
+void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
+               SpanRows& out) {
+    const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
+    thin_rows(rows, cells, medium, thinness, row_pitch, out);
+}
+
+void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
+               double row_pitch, SpanRows& out) {
+    const CellRows void_met = cells.filled.complement();
+    thin_among(medium == Medium::solid ? suspects(cells.met, void_met, thinness, row_pitch)
+                                       : suspects(void_met, cells.met, thinness, row_pitch),
+               rows, medium, thinness, row_pitch, out);
 }
 
 ThinLayers::ThinLayers(const LayerLattice& lattice, const Thinness& thinness, Medium medium)

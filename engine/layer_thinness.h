@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "engine/cell_rows.h"
 #include "engine/layer_remainder.h"
 
 namespace lamella {
@@ -19,13 +20,17 @@ struct Thinness {
     double slack = 0;
 };
 
-/// The points of a layer's rows that are too thin within the layer.
-void thin_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch, SpanRows& out);
-/// The void between the rows' solid that is too narrow, by the same measure.
-void narrow_rows(const SpanRows& rows, const Thinness& thinness, double row_pitch, SpanRows& out);
-
 /// What is measured: the solid, or the void between it.
 enum class Medium : unsigned char { solid, gaps };
+
+/// What of a layer's rows, or of the void between them, is too thin within the layer.
+void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
+               SpanRows& out);
+/// How far cells must be known beside a layer's rows, run units, to tell what is too thin.
+double thinness_reach(const Thinness& thinness);
+/// The same where the rows' cells are known so far.
+void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
+               double row_pitch, SpanRows& out);
 
 /// What is too thin in layers, by a ball that reaches from layer to layer; beside the lines and layers given
 /// all is void. Layers come out in the order in which they went in, once all are known that the ball reaches.

@@ -42,7 +42,7 @@ void grow(const SpanRows& rows, double radius, SpanRows& out) {
 /// Where discs of `radius` have to stand so that all has that radius at least.
 void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
     SpanRows thin, shrunk, larger, some, all;
-    thin_rows(rows, {radius, slack_share * radius + run_unit}, run_unit, thin);
+    thin_rows(rows, Medium::solid, {radius, slack_share * radius + run_unit}, run_unit, thin);
     out = empty_rows(rows.lines());
     for (int level = levels - 1; level >= 0 && !thin.runs().empty(); --level) {
         const double r = radius * level / levels;
@@ -58,7 +58,7 @@ void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
 }
 
 void cores_of_narrow(const SpanRows& rows, double radius, SpanRows& out) {
-    narrow_rows(rows, {radius, slack_share * radius + run_unit}, run_unit, out);
+    thin_rows(rows, Medium::gaps, {radius, slack_share * radius + run_unit}, run_unit, out);
 }
 
 class MendedSlice : public SliceField {

@@ -91,8 +91,9 @@ void PassingComponent::include(PassingComponent other) {
 
 /// Joins what touches: a layer's components, which follow those that live, and these.
 void PassingComponents::join_touching(const LabelledLayer& layer, DisjointSets& sets) const {
+    constexpr std::uint32_t none = UINT32_MAX;
     const auto old_count = static_cast<std::uint32_t>(live_.size());
-    std::vector<std::uint32_t> joined_last(layer.components.size(), UINT32_MAX);  // most say the same again
+    std::vector<std::uint32_t> joined_last(layer.components.size(), none);  // most say the same again
     const auto join = [&](const LabelledRun& run, const LabelledRun& older) {
         std::uint32_t& last = joined_last[run.component];
         if (last == older.component) return;
@@ -100,7 +101,18 @@ void PassingComponents::join_touching(const LabelledLayer& layer, DisjointSets& 
         sets.join(old_count + run.component, older.component);
     };
     const int first = layer.first_row, end = first + layer.rows();
-    for (int r = first; r < end; ++r) for_touching(layer.row(r), last_.row(r), join);
+    for (int r = first; r < end; ++r) {
+        const std::span<const LabelledRun> older = last_.row(r);
+        if (older.empty()) continue;
+        // Where all is of one component, as in most rows, a run that is joined to it needs no look.
+        const std::uint32_t only = older.front().component;
+        if (std::ranges::all_of(older, [&](const LabelledRun& run) { return run.component == only; })) {
+            const auto wanted = [&](const LabelledRun& run) { return joined_last[run.component] != only; };
+            for_first_touching(layer.row(r), wanted, older, join);
+        } else {
+            for_touching(layer.row(r), older, join);
+        }
+    }
     // Rows beside each other matter where something is not yet joined to what all the rest is.
     const std::vector<std::uint8_t> apart = apart_from_most(sets);
     const auto any_apart = [&](std::span<const LabelledRun> row, std::uint32_t from) {
@@ -157,7 +169,9 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
         places[c] = static_cast<std::uint32_t>(live_.size());
         live_.push_back(std::move(joined[c]));
     }
-    for (LabelledRun& run : layer.runs) run.component = places[sets.find(old_count + run.component)];
+    std::vector<std::uint32_t> places_of_fresh(fresh.size());
+    for (std::uint32_t c = 0; c < fresh.size(); ++c) places_of_fresh[c] = places[sets.find(old_count + c)];
+    for (LabelledRun& run : layer.runs) run.component = places_of_fresh[run.component];
     for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
         for (const LabelledRun& run : layer.row(r)) {
             // Most layers are not the largest one of what goes through them.

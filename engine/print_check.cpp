@@ -63,6 +63,7 @@ struct CheckedLayer : LayerProduct {
     HoldingRows rows;
     LabelledLayer part, printed;  ///< printed only where there are supports
     LabelledLayer voids;
+    std::optional<LayerCells> cells;  ///< of the part; not carried, and made anew where it is missing
     SpanRows thin, narrow;
     bool has_supports = false;
 
@@ -157,11 +158,13 @@ class ThicknessCheck {
             neighbours_.emplace(ball.lattice, measure_, medium);
     }
 
+    /// What the lattice of cells has to reach.
+    double reach() const { return neighbours_ ? 0 : thinness_reach(measure_); }
     /// What of a layer can be told without its neighbours. Pure.
-    SpanRows prepare(const SpanRows& rows) const {
+    SpanRows prepare(const SpanRows& rows, const LayerCells& cells) const {
         SpanRows found;
         if (neighbours_) return found;
-        (medium_ == Medium::solid ? thin_rows : narrow_rows)(rows, measure_, row_pitch_, found);
+        thin_rows(rows, cells, medium_, measure_, row_pitch_, found);
         return found;
     }
     void add(const SpanRows& rows, const SpanRows& prepared) {
@@ -211,6 +214,11 @@ struct PrintCheck::State {
         if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
         if (wants(Check::cavities) || wants(Check::cups))
             voids.emplace(grid, limits.cavity, limits.cup, most);
+        double reach_of_cells = 0;
+        for (const std::optional<ThicknessCheck>* check : {&thickness, &gaps})
+            if (*check) reach_of_cells = std::max(reach_of_cells, (*check)->reach());
+        cells.emplace(Run{0, grid.band.hi * run_unit}, static_cast<std::size_t>(grid.band.lines()),
+                      reach_of_cells, run_unit);
     }
 
     bool wants(Check check) const { return options.limits.verdict(check) != Verdict::off; }
@@ -231,6 +239,7 @@ struct PrintCheck::State {
     std::optional<ThicknessCheck> gaps;
     std::optional<NeckCheck> necks;
     std::optional<VoidCheck> voids;
+    std::optional<CellLattice> cells;
     SheetCheck sheets;
     EmptyCheck empty;
     ReachCheck reach;
@@ -276,8 +285,9 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     product->area = state.grid.area(part.total_length());
     if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
-    if (state.thickness) product->thin = state.thickness->prepare(part);
-    if (state.gaps) product->narrow = state.gaps->prepare(part);
+    if (state.thickness || state.gaps || state.hold) product->cells.emplace(part, *state.cells);
+    if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells);
+    if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells);
     SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
                                                     : empty_rows(part.lines());
     product->support_area = state.grid.area(supports.total_length());
@@ -307,9 +317,11 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.thickness) state.thickness->add(part, checked.thin);
     if (state.gaps) state.gaps->add(part, checked.narrow);
     if (state.necks) state.necks->push(part);
-    if (state.hold)
-        state.hold->add(std::move(checked.rows), checked.has_supports ? checked.printed : checked.part,
-                        index);
+    if (state.hold) {
+        if (!checked.cells) checked.cells.emplace(part, *state.cells);
+        state.hold->add(std::move(checked.rows), *std::move(checked.cells),
+                        checked.has_supports ? checked.printed : checked.part, index);
+    }
     if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }
 

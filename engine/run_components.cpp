@@ -33,19 +33,39 @@ void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t u
     out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
 }
 
-/// Turns the number of each run into the number of its component, by appearance; returns how many there are.
+/// Gives each run the number of its component, by appearance; returns how many there are.
 std::uint32_t number_components(LabelledLayer& layer) {
-    DisjointSets sets(layer.runs.size());
-    for (int r = layer.first_row + 1; r < layer.first_row + layer.rows(); ++r) {
-        for_touching(layer.row(r - 1), layer.row(r), [&](const LabelledRun& a, const LabelledRun& b) {
-            sets.join(a.component, b.component);
-        });
+    constexpr std::uint32_t none = UINT32_MAX;
+    DisjointSets sets;  // most runs take the number of one before them, which nothing else joins
+    for (LabelledRun& run : layer.runs) run.component = none;
+    for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
+        LabelledRun* const runs = layer.runs.data();
+        const std::span<LabelledRun> row(runs + layer.starts[r], runs + layer.starts[r + 1]);
+        if (r > 0) {
+            const std::span<const LabelledRun> before(runs + layer.starts[r - 1], runs + layer.starts[r]);
+            std::size_t i = 0;
+            for (LabelledRun& run : row) {
+                while (i < before.size() && before[i].end < run.begin) ++i;
+                for (std::size_t k = i; k < before.size() && before[k].begin <= run.end; ++k) {
+                    if (run.component == none) {
+                        run.component = before[k].component;
+                    } else if (run.component != before[k].component) {
+                        sets.join(run.component, before[k].component);
+                    }
+                }
+            }
+        }
+        for (LabelledRun& run : row) {
+            if (run.component == none) run.component = sets.add();
+        }
     }
+    std::vector<std::uint32_t> numbers(sets.size());
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < layer.runs.size(); ++i) {
+    for (std::uint32_t i = 0; i < sets.size(); ++i) {
         const std::uint32_t root = sets.find(i);
-        layer.runs[i].component = root == i ? count++ : layer.runs[root].component;
+        numbers[i] = root == i ? count++ : numbers[root];
     }
+    for (LabelledRun& run : layer.runs) run.component = numbers[run.component];
     return count;
 }
 
@@ -78,11 +98,9 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     out.starts.reserve(rows.lines() + 1);
     out.starts.push_back(0);
     out.runs.reserve(rows.runs().size());
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
-        for (const Run& run : rows.line(l))
-            out.runs.push_back({run.begin, run.end, static_cast<std::uint32_t>(out.runs.size())});
-        out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
-    }
+    for (const Run& run : rows.runs()) out.runs.push_back({run.begin, run.end, 0});
+    for (std::size_t l = 0; l < rows.lines(); ++l)
+        out.starts.push_back(out.starts.back() + static_cast<std::uint32_t>(rows.line(l).size()));
     out.components.resize(number_components(out));
     out.owners.reserve(out.runs.size());
     for (int r = 0; r < out.rows(); ++r) {

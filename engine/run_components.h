@@ -75,6 +75,19 @@ void for_touching(std::span<const A> a, std::span<const B> b, Visit visit) {
     }
 }
 
+/// Calls visit(a, b) for every run of `a` that is wanted when its turn comes and the first one of `b` that it
+/// overlaps or touches.
+template <typename A, typename Wanted, typename B, typename Visit>
+void for_first_touching(std::span<const A> a, Wanted wanted, std::span<const B> b, Visit visit) {
+    auto other = b.begin();
+    for (const A& run : a) {
+        if (!wanted(run)) continue;
+        while (other != b.end() && other->end < run.begin) ++other;
+        if (other == b.end()) return;
+        if (other->begin <= run.end) visit(run, *other);
+    }
+}
+
 /// A grown run of a component: where it lies in the stack of layers.
 struct PlacedRun {
     std::int32_t layer;

@@ -117,10 +117,10 @@ TEST_CASE("layers one by one are what a ball without height makes of them", "[mo
     SpanRows rows;
     std::int64_t found = 0;
     for (std::size_t z = 0; z < stack.size(); ++z) {
-        thin_rows(stack[z], thinness, run_unit, rows);
+        thin_rows(stack[z], Medium::solid, thinness, run_unit, rows);
         CHECK(rows == thin[z]);
         found += rows.total_length();
-        narrow_rows(stack[z], thinness, run_unit, rows);
+        thin_rows(stack[z], Medium::gaps, thinness, run_unit, rows);
         CHECK(rows == narrow[z]);
         found += rows.total_length();
     }
@@ -178,16 +178,16 @@ TEST_CASE("slack excuses edges and keeps fins", "[morphology]") {
                    fin = rows_of([](double y) { return y < 100 ? 3.0 : 60.0; });
     const double r = 6 * run_unit;
     SpanRows thin;
-    thin_rows(wedge, {r, 0}, run_unit, thin);
+    thin_rows(wedge, Medium::solid, {r, 0}, run_unit, thin);
     CHECK(thin.total_length() > 0);
     // The tip of a wedge of 60 degrees is a radius away from the ball in it.
-    thin_rows(wedge, {r, 1.2 * r}, run_unit, thin);
+    thin_rows(wedge, Medium::solid, {r, 1.2 * r}, run_unit, thin);
     std::size_t last = 0;
     for (std::size_t l = 0; l < 150; ++l) {
         if (!thin.line(l).empty()) last = l;
     }
     CHECK(last == 0);
-    thin_rows(fin, {r, 1.2 * r}, run_unit, thin);
+    thin_rows(fin, Medium::solid, {r, 1.2 * r}, run_unit, thin);
     // All of the fin but what the slack excuses.
     CHECK(static_cast<double>(thin.total_length()) / run_unit == Approx(6 * (100 - 1.2 * 6)).epsilon(0.06));
 }

@@ -1,0 +1,132 @@
+// Runs become words, and words runs.
+#include "engine/cell_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/ball_rows.h"
+
+namespace lamella {
+namespace {
+
+constexpr std::int32_t word_cells = 64;
+constexpr std::int32_t word_units = word_cells * CellLattice::cell;
+
+/// Rounded down, whatever the sign.
+std::int32_t cells_down(std::int32_t units) { return units >> std::countr_zero(unsigned{CellLattice::cell}); }
+std::int32_t cells_up(std::int32_t units) { return cells_down(units + CellLattice::cell - 1); }
+
+template <typename Width>
+DiscWidths disc_widths(double radius, double row_pitch, Width width) {
+    DiscWidths widths;
+    for (int k = 0;; ++k) {
+        const double across = k * row_pitch, left = radius * radius - across * across;
+        if (left < 0) return widths;
+        widths.push_back(width(BallReach(std::sqrt(left))));
+    }
+}
+
+/// Adds the cells [first, end) of a line.
+void mark(std::int32_t first, std::int32_t end, std::uint64_t* words) {
+    if (first >= end) return;
+    const auto low = static_cast<std::size_t>(first / word_cells),
+               high = static_cast<std::size_t>((end - 1) / word_cells);
+    const std::uint64_t from = ~std::uint64_t{0} << (first % word_cells),
+                        to = ~std::uint64_t{0} >> (word_cells - 1 - (end - 1) % word_cells);
+    if (low == high) {
+        words[low] |= from & to;
+        return;
+    }
+    words[low] |= from;
+    for (std::size_t i = low + 1; i < high; ++i) words[i] = ~std::uint64_t{0};
+    words[high] |= to;
+}
+
+}  // namespace
+
+CellLattice::CellLattice(Run extent, std::size_t row_count, double reach, double row_pitch)
+    : margin_lines(static_cast<std::size_t>(reach / row_pitch) + 1) {
+    const std::int32_t beside = static_cast<std::int32_t>(reach) + cell;
+    first = cells_down(extent.begin - beside) * cell;
+    const auto least_words = static_cast<std::size_t>((extent.end + beside - first) / word_units) + 1;
+    words = (least_words + words_at_once - 1) / words_at_once * words_at_once;
+    lines = row_count + 2 * margin_lines;
+}
+
+DiscWidths cells_covered(double radius, double row_pitch) {
+    return disc_widths(radius, row_pitch, [](const BallReach& reach) { return cells_down(reach.back); });
+}
+
+DiscWidths cells_met(double radius, double row_pitch) {
+    return disc_widths(radius, row_pitch, [](const BallReach& reach) { return cells_up(reach.ahead); });
+}
+
+LayerCells::LayerCells(const SpanRows& rows, const CellLattice& lattice) : filled(lattice), met(lattice) {
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        std::uint64_t *const filled_words = filled.line(l + lattice.margin_lines),
+                             *const met_words = met.line(l + lattice.margin_lines);
+        for (const Run& run : rows.line(l)) {
+            const std::int32_t begin = run.begin - lattice.first, end = run.end - lattice.first;
+            mark(cells_up(begin), cells_down(end), filled_words);
+            mark(cells_down(begin), cells_up(end), met_words);
+        }
+    }
+}
+
+bool CellRows::any_in_line(std::size_t l) const {
+    std::uint64_t all = 0;
+    for (std::size_t i = 0; i < lattice_.words; ++i) all |= line(l)[i];
+    return all != 0;
+}
+
+bool CellRows::any() const {
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : words_) all |= word;
+    return all != 0;
+}
+
+CellRows CellRows::complement() const {
+    CellRows others(lattice_);
+    for (std::size_t l = 0; l < lattice_.lines; ++l) {
+        const std::uint64_t* const from = line(l);
+        std::uint64_t* const to = others.line(l);
+        for (std::size_t i = 0; i < lattice_.words; ++i) to[i] = ~from[i];
+    }
+    return others;
+}
+
+void CellRows::subtract(const CellRows& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
+}
+
+SpanRows CellRows::of(const SpanRows& rows, std::size_t first_line) const {
+    SpanRows inside;
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        const std::uint64_t* const words = line(first_line + l);
+        std::span<const Run> runs = rows.line(l);
+        const auto take = [&](std::int32_t begin, std::int32_t end) {
+            while (!runs.empty() && runs.front().end <= begin) runs = runs.subspan(1);
+            for (const Run& run : runs) {
+                if (run.begin >= end) break;
+                inside.push(std::max(run.begin, begin), std::min(run.end, end));
+            }
+        };
+        for (std::size_t i = 0; i < lattice_.words && !runs.empty(); ++i) {
+            std::int32_t at = lattice_.first + static_cast<std::int32_t>(i) * word_units;
+            for (std::uint64_t word = words[i]; word != 0;) {
+                const int void_cells = std::countr_zero(word);
+                at += void_cells * CellLattice::cell;
+                word >>= void_cells;
+                const int cells = std::countr_one(word);
+                take(at, at + cells * CellLattice::cell);
+                at += cells * CellLattice::cell;
+                word = cells == word_cells ? 0 : word >> cells;
+            }
+        }
+        inside.end_line();
+    }
+    return inside;
+}
+
+}  // namespace lamella

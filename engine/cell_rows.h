@@ -1,0 +1,69 @@
+// CellRows: the rows of a layer as cells, 64 to a word, to tell in front which of its runs cannot matter.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/runs.h"
+
+namespace lamella {
+
+/// Where the cells of a layer lie. A cell is as long as half a row is wide.
+struct CellLattice {
+    static constexpr std::int32_t cell = run_unit / 2;  ///< length along the lines, run units
+    static constexpr std::size_t words_at_once = 4;     ///< lines are a multiple of it
+
+    std::int32_t first = 0;        ///< where the first cell of each line begins, run units
+    std::size_t words = 0;         ///< of a line, 64 cells each
+    std::size_t lines = 0;         ///< the margin's included
+    std::size_t margin_lines = 0;  ///< before the layer's first line, and behind its last
+
+    /// The cells of so many rows a `row_pitch` apart, whose runs lie within an extent, and of what lies no
+    /// further than `reach` beside them; run units.
+    CellLattice(Run extent, std::size_t row_count, double reach, double row_pitch);
+    friend bool operator==(const CellLattice&, const CellLattice&) = default;
+};
+
+/// How many cells a disc reaches to either side, by how many lines away.
+using DiscWidths = std::vector<std::int32_t>;
+/// A disc about each point of a cell covers at least these cells wholly.
+DiscWidths cells_covered(double radius, double row_pitch);
+/// A disc about any point of a cell meets at most these cells.
+DiscWidths cells_met(double radius, double row_pitch);
+
+/// A set of cells. Beside the lattice there are none.
+class CellRows {
+  public:
+    explicit CellRows(const CellLattice& lattice)
+        : lattice_(lattice), words_(lattice.lines * (lattice.words + 1) + 1) {}
+    const CellLattice& lattice() const { return lattice_; }
+    /// The words of a line; there is an empty one before them and one behind.
+    std::uint64_t* line(std::size_t l) { return words_.data() + l * (lattice_.words + 1) + 1; }
+    const std::uint64_t* line(std::size_t l) const { return words_.data() + l * (lattice_.words + 1) + 1; }
+    bool any_in_line(std::size_t l) const;
+    bool any() const;
+
+    CellRows complement() const;
+    /// Takes away the cells of another set on the same lattice.
+    void subtract(const CellRows& other);
+    /// These and all cells within a disc of them.
+    CellRows grown(const DiscWidths& disc) const;
+    /// What of rows lies in the cells. Their first line is that one of the lattice.
+    SpanRows of(const SpanRows& rows, std::size_t first_line) const;
+
+  private:
+    CellLattice lattice_;
+    std::vector<std::uint64_t> words_;  // lines with an empty word between them
+};
+
+/// The cells of a layer's runs; its first line follows those of the margin.
+struct LayerCells {
+    CellRows filled;  ///< by runs, wholly
+    CellRows met;     ///< by runs
+
+    LayerCells(const SpanRows& rows, const CellLattice& lattice);
+};
+
+}  // namespace lamella

@@ -1,0 +1,164 @@
+// What each check of a layer costs: 200 layers of 40 x 40 x 10 mm of foam, in rows 0.08 mm apart, one core.
+#include <benchmark/benchmark.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <limits>
+
+#include "engine/csg.h"
+#include "engine/hold_check.h"
+#include "engine/layer_opening.h"
+#include "engine/layer_thinness.h"
+#include "engine/neck_check.h"
+#include "engine/primitives.h"
+#include "engine/row_sets.h"
+#include "engine/survey_rows.h"
+#include "engine/void_check.h"
+#include "procedural/voronoi_foam.h"
+
+namespace {
+
+using namespace lamella;
+
+constexpr double edge = 40, height = 10, layer_height = 0.05, pitch = 0.08;  // mm
+constexpr int layer_count = 200;
+constexpr std::size_t most_places = 10;
+
+CheckGrid grid() {
+    CheckGrid grid;
+    grid.band.along_origin = grid.band.across_origin = -edge / 2 - pitch;
+    grid.band.along_pitch = grid.band.across_pitch = pitch;
+    grid.band.count = grid.band.hi = static_cast<int>(edge / pitch) + 4;
+    grid.layer_height = layer_height;
+    return grid;
+}
+
+FieldPtr foam() {
+    FoamSettings settings;
+    settings.cell = 2;
+    settings.beam_radius = 0.3;
+    settings.seed = 1;
+    settings.region = {dvec3(-edge / 2, -edge / 2, 0), dvec3(edge / 2, edge / 2, height)};
+    return make_intersection({make_voronoi_foam(settings), make_box(settings.region)});
+}
+
+SpanRows rows_of(const Field& field, int layer) {
+    SliceContext context;
+    Scratch scratch;
+    return all_rows(context.slice(field, (layer + 0.5) * layer_height), grid().band, scratch);
+}
+
+const std::vector<SpanRows>& layers() {
+    static const std::vector<SpanRows> all = [] {
+        const FieldPtr field = foam();
+        std::vector<SpanRows> rows;
+        for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i));
+        return rows;
+    }();
+    return all;
+}
+
+CellLattice lattice(double reach) {
+    return {Run{0, grid().band.hi * run_unit}, static_cast<std::size_t>(grid().band.count), reach, run_unit};
+}
+
+/// Limits of resin printers.
+PrintLimits limits() {
+    PrintLimits limits;
+    for (const Check check : {Check::islands, Check::overhangs})
+        limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    limits.overhang = layer_height;
+    return limits;
+}
+
+void check_rows(benchmark::State& state) {
+    const FieldPtr field = foam();
+    for (auto _ : state) {
+        for (int i = 0; i < layer_count; ++i) benchmark::DoNotOptimize(rows_of(*field, i));
+    }
+}
+
+void check_cells(benchmark::State& state) {
+    layers();
+    for (auto _ : state) {
+        for (const SpanRows& rows : layers()) benchmark::DoNotOptimize(LayerCells(rows, lattice(4 * run_unit)));
+    }
+    std::size_t runs = 0;
+    for (const SpanRows& rows : layers()) runs += rows.runs().size();
+    state.counters["runs"] = static_cast<double>(runs);
+}
+
+void check_thickness(benchmark::State& state, Medium medium, double thickness) {
+    const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, 0);
+    const Thinness measure{ball.radius, 1.5 * ball.radius + run_unit};
+    std::vector<LayerCells> all_cells;
+    for (const SpanRows& rows : layers()) all_cells.emplace_back(rows, lattice(thinness_reach(measure)));
+    std::int64_t found = 0;
+    for (auto _ : state) {
+        found = 0;
+        auto cells = all_cells.begin();
+        SpanRows thin;
+        for (const SpanRows& rows : layers()) {
+            thin_rows(rows, *cells++, medium, measure, run_unit, thin);
+            found += thin.total_length();
+        }
+    }
+    state.counters["volume"] = grid().volume(found);
+}
+
+void check_pieces(benchmark::State& state) {
+    layers();
+    for (auto _ : state) {
+        PassingComponents pieces;
+        std::vector<EndedComponent> ended;
+        for (int i = 0; i < layer_count; ++i)
+            pieces.add(label_layer(layers()[static_cast<std::size_t>(i)], i, Growth{}), i, {}, ended);
+        benchmark::DoNotOptimize(ended);
+    }
+}
+
+void check_voids(benchmark::State& state) {
+    layers();
+    for (auto _ : state) {
+        VoidCheck voids(grid(), 1, 10, most_places);
+        for (int i = 0; i < layer_count; ++i)
+            voids.add(VoidCheck::label(layers()[static_cast<std::size_t>(i)], grid(), i), i);
+        voids.finish();
+    }
+}
+
+void check_hold(benchmark::State& state) {
+    std::vector<LabelledLayer> labels;
+    for (const SpanRows& rows : layers())
+        labels.push_back(label_layer(rows, static_cast<int>(labels.size()), Growth{}));
+    for (auto _ : state) {
+        HoldCheck hold(grid(), limits(), most_places);
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            const SpanRows& rows = layers()[i];
+            hold.add({rows, empty_rows(rows.lines()), rows}, LayerCells(rows, lattice(0)), labels[i],
+                     static_cast<int>(i));
+        }
+        hold.finish();
+        state.counters["overhangs"] = static_cast<double>(hold.overhangs().count());
+    }
+}
+
+void check_necks(benchmark::State& state) {
+    layers();
+    const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    for (auto _ : state) {
+        NeckCheck necks(grid(), 0.6, 1000, most_places);
+        for (const SpanRows& rows : layers()) necks.push(rows);
+        necks.finish();
+    }
+}
+
+BENCHMARK(check_rows)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_cells)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness, solid, Medium::solid, 0.4)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_pieces)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_voids)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_hold)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_necks)->Unit(benchmark::kMillisecond);
+
+}  // namespace
