@@ -86,43 +86,46 @@ bool CellRows::any() const {
     return all != 0;
 }
 
-CellRows CellRows::complement() const {
-    CellRows others(lattice_);
+void CellRows::invert() {
     for (std::size_t l = 0; l < lattice_.lines; ++l) {
-        const std::uint64_t* const from = line(l);
-        std::uint64_t* const to = others.line(l);
-        for (std::size_t i = 0; i < lattice_.words; ++i) to[i] = ~from[i];
+        std::uint64_t* const words = line(l);
+        for (std::size_t i = 0; i < lattice_.words; ++i) words[i] = ~words[i];
     }
-    return others;
 }
 
 void CellRows::subtract(const CellRows& other) {
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
 }
 
+/// Calls take(begin, end) for runs of cells, one after another; some may touch.
+template <typename Take>
+void CellRows::for_runs(std::size_t line, Take take) const {
+    const std::uint64_t* const words = this->line(line);
+    for (std::size_t i = 0; i < lattice_.words; ++i) {
+        std::int32_t at = lattice_.first + static_cast<std::int32_t>(i) * word_units;
+        for (std::uint64_t word = words[i]; word != 0;) {
+            const int void_cells = std::countr_zero(word);
+            at += void_cells * CellLattice::cell;
+            word >>= void_cells;
+            const int cells = std::countr_one(word);
+            take(at, at + cells * CellLattice::cell);
+            at += cells * CellLattice::cell;
+            word = cells == word_cells ? 0 : word >> cells;
+        }
+    }
+}
+
 SpanRows CellRows::of(const SpanRows& rows, std::size_t first_line) const {
     SpanRows inside;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
-        const std::uint64_t* const words = line(first_line + l);
-        std::span<const Run> runs = rows.line(l);
-        const auto take = [&](std::int32_t begin, std::int32_t end) {
-            while (!runs.empty() && runs.front().end <= begin) runs = runs.subspan(1);
-            for (const Run& run : runs) {
-                if (run.begin >= end) break;
-                inside.push(std::max(run.begin, begin), std::min(run.end, end));
-            }
-        };
-        for (std::size_t i = 0; i < lattice_.words && !runs.empty(); ++i) {
-            std::int32_t at = lattice_.first + static_cast<std::int32_t>(i) * word_units;
-            for (std::uint64_t word = words[i]; word != 0;) {
-                const int void_cells = std::countr_zero(word);
-                at += void_cells * CellLattice::cell;
-                word >>= void_cells;
-                const int cells = std::countr_one(word);
-                take(at, at + cells * CellLattice::cell);
-                at += cells * CellLattice::cell;
-                word = cells == word_cells ? 0 : word >> cells;
-            }
+        const std::span<const Run> runs = rows.line(l);
+        if (!runs.empty() && any_in_line(first_line + l)) {
+            auto next = runs.begin();
+            for_runs(first_line + l, [&](std::int32_t begin, std::int32_t end) {
+                while (next != runs.end() && next->end <= begin) ++next;
+                for (auto run = next; run != runs.end() && run->begin < end; ++run)
+                    inside.push(std::max(run->begin, begin), std::min(run->end, end));
+            });
         }
         inside.end_line();
     }

@@ -45,7 +45,8 @@ class CellRows {
     bool any_in_line(std::size_t l) const;
     bool any() const;
 
-    CellRows complement() const;
+    /// Turns into all other cells of the lattice.
+    void invert();
     /// Takes away the cells of another set on the same lattice.
     void subtract(const CellRows& other);
     /// These and all cells within a disc of them.
@@ -54,6 +55,9 @@ class CellRows {
     SpanRows of(const SpanRows& rows, std::size_t first_line) const;
 
   private:
+    template <typename Take>
+    void for_runs(std::size_t line, Take take) const;
+
     CellLattice lattice_;
     std::vector<std::uint64_t> words_;  // lines with an empty word between them
 };

@@ -1,5 +1,5 @@
-// Cells grown by discs: each line is spread step by step and added to those that the disc reaches. Compiled for
-// every SIMD target; words are whole numbers, so that every target gives the same bits.
+// Cells grown by discs: each line is spread step by step and added to those that the disc reaches. Compiled
+// for every SIMD target; words are whole numbers, so that every target gives the same bits.
 #include <algorithm>
 #include <cstring>
 

@@ -147,11 +147,11 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     // Parts of small pieces are small: they need not be looked at further.
-    const SpanRows maybe = large_pieces(maybe_beyond(layer.part, met, below_[first].filled, far),
-                                        limits_.free_stretch, grid_);
+    const SpanRows maybe =
+        large_pieces(maybe_beyond(layer.part, met, below_[first].filled, far), limits_.free_stretch, grid_);
     if (maybe.runs().empty()) return maybe;
-    SpanRows steep = large_pieces(without(beyond(maybe, below_[first].rows.part, far), held),
-                                  limits_.free_stretch, grid_);
+    SpanRows steep =
+        large_pieces(without(beyond(maybe, below_[first].rows.part, far), held), limits_.free_stretch, grid_);
     for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
         const Below& below = below_[k];
         const auto above = static_cast<double>(below_.size() - 1 - k);
@@ -194,8 +194,7 @@ SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found
     const double reach = 2 * step_ + 2;
     const CellLattice& lattice = below_.back().filled.lattice();
     const CellRows near = LayerCells(found, lattice).met.grown(cells_met(reach * run_unit, run_unit));
-    const SpanRows all =
-        without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed);
+    const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed);
     return without(all, beyond(all, found, reach));
 }
 

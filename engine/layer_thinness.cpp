@@ -45,7 +45,8 @@ std::size_t margin_of(const Thinness& thinness, double row_pitch) {
 /// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie near
 /// enough to cells that discs do not reach from what is `beside` it.
 CellRows suspects(CellRows touched, const CellRows& beside, const Thinness& thinness, double row_pitch) {
-    const CellRows core = beside.grown(cells_met(thinness.radius, row_pitch)).complement();
+    CellRows core = beside.grown(cells_met(thinness.radius, row_pitch));
+    core.invert();
     touched.subtract(core.grown(cells_covered(thinness.radius + thinness.slack, row_pitch)));
     return touched;
 }
@@ -57,14 +58,14 @@ void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, 
         out = empty_rows(rows.lines());
         return;
     }
-    const std::size_t margin = suspected.lattice().margin_lines;
     const double reach = thinness.radius + thinness.slack;
+    const std::size_t margin = suspected.lattice().margin_lines;
     SpanRows solid = widened(rows, margin), voids = void_of(solid);
     if (medium == Medium::gaps) std::swap(solid, voids);
-    // Where balls fit matters no further from there than they reach.
-    const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).of(solid, 0);
     SpanRows core, thin;
-    subtract_grown(near, voids, thinness.radius, row_pitch, core);
+    // Where balls fit matters no further from there than they reach.
+    subtract_grown(suspected.grown(cells_met(reach, row_pitch)).of(solid, 0), voids, thinness.radius,
+                   row_pitch, core);
     subtract_grown(suspected.of(solid, 0), core, reach, row_pitch, thin);
     without_margin(thin, margin, out);
 }
@@ -81,7 +82,8 @@ void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, do
 
 void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
                double row_pitch, SpanRows& out) {
-    const CellRows void_met = cells.filled.complement();
+    CellRows void_met = cells.filled;
+    void_met.invert();
     thin_among(medium == Medium::solid ? suspects(cells.met, void_met, thinness, row_pitch)
                                        : suspects(void_met, cells.met, thinness, row_pitch),
                rows, medium, thinness, row_pitch, out);

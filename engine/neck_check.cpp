@@ -26,7 +26,7 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
 }  // namespace
 
 NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
-    constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
+    constexpr double rows_in_a_neck = 3, layers_in_a_neck = 3;
     const auto one_of = [&](double pitch, double samples) {
         return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
     };

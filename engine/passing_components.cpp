@@ -67,7 +67,7 @@ LayerPatch::Point LayerPatch::middle() const {
         const double du = (place - u) / run_unit, dv = run.row - v, d = du * du + dv * dv;
         if (d < nearest) {
             nearest = d;
-            best = {place, run.row};
+            best = {place, std::clamp(v, run.row - 0.5, run.row + 0.5)};
         }
     }
     return best;

@@ -24,11 +24,11 @@ struct LayerPatch {
     /// The two halves of including a run.
     void measure(const PlacedRun& run);
     void keep(const PlacedRun& run);
-    /// A point of the run that is nearest to the middle of all: its row, and the run coordinate, half a pixel
-    /// inside the run where it is that long.
+    /// The point nearest to the middle of all in the run that is nearest to it: its run coordinate, half a
+    /// pixel inside the run where it is that long, and its row, up to half a row from the run's.
     struct Point {
         double along;
-        int row;
+        double row;
     };
     Point middle() const;
 };

@@ -80,7 +80,8 @@ void check_rows(benchmark::State& state) {
 void check_cells(benchmark::State& state) {
     layers();
     for (auto _ : state) {
-        for (const SpanRows& rows : layers()) benchmark::DoNotOptimize(LayerCells(rows, lattice(4 * run_unit)));
+        for (const SpanRows& rows : layers())
+            benchmark::DoNotOptimize(LayerCells(rows, lattice(4 * run_unit)));
     }
     std::size_t runs = 0;
     for (const SpanRows& rows : layers()) runs += rows.runs().size();
