@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "engine/grown_cells.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target:
+#include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -23,24 +24,27 @@ HWY_INLINE void spread(const std::uint64_t* from, int cells, std::size_t words, 
     const Words d;
     const int others = 64 - cells;
     for (std::size_t i = 0; i < words; i += hn::Lanes(d)) {
-        const auto here = hn::LoadU(d, from + i), before = hn::LoadU(d, from + i - 1),
+        const auto here = hn::Load(d, from + i), before = hn::LoadU(d, from + i - 1),
                    behind = hn::LoadU(d, from + i + 1);
         const auto up = hn::Or(hn::ShiftLeftSame(here, cells), hn::ShiftRightSame(before, others)),
                    down = hn::Or(hn::ShiftRightSame(here, cells), hn::ShiftLeftSame(behind, others));
-        hn::StoreU(hn::Or(here, hn::Or(up, down)), d, to + i);
+        hn::Store(hn::Or(here, hn::Or(up, down)), d, to + i);
     }
 }
 
 HWY_INLINE void add(const std::uint64_t* from, std::size_t words, std::uint64_t* to) {
     const Words d;
     for (std::size_t i = 0; i < words; i += hn::Lanes(d))
-        hn::StoreU(hn::Or(hn::LoadU(d, to + i), hn::LoadU(d, from + i)), d, to + i);
+        hn::StoreU(hn::Or(hn::LoadU(d, to + i), hn::Load(d, from + i)), d, to + i);
 }
 
 void grow_cells(const CellRows& cells, const DiscWidths& disc, CellRows& all) {
     const std::size_t words = cells.lattice().words, lines = cells.lattice().lines;
-    std::vector<std::uint64_t> buffers(2 * (words + 2));
-    std::uint64_t *line = buffers.data() + 1, *next = line + words + 2;
+    // Aligned, and with an empty word before and behind each.
+    constexpr std::size_t beside = CellLattice::words_at_once;
+    const auto buffers = hwy::AllocateAligned<std::uint64_t>(2 * words + 3 * beside);
+    std::fill_n(buffers.get(), 2 * words + 3 * beside, 0);
+    std::uint64_t *line = buffers.get() + beside, *next = line + words + beside;
     for (std::size_t l = 0; l < lines; ++l) {
         if (!cells.any_in_line(l)) continue;
         std::copy_n(cells.line(l), words, line);
