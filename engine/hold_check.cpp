@@ -12,6 +12,7 @@ namespace {
 
 constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
+constexpr std::size_t looks_at_slope = 6;  // while an outline moves so far
 
 bool any_floats(const std::vector<std::uint8_t>& floats) {
     return std::ranges::find(floats, 1) != floats.end();
@@ -83,6 +84,7 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       step_(limits.overhang / grid.band.along_pitch),
       slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
+      steep_(empty_rows(static_cast<std::size_t>(grid.band.lines()))),
       supports_(grid, limits.support_spacing, limits.support_gap),
       islands_(most),
       overhangs_(most),
@@ -114,10 +116,11 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
     const SpanRows hanging = without(without(out, held), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    below_.push_back({{}, next.filled, next.hung});  // what hangs in this layer explains itself
-    const SpanRows steep = too_steep(layer, met, held);
-    below_.pop_back();
-    add_overhang(standing_out(layer, united(bad, steep)), index);
+    // Slopes last: what was too steep one or a few layers ago still is, where it still stands out.
+    const auto layers_between_looks =
+        static_cast<int>(std::max<std::size_t>(slope_layers_ / looks_at_slope, 1));
+    if (index % layers_between_looks == 0) steep_ = too_steep(layer, met, held, next.hung);
+    add_overhang(standing_out(layer, united(bad, steep_)), index);
 }
 
 /// The pieces of the part that nothing holds.
@@ -142,22 +145,24 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
 }
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held) const {
-    if (below_.size() <= slope_layers_) return empty_rows(layer.part.lines());
-    const std::size_t first = below_.size() - 1 - slope_layers_;  // the last one is this layer itself
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
+                              const SpanRows& hangs) const {
+    const SpanRows none = empty_rows(layer.part.lines());
+    if (below_.size() < slope_layers_) return none;
+    const std::size_t first = below_.size() - slope_layers_;
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     // Parts of small pieces are small: they need not be looked at further.
-    const SpanRows maybe =
-        large_pieces(maybe_beyond(layer.part, met, below_[first].filled, far), limits_.free_stretch, grid_);
-    if (maybe.runs().empty()) return maybe;
-    SpanRows steep =
-        large_pieces(without(beyond(maybe, below_[first].rows.part, far), held), limits_.free_stretch, grid_);
-    for (std::size_t k = first + 1; k < below_.size() && !steep.runs().empty(); ++k) {
-        const Below& below = below_[k];
-        const auto above = static_cast<double>(below_.size() - 1 - k);
-        if (!below.hung.runs().empty()) steep = beyond(steep, below.hung, above * step_ + 1);
-    }
-    return large_pieces(std::move(steep), limits_.free_stretch, grid_);
+    const auto large = [&](const SpanRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
+    const SpanRows maybe = large(maybe_beyond(layer.part, met, below_[first].filled, far));
+    if (maybe.runs().empty()) return none;
+    SpanRows steep = large(without(beyond(maybe, below_[first].rows.part, far), held));
+    const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
+        if (steep.runs().empty() || hung.runs().empty()) return;
+        steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
+    };
+    explain(hangs, 0);
+    for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
+    return large(steep);
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.

@@ -46,7 +46,8 @@ class HoldCheck {
     void follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands, Below& next,
                           int index);
     SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index);
-    SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held) const;
+    SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
+                       const SpanRows& hangs) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);
@@ -58,6 +59,7 @@ class HoldCheck {
     std::size_t slope_layers_;    // over which a slope is followed
     std::size_t support_layers_;  // back, whose supports an island may stand on
     std::deque<Below> below_;     // newest last
+    SpanRows steep_;              // what was found when slopes were last looked at
     SupportHold supports_;
     PassingComponents hanging_;
     std::vector<EndedComponent> ended_;

@@ -57,8 +57,8 @@ PrintCheckOptions only(Check check) {
 }
 
 CheckReport check(const FieldPtr& part, const PrintCheckOptions& options, int threads = 0,
-                  const FieldPtr& supports = nullptr) {
-    Job job = scenes::job_of(part, part->bounds(), h);
+                  const FieldPtr& supports = nullptr, double layer_height = h) {
+    Job job = scenes::job_of(part, part->bounds(), layer_height);
     job.supports = supports;
     PrintCheck checks(job, options);
     survey_layers(job, checks, threads, {}, nullptr);
@@ -161,6 +161,17 @@ TEST_CASE("slopes steeper than allowed by a quarter are found, and others are no
         CHECK(count(1) == 0);
         CHECK(count(1.35) == 1);
     }
+    // In thin layers slopes are not looked at in each of them, and what stands out is followed all the same.
+    PrintCheckOptions options = only(Check::overhangs);
+    constexpr double thin = 0.05;
+    options.limits.overhang = thin;
+    CHECK(result(check(leaning(1), options, 0, nullptr, thin), Check::overhangs).count == 0);
+    const CheckReport report = check(leaning(1.35), options, 0, nullptr, thin);
+    const CheckResult& found = result(report, Check::overhangs);
+    REQUIRE(found.count == 1);
+    const double followed = 8 * pitch + thin;  // over which a slope has to go on to be known
+    CHECK(found.worst.front().first_layer * thin <= followed + 2 * thin);
+    CHECK(found.worst.front().end_layer * thin == Approx(10).margin(2 * thin));
 }
 
 TEST_CASE("a bar between two towers is too long a bridge", "[check]") {
@@ -214,6 +225,30 @@ TEST_CASE("a fin thinner than a bead is too thin, and one as thick is not, which
         CHECK(result(check(fin(0.2, turn), only(Check::thickness)), Check::thickness).count == 1);
         CHECK(result(check(fin(0.4, turn), only(Check::thickness)), Check::thickness).count == 0);
     }
+}
+
+TEST_CASE("what is too thin in thin layers is known to a quarter of its thickness upright", "[check]") {
+    constexpr double thin = 0.025;
+    const FieldPtr part = with(box({0, 0, 0}, {10, 10, 6}), box({10, 4.9, 2}, {16, 5.1, 5}));
+    for (const Check kind : {Check::thickness, Check::gaps}) {
+        const FieldPtr solid = kind == Check::thickness ? part
+                                                        : make_difference(box({0, 0, 0}, {18, 10, 6}),
+                                                                          box({8, 4.9, 2}, {20, 5.1, 5}));
+        const CheckReport report = check(solid, only(kind), 0, nullptr, thin);
+        const CheckResult& found = result(report, kind);
+        REQUIRE(found.count == 1);
+        const Fault& fault = found.worst.front();
+        CHECK(std::abs(fault.at.y - 5) <= pitch);
+        CHECK(std::abs(fault.first_layer * thin - 2) <= 0.1);
+        CHECK(std::abs(fault.end_layer * thin - 5) <= 0.1);
+        CHECK(std::abs((fault.layer + 0.5) * thin - fault.at.z) <= 0.1);
+        CHECK(fault.runs.front().layer == fault.layer);
+        CHECK(fault.box.size().z == Approx(3).margin(0.2));
+    }
+    // A part of a single layer is looked at, too.
+    CHECK(result(check(box({0, 0, 0}, {8, 0.2, thin}), only(Check::thickness), 0, nullptr, thin),
+                 Check::thickness)
+              .count == 1);
 }
 
 TEST_CASE("a floor is too thin upright only where the process asks", "[check]") {
