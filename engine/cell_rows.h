@@ -33,7 +33,7 @@ DiscWidths cells_covered(double radius, double row_pitch);
 /// A disc about any point of a cell meets at most these cells.
 DiscWidths cells_met(double radius, double row_pitch);
 
-/// A set of cells. Beside the lattice there are none.
+/// A set of cells, a bit for each. Beside the lattice there are none.
 class CellRows {
   public:
     explicit CellRows(const CellLattice& lattice)

@@ -91,7 +91,7 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       bridges_(most) {}
 
 void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, int index) {
-    Below next{{}, std::move(cells.filled), {}};
+    Below next;
     if (below_.empty()) {
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
@@ -101,6 +101,7 @@ void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& pr
     }
     supports_.add(layer.supports);
     next.rows = std::move(layer);
+    filled_below_ = std::move(cells.filled);
     below_.push_back(std::move(next));
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
 }
@@ -112,7 +113,7 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
     // Rows see a border up to a pitch late.
     const Below& below = below_.back();
     const SpanRows out =
-        beyond(maybe_beyond(layer.part, met, below.filled, step_ + 1), below.rows.part, step_ + 1);
+        beyond(maybe_beyond(layer.part, met, *filled_below_, step_ + 1), below.rows.part, step_ + 1);
     const SpanRows hanging = without(without(out, held), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
@@ -126,12 +127,12 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
 /// The pieces of the part that nothing holds.
 SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index) {
     std::vector<std::uint8_t> floats(printed.components.size(), 1);
-    sink_touching(printed, below_.back().rows.printed, floats);
+    sink_touching(printed, below_.back().rows.printed(), floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
         sink_touching(printed, below_[k].rows.supports, floats);
-    if (!any_floats(floats)) return empty_rows(layer.printed.lines());
-    SpanRows floating = rows_of(layer.printed, printed, floats);
+    if (!any_floats(floats)) return empty_rows(layer.printed().lines());
+    SpanRows floating = rows_of(layer.printed(), printed, floats);
     PassingComponents one_layer;
     one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
     one_layer.finish(ended_);
@@ -153,7 +154,8 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     // Parts of small pieces are small: they need not be looked at further.
     const auto large = [&](const SpanRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
-    const SpanRows maybe = large(maybe_beyond(layer.part, met, below_[first].filled, far));
+    const CellRows filled = LayerCells(below_[first].rows.part, met.lattice()).filled;
+    const SpanRows maybe = large(maybe_beyond(layer.part, met, filled, far));
     if (maybe.runs().empty()) return none;
     SpanRows steep = large(without(beyond(maybe, below_[first].rows.part, far), held));
     const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
@@ -169,7 +171,7 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
 SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index) {
     std::vector<std::vector<Run>> bad(hanging.lines());
     if (!large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) {
-        const SpanRows held = without(layer.printed, hanging);
+        const SpanRows held = without(layer.printed(), hanging);
         for (const HangingRegion& region :
              find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
             if (!region.bridge) {
@@ -197,9 +199,9 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
 SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found) const {
     if (found.runs().empty()) return found;
     const double reach = 2 * step_ + 2;
-    const CellLattice& lattice = below_.back().filled.lattice();
+    const CellLattice& lattice = filled_below_->lattice();
     const CellRows near = LayerCells(found, lattice).met.grown(cells_met(reach * run_unit, run_unit));
-    const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed);
+    const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed());
     return without(all, beyond(all, found, reach));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "engine/cell_rows.h"
 #include "engine/hanging_regions.h"
@@ -12,8 +13,10 @@ namespace lamella {
 /// The rows of a layer, as far as the next ones are compared with them.
 struct HoldingRows {
     SpanRows part;
-    SpanRows supports;  ///< empty rows where there are none
-    SpanRows printed;   ///< both
+    SpanRows supports;            ///< empty rows where there are none
+    SpanRows part_with_supports;  ///< nothing where there are none
+
+    const SpanRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
 };
 
 /// Compares each layer with those below it; the first one lies on the bed.
@@ -21,8 +24,9 @@ struct HoldingRows {
 /// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
 /// supports keep. A region hangs where it stands out by more than `overhang` and a pitch over the layer
 /// below; slopes are followed over several layers, so that one is found that is steeper by a quarter than
-/// what is allowed (its tangent). What hangs is excused where it is smaller than `free_stretch`, or where one
-/// direction leads everywhere from hold to hold within the length of a bridge.
+/// what is allowed (its tangent); thin layers are looked at for that every so often, and what was found then
+/// is followed as far as it stands out. What hangs is excused where it is smaller than `free_stretch`, or
+/// where one direction leads everywhere from hold to hold within the length of a bridge.
 class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
@@ -40,7 +44,6 @@ class HoldCheck {
     /// A layer below and what hung in it and may, or is told of as an island.
     struct Below {
         HoldingRows rows;
-        CellRows filled;  // by the part
         SpanRows hung;
     };
     void follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands, Below& next,
@@ -54,12 +57,13 @@ class HoldCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
-    bool follows_overhangs_;      // or nothing but islands
-    double step_;                 // by which a layer may stand out, pitches
-    std::size_t slope_layers_;    // over which a slope is followed
-    std::size_t support_layers_;  // back, whose supports an island may stand on
-    std::deque<Below> below_;     // newest last
-    SpanRows steep_;              // what was found when slopes were last looked at
+    bool follows_overhangs_;                // or nothing but islands
+    double step_;                           // by which a layer may stand out, pitches
+    std::size_t slope_layers_;              // over which a slope is followed
+    std::size_t support_layers_;            // back, whose supports an island may stand on
+    std::deque<Below> below_;               // newest last
+    std::optional<CellRows> filled_below_;  // by the part in the newest of them
+    SpanRows steep_;                        // what was found when slopes were last looked at
     SupportHold supports_;
     PassingComponents hanging_;
     std::vector<EndedComponent> ended_;

@@ -119,6 +119,7 @@ void subtract_grown(const SpanRows& a, const SpanRows& b, double radius, double 
     check_lines(a, b);
     const BallLines disc({row_pitch, infinity, a.lines()}, radius);
     out.clear();
+    out.reserve(a.lines(), a.runs().size());
     append_remainder(
         a, [&](int) { return &b; }, disc, 0, a.lines(), out);
 }
@@ -143,7 +144,10 @@ bool RemainingLayers::pop(SpanRows& out) {
         append_remainder(from, layer_at, ball_, first, std::min(first + lines_at_once, from.lines()),
                          strips[s]);
     });
+    std::size_t runs = 0;
+    for (const SpanRows& strip : strips) runs += strip.runs().size();
     out.clear();
+    out.reserve(from.lines(), runs);
     for (const SpanRows& strip : strips) out.append_lines(strip);
     layers_[past_].from.clear();
     if (past_ == reach_) {

@@ -12,7 +12,9 @@ namespace {
 
 /// Rows with `margin` empty ones on either side.
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
-    SpanRows wide = empty_rows(margin);
+    SpanRows wide;
+    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
+    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
     wide.append_lines(rows);
     for (std::size_t l = 0; l < margin; ++l) wide.end_line();
     return wide;
@@ -34,6 +36,7 @@ SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_o
 
 void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.clear();
+    out.reserve(wide.lines(), wide.runs().size());
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
 }
 

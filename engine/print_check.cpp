@@ -44,7 +44,7 @@ CheckGrid check_grid(const Job& job, double pitch) {
 /// What the layers of a check have in common.
 struct LayerShape {
     std::size_t lines = 0;
-    bool labels_part = false, labels_voids = false;
+    bool labels_part = false, labels_printed = false, labels_voids = false;
 };
 
 /// What the checks need of one layer.
@@ -52,12 +52,7 @@ struct CheckedLayer : LayerProduct {
     explicit CheckedLayer(const LayerShape& given) : shape(given) {}
 
     void carry(Parcel& parcel) override {
-        parcel(has_supports, rows.part, rows.supports, part, voids, thin, narrow);
-        if (has_supports) {
-            parcel(rows.printed, printed);
-        } else if (parcel.unpacks()) {
-            rows.printed = rows.part;
-        }
+        parcel(rows.part, rows.supports, rows.part_with_supports, part, printed, voids, thin, narrow);
         if (parcel.unpacks() && !fits()) throw FaultError("a layer's parcel is of another check");
     }
 
@@ -67,7 +62,6 @@ struct CheckedLayer : LayerProduct {
     LabelledLayer voids;
     std::optional<LayerCells> cells;  ///< of the part; not carried, and made anew where it is missing
     SpanRows thin, narrow;
-    bool has_supports = false;
 
   private:
     bool has_lines(const SpanRows& found) const { return found.lines() == shape.lines; }
@@ -76,12 +70,13 @@ struct CheckedLayer : LayerProduct {
     }
     /// Whether what was unpacked can be held against other layers.
     bool fits() const {
-        if (!has_lines(rows.part) || !has_lines(rows.supports) || !has_lines(rows.printed)) return false;
+        if (!has_lines(rows.part) || !has_lines(rows.supports) || !has_lines(rows.printed())) return false;
         if (!are_labels(part, shape.labels_part) || !are_labels(voids, shape.labels_voids)) return false;
         if (shape.labels_part && part.owners.size() != rows.part.runs().size()) return false;
         if (shape.labels_voids && voids.row(0).empty()) return false;
-        return printed.starts.empty() ||
-               (are_labels(printed, true) && printed.owners.size() == rows.printed.runs().size());
+        const bool has_supports = !rows.supports.runs().empty();
+        return are_labels(printed, shape.labels_printed && has_supports) &&
+               (printed.starts.empty() || printed.owners.size() == rows.printed().runs().size());
     }
 };
 
@@ -190,14 +185,14 @@ class ThicknessCheck {
           // A pitch besides, by which rows see late what is opened.
           measure_{ball.radius, slack_share * ball.radius + run_unit},
           row_pitch_(ball.lattice.row_pitch),
-          courses_(LayerCourses::all(layer_count)),
+          courses_(reaches_neighbours(ball)
+                       ? LayerCourses::all(layer_count)
+                       : LayerCourses::in(thickness, courses_in_a_thickness, grid.layer_height, layer_count)),
           found_(grid, courses_, thickness, most) {
-        if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0) {
-            neighbours_.emplace(ball.lattice, measure_, medium);
-            return;
-        }
-        courses_ = LayerCourses::in(thickness, courses_in_a_thickness, grid.layer_height, layer_count);
-        found_ = PassingFaults(grid, courses_, thickness, most);
+        if (reaches_neighbours(ball)) neighbours_.emplace(ball.lattice, measure_, medium);
+    }
+    bool reaches_neighbours(const SampledBall& ball) const {
+        return ball.lattice.layers_within(ball.radius + measure_.slack) > 0;
     }
     void take() {
         for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
@@ -243,7 +238,7 @@ struct PrintCheck::State {
     bool wants(Check check) const { return options.limits.verdict(check) != Verdict::off; }
     LayerShape shape() const {
         return {static_cast<std::size_t>(grid.band.lines()), pieces || hold || wants(Check::sheets),
-                voids.has_value()};
+                hold.has_value(), voids.has_value()};
     }
     void finish();
     void report_all();
@@ -310,10 +305,11 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
                                                     : empty_rows(part.lines());
     product->support_area = state.grid.area(supports.total_length());
-    product->has_supports = !supports.runs().empty();
-    product->rows.printed = product->has_supports ? united(part, supports) : part;
-    if (state.hold && product->has_supports)
-        product->printed = label_layer(product->rows.printed, layer.index(), Growth{});
+    if (!supports.runs().empty()) {
+        product->rows.part_with_supports = united(part, supports);
+        if (state.hold)
+            product->printed = label_layer(product->rows.part_with_supports, layer.index(), Growth{});
+    }
     product->rows.part = std::move(part);
     product->rows.supports = std::move(supports);
     return product;
@@ -330,8 +326,8 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     const SpanRows& part = checked.rows.part;
     state.report.volume += checked.area * state.grid.layer_height;
     if (state.wants(Check::sheets)) state.sheets.add(checked.part, index);
-    if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed, index);
-    if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed, index);
+    if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed(), index);
+    if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed(), index);
     if (state.voids) state.voids->add(std::move(checked.voids), index);
     if (state.thickness) state.thickness->add(part, checked.thin, index);
     if (state.gaps) state.gaps->add(part, checked.narrow, index);
@@ -339,7 +335,7 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.hold) {
         if (!checked.cells) checked.cells.emplace(part, *state.cells);
         state.hold->add(std::move(checked.rows), *std::move(checked.cells),
-                        checked.has_supports ? checked.printed : checked.part, index);
+                        checked.printed.starts.empty() ? checked.part : checked.printed, index);
     }
     if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }

@@ -24,6 +24,7 @@ inline SpanRows without(const SpanRows& a, const SpanRows& b) {
 /// What [begin, end) has on each line besides the rows, which lie in it.
 inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_t end) {
     SpanRows out;
+    out.reserve(rows.lines(), rows.lines() + rows.runs().size());
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         std::int32_t from = begin;
         for (const Run& run : rows.line(l)) {
@@ -38,6 +39,7 @@ inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_
 /// Rows without a run.
 inline SpanRows empty_rows(std::size_t lines) {
     SpanRows out;
+    out.reserve(lines, 0);
     for (std::size_t l = 0; l < lines; ++l) out.end_line();
     return out;
 }

@@ -33,31 +33,33 @@ void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t u
     out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
 }
 
-/// Gives each run the number of its component, by appearance; returns how many there are.
-std::uint32_t number_components(LabelledLayer& layer) {
+/// Gives the runs of a row numbers of components: those of what they touch in the row before, or new ones.
+void number_row(std::span<const LabelledRun> before, std::span<LabelledRun> row, DisjointSets& sets) {
     constexpr std::uint32_t none = UINT32_MAX;
-    DisjointSets sets;  // most runs take the number of one before them, which nothing else joins
-    for (LabelledRun& run : layer.runs) run.component = none;
-    for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
-        LabelledRun* const runs = layer.runs.data();
-        const std::span<LabelledRun> row(runs + layer.starts[r], runs + layer.starts[r + 1]);
-        if (r > 0) {
-            const std::span<const LabelledRun> before(runs + layer.starts[r - 1], runs + layer.starts[r]);
-            std::size_t i = 0;
-            for (LabelledRun& run : row) {
-                while (i < before.size() && before[i].end < run.begin) ++i;
-                for (std::size_t k = i; k < before.size() && before[k].begin <= run.end; ++k) {
-                    if (run.component == none) {
-                        run.component = before[k].component;
-                    } else if (run.component != before[k].component) {
-                        sets.join(run.component, before[k].component);
-                    }
-                }
+    auto first = before.begin();
+    for (LabelledRun& run : row) {
+        std::uint32_t number = none;
+        while (first != before.end() && first->end < run.begin) ++first;
+        for (auto other = first; other != before.end() && other->begin <= run.end; ++other) {
+            if (number == none) {
+                number = other->component;
+            } else if (number != other->component) {
+                sets.join(number, other->component);
             }
         }
-        for (LabelledRun& run : row) {
-            if (run.component == none) run.component = sets.add();
-        }
+        run.component = number != none ? number : sets.add();
+    }
+}
+
+/// Gives each run the number of its component, by appearance; returns how many there are.
+std::uint32_t number_components(LabelledLayer& layer) {
+    DisjointSets sets;  // most runs take the number of one before them, which nothing else joins
+    std::span<const LabelledRun> before;
+    for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
+        const std::span<LabelledRun> row(layer.runs.data() + layer.starts[r],
+                                         layer.runs.data() + layer.starts[r + 1]);
+        number_row(before, row, sets);
+        before = row;
     }
     std::vector<std::uint32_t> numbers(sets.size());
     std::uint32_t count = 0;
@@ -102,14 +104,19 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     for (std::size_t l = 0; l < rows.lines(); ++l)
         out.starts.push_back(out.starts.back() + static_cast<std::uint32_t>(rows.line(l).size()));
     out.components.resize(number_components(out));
-    out.owners.reserve(out.runs.size());
+    out.owners.resize(out.runs.size());
+    std::size_t i = 0;
     for (int r = 0; r < out.rows(); ++r) {
         for (const LabelledRun& run : out.row(r)) {
-            out.components[run.component].include(
-                {run.end - run.begin, {run.begin, run.end}, r, r, layer, layer});
-            out.owners.push_back(run.component);
+            ComponentExtent& extent = out.components[run.component];
+            extent.length += run.end - run.begin;
+            extent.along = {std::min(extent.along.begin, run.begin), std::max(extent.along.end, run.end)};
+            extent.first_row = std::min(extent.first_row, r);
+            extent.last_row = r;
+            out.owners[i++] = run.component;
         }
     }
+    for (ComponentExtent& extent : out.components) extent.first_layer = extent.last_layer = layer;
     return out;
 }
 

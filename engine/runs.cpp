@@ -91,6 +91,7 @@ template <typename LineOperation>
 void line_by_line(const SpanRows& a, const SpanRows& b, SpanRows& out, LineOperation operation) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
+    out.reserve(a.lines(), a.runs().size());
     for (std::size_t l = 0; l < a.lines(); ++l) operation(a.line(l), b.line(l), out);
 }
 

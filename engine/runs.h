@@ -77,6 +77,11 @@ class SpanRows {
         runs_.clear();
         starts_.assign(1, 0);
     }
+    /// Makes room for so many lines and runs in all.
+    void reserve(std::size_t lines, std::size_t runs) {
+        starts_.reserve(lines + 1);
+        runs_.reserve(runs);
+    }
     std::size_t lines() const { return starts_.size() - 1; }
     std::span<const Run> line(std::size_t l) const {
         return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};

@@ -135,7 +135,7 @@ void check_hold(benchmark::State& state) {
         HoldCheck hold(grid(), limits(), most_places);
         for (std::size_t i = 0; i < labels.size(); ++i) {
             const SpanRows& rows = layers()[i];
-            hold.add({rows, empty_rows(rows.lines()), rows}, LayerCells(rows, lattice(0)), labels[i],
+            hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i],
                      static_cast<int>(i));
         }
         hold.finish();
