@@ -148,7 +148,7 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
 SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
                               const SpanRows& hangs) const {
-    const SpanRows none = empty_rows(layer.part.lines());
+    SpanRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
     const std::size_t first = below_.size() - slope_layers_;
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
