@@ -12,7 +12,6 @@ namespace {
 
 constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
-constexpr std::size_t looks_at_slope = 6;  // while an outline moves so far
 
 bool any_floats(const std::vector<std::uint8_t>& floats) {
     return std::ranges::find(floats, 1) != floats.end();
@@ -84,7 +83,6 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       step_(limits.overhang / grid.band.along_pitch),
       slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
       support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
-      steep_(empty_rows(static_cast<std::size_t>(grid.band.lines()))),
       supports_(grid, limits.support_spacing, limits.support_gap),
       islands_(most),
       overhangs_(most),
@@ -117,11 +115,8 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
     const SpanRows hanging = without(without(out, held), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    // Slopes last: what was too steep one or a few layers ago still is, where it still stands out.
-    const auto layers_between_looks =
-        static_cast<int>(std::max<std::size_t>(slope_layers_ / looks_at_slope, 1));
-    if (index % layers_between_looks == 0) steep_ = too_steep(layer, met, held, next.hung);
-    add_overhang(standing_out(layer, united(bad, steep_)), index);
+    const SpanRows steep = too_steep(layer, met, held, next.hung);
+    add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
 /// The pieces of the part that nothing holds.

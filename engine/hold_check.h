@@ -24,8 +24,7 @@ struct HoldingRows {
 /// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
 /// supports keep. A region hangs where it stands out by more than `overhang` and a pitch over the layer
 /// below; slopes are followed over several layers, so that one is found that is steeper by a quarter than
-/// what is allowed (its tangent); thin layers are looked at for that every so often, and what was found then
-/// is followed as far as it stands out. What hangs is excused where it is smaller than `free_stretch`, or
+/// what is allowed (its tangent). What hangs is excused where it is smaller than `free_stretch`, or
 /// where one direction leads everywhere from hold to hold within the length of a bridge.
 class HoldCheck {
   public:
@@ -63,7 +62,6 @@ class HoldCheck {
     std::size_t support_layers_;            // back, whose supports an island may stand on
     std::deque<Below> below_;               // newest last
     std::optional<CellRows> filled_below_;  // by the part in the newest of them
-    SpanRows steep_;                        // what was found when slopes were last looked at
     SupportHold supports_;
     PassingComponents hanging_;
     std::vector<EndedComponent> ended_;

@@ -12,8 +12,6 @@ namespace {
 /// Rows crumble the border of what is opened, run units.
 constexpr double crumbs = 1.5 * run_unit;
 
-constexpr double samples_in_a_neck = 3;  // rows or layers
-
 ThinLayers thin_layers(const SampledBall& ball) { return {ball.lattice, {ball.radius, crumbs}}; }
 
 /// The parts that a run of row `r` touches.
@@ -27,17 +25,22 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
 
 }  // namespace
 
-NeckCheck::Sampling::Sampling(const CheckGrid& grid, int layer_count, double thickness)
-    : rows(std::max(1,
-                    static_cast<int>(thickness / (samples_in_a_neck * grid.band.across_pitch) * (1 + 1e-9)))),
-      courses(LayerCourses::in(thickness, samples_in_a_neck, grid.layer_height, layer_count)) {}
+NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
+    constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
+    const auto one_of = [&](double pitch, double samples) {
+        return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
+    };
+    rows = one_of(grid.band.across_pitch, rows_in_a_neck);
+    layers = one_of(grid.layer_height, layers_in_a_neck);
+}
 
 CheckGrid NeckCheck::Sampling::of(CheckGrid grid) const {
     // The sampled row is the middle of those that it stands for.
     grid.band.across_origin += rows % 2 == 0 ? 0.5 * grid.band.across_pitch : 0;
     grid.band.across_pitch *= rows;
     grid.band.count = (grid.band.count + rows - 1) / rows;
-    return courses.of(grid);
+    grid.layer_height *= layers;
+    return grid;
 }
 
 SpanRows NeckCheck::Sampling::of(const SpanRows& layer) const {
@@ -49,10 +52,8 @@ SpanRows NeckCheck::Sampling::of(const SpanRows& layer) const {
     return sampled;
 }
 
-NeckCheck::NeckCheck(const CheckGrid& grid, int layer_count, double thickness, double large_part,
-                     std::size_t most)
-    : NeckCheck(Sampling(grid, layer_count, thickness).of(grid), Sampling(grid, layer_count, thickness),
-                thickness, large_part, most) {}
+NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
+    : NeckCheck(Sampling(grid, thickness).of(grid), Sampling(grid, thickness), thickness, large_part, most) {}
 
 NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,
                      std::size_t most)
@@ -63,7 +64,8 @@ NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double 
       necks_(most) {}
 
 void NeckCheck::push(const SpanRows& layer) {
-    if (!sampling_.courses.is_sampled(pushed_++)) return;
+    const int index = pushed_++;
+    if (index != sampling_.sampled_layer(index / sampling_.layers)) return;
     solid_.push_back(sampling_.of(layer));
     thin_.push(solid_.back());
     carry_on();
@@ -157,7 +159,9 @@ void NeckCheck::finish() {
 Fault NeckCheck::neck(const PassingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);
-    sampling_.courses.spread(fault);
+    fault.layer = sampling_.sampled_layer(fault.layer);
+    fault.first_layer *= sampling_.layers;
+    fault.end_layer = std::min(fault.end_layer * sampling_.layers, pushed_);
     std::vector<PlacedRun> runs;
     for (const PlacedRun& run : fault.runs) {
         for (int k = 0; k < sampling_.rows; ++k)

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "engine/layer_courses.h"
+#include "engine/fault_list.h"
 #include "engine/layer_thinness.h"
 #include "engine/passing_parts.h"
 
@@ -16,7 +16,7 @@ namespace lamella {
 class NeckCheck {
   public:
     /// `thickness` of a neck that carries, mm; `large_part`, the volume from which a part counts, mm^3.
-    NeckCheck(const CheckGrid& grid, int layer_count, double thickness, double large_part, std::size_t most);
+    NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most);
 
     void push(const SpanRows& layer);
     void finish();
@@ -28,13 +28,13 @@ class NeckCheck {
         LabelledLayer parts;  ///< components are numbers of parts_
         SpanRows rest;
     };
-    /// One row of so many, and one layer of a course, are looked at.
+    /// One row and one layer of so many are looked at.
     struct Sampling {
-        int rows;
-        LayerCourses courses;
+        int rows, layers;
         /// As few as tell a thickness, mm.
-        Sampling(const CheckGrid& grid, int layer_count, double thickness);
+        Sampling(const CheckGrid& grid, double thickness);
         CheckGrid of(CheckGrid grid) const;
+        int sampled_layer(int course) const { return course * layers + (layers - 1) / 2; }
         SpanRows of(const SpanRows& layer) const;
     };
     NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,

@@ -9,7 +9,6 @@
 #include "engine/fault_list.h"
 #include "engine/hold_check.h"
 #include "engine/layer_checks.h"
-#include "engine/layer_courses.h"
 #include "engine/layer_opening.h"
 #include "engine/layer_thinness.h"
 #include "engine/neck_check.h"
@@ -24,7 +23,6 @@ namespace {
 constexpr double most_rows = 1 << 15;  // along a side
 // An odd number finds the most: walls of up to four pitches whichever way they run.
 constexpr double pitches_in_a_thickness = 5;
-constexpr double courses_in_a_thickness = 4;
 constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
 
 CheckGrid check_grid(const Job& job, double pitch) {
@@ -80,17 +78,17 @@ struct CheckedLayer : LayerProduct {
     }
 };
 
-/// Faults that reach over several layers, from the rows that come of each course of them. Those whose bounds
-/// have a shorter diagonal than `least`, mm, are none.
+/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
+/// diagonal than `least`, mm, are none.
 class PassingFaults {
   public:
-    PassingFaults(const CheckGrid& grid, const LayerCourses& courses, double least, std::size_t most)
-        : grid_(courses.of(grid)), courses_(courses), least_(least), faults_(most) {}
-    void add(LabelledLayer layer, int course) {
-        components_.add(std::move(layer), course, {}, ended_);
+    PassingFaults(const CheckGrid& grid, double least, std::size_t most)
+        : grid_(grid), least_(least), faults_(most) {}
+    void add(LabelledLayer layer, int index) {
+        components_.add(std::move(layer), index, {}, ended_);
         take();
     }
-    void add(const SpanRows& rows, int course) { add(label_layer(rows, course, Growth{}), course); }
+    void add(const SpanRows& rows, int index) { add(label_layer(rows, index, Growth{}), index); }
     void finish() {
         components_.finish(ended_);
         take();
@@ -105,13 +103,11 @@ class PassingFaults {
             const dvec3 size = fault.box.size();
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
-            courses_.spread(fault);
             faults_.add(std::move(fault));
         }
         ended_.clear();
     }
-    CheckGrid grid_;  // of courses
-    LayerCourses courses_;
+    CheckGrid grid_;
     double least_;
     PassingComponents components_;
     std::vector<EndedComponent> ended_;
@@ -143,31 +139,33 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     check_number("support spacing", limits.support_spacing, 0);
 }
 
-/// Thicknesses of solid or void: layers one by one in parallel, one of each course of them, or all with their
-/// neighbours in order.
+/// Thicknesses of solid or void: layers one by one in parallel, or with their neighbours in order.
 class ThicknessCheck {
   public:
-    ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
-                   Medium medium, std::size_t most)
-        : ThicknessCheck(grid, layer_count, thickness,
-                         sampled_ball(grid.band, grid.layer_height, thickness, thickness_up), medium, most) {}
+    ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, Medium medium,
+                   std::size_t most)
+        : medium_(medium), found_(grid, thickness, most) {
+        const SampledBall ball = sampled_ball(grid.band, grid.layer_height, thickness, thickness_up);
+        // A pitch besides, by which rows see late what is opened.
+        measure_ = {ball.radius, slack_share * ball.radius + run_unit};
+        row_pitch_ = ball.lattice.row_pitch;
+        if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)
+            neighbours_.emplace(ball.lattice, measure_, medium);
+    }
 
     /// What the lattice of cells has to reach.
     double reach() const { return neighbours_ ? 0 : thinness_reach(measure_); }
     /// What of a layer can be told without its neighbours. Pure.
-    SpanRows prepare(const SpanRows& rows, const LayerCells& cells, int layer) const {
+    SpanRows prepare(const SpanRows& rows, const LayerCells& cells) const {
         SpanRows found;
-        if (neighbours_ || !courses_.is_sampled(layer)) return found;
+        if (neighbours_) return found;
         thin_rows(rows, cells, medium_, measure_, row_pitch_, found);
         return found;
     }
-    void add(const SpanRows& rows, const SpanRows& prepared, int layer) {
-        if (neighbours_) {
-            neighbours_->push(rows);
-            take();
-        } else if (courses_.is_sampled(layer)) {
-            found_.add(prepared, next_++);
-        }
+    void add(const SpanRows& rows, const SpanRows& prepared) {
+        if (!neighbours_) return found_.add(prepared, next_++);
+        neighbours_->push(rows);
+        take();
     }
     void finish() {
         if (neighbours_) {
@@ -179,30 +177,14 @@ class ThicknessCheck {
     const FaultList& faults() const { return found_.faults(); }
 
   private:
-    ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, const SampledBall& ball,
-                   Medium medium, std::size_t most)
-        : medium_(medium),
-          // A pitch besides, by which rows see late what is opened.
-          measure_{ball.radius, slack_share * ball.radius + run_unit},
-          row_pitch_(ball.lattice.row_pitch),
-          courses_(reaches_neighbours(ball)
-                       ? LayerCourses::all(layer_count)
-                       : LayerCourses::in(thickness, courses_in_a_thickness, grid.layer_height, layer_count)),
-          found_(grid, courses_, thickness, most) {
-        if (reaches_neighbours(ball)) neighbours_.emplace(ball.lattice, measure_, medium);
-    }
-    bool reaches_neighbours(const SampledBall& ball) const {
-        return ball.lattice.layers_within(ball.radius + measure_.slack) > 0;
-    }
     void take() {
         for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
     }
     Medium medium_;
     Thinness measure_;
-    double row_pitch_;
+    double row_pitch_ = 0;
     std::optional<ThinLayers> neighbours_;
-    LayerCourses courses_;
-    int next_ = 0;  // course to be told of
+    int next_ = 0;  // layer to be told of
     PassingFaults found_;
 };
 
@@ -218,14 +200,13 @@ struct PrintCheck::State {
           reach(grid, given.limits.build_volume, given.most_places) {
         const PrintLimits& limits = given.limits;
         const std::size_t most = given.most_places;
-        if (wants(Check::connectivity)) pieces.emplace(grid, LayerCourses::all(layer_count), 0, most);
+        if (wants(Check::connectivity)) pieces.emplace(grid, 0, most);
         if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
             hold.emplace(grid, limits, most);
         if (wants(Check::thickness))
-            thickness.emplace(grid, layer_count, limits.thickness, limits.thickness_up, Medium::solid, most);
-        if (wants(Check::gaps))
-            gaps.emplace(grid, layer_count, limits.gap, limits.gap_up, Medium::gaps, most);
-        if (wants(Check::necks)) necks.emplace(grid, layer_count, limits.neck, limits.large_part, most);
+            thickness.emplace(grid, limits.thickness, limits.thickness_up, Medium::solid, most);
+        if (wants(Check::gaps)) gaps.emplace(grid, limits.gap, limits.gap_up, Medium::gaps, most);
+        if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
         if (wants(Check::cavities) || wants(Check::cups))
             voids.emplace(grid, limits.cavity, limits.cup, most);
         double reach_of_cells = 0;
@@ -300,8 +281,8 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness || state.gaps || state.hold) product->cells.emplace(part, *state.cells);
-    if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells, layer.index());
-    if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells, layer.index());
+    if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells);
+    if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells);
     SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
                                                     : empty_rows(part.lines());
     product->support_area = state.grid.area(supports.total_length());
@@ -329,8 +310,8 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed(), index);
     if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed(), index);
     if (state.voids) state.voids->add(std::move(checked.voids), index);
-    if (state.thickness) state.thickness->add(part, checked.thin, index);
-    if (state.gaps) state.gaps->add(part, checked.narrow, index);
+    if (state.thickness) state.thickness->add(part, checked.thin);
+    if (state.gaps) state.gaps->add(part, checked.narrow);
     if (state.necks) state.necks->push(part);
     if (state.hold) {
         if (!checked.cells) checked.cells.emplace(part, *state.cells);

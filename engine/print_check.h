@@ -54,10 +54,9 @@ double check_pitch(const Job& job, const PrintLimits& limits);
 
 /// Looks at layers as they stream by. A back-end of its own or beside others; writes nothing.
 ///
-/// Rows lie a pitch apart and are exact along x. Of layers that lie much closer than what is looked for is
-/// high, thicknesses and necks are measured in one of several. Memory depends on a few layers' runs, not on
-/// their number. The report is a pure function of job and options, the same by any number of threads. Throws
-/// InputError when the limits or the pitch make no sense for the job.
+/// Rows lie a pitch apart and are exact along x. Memory depends on a few layers' runs, not on their number.
+/// The report is a pure function of job and options, the same by any number of threads. Throws InputError
+/// when the limits or the pitch make no sense for the job.
 class PrintCheck : public Backend {
   public:
     PrintCheck(const Job& job, const PrintCheckOptions& options);

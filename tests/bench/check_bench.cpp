@@ -147,7 +147,7 @@ void check_necks(benchmark::State& state) {
     layers();
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     for (auto _ : state) {
-        NeckCheck necks(grid(), layer_count, 0.6, 1000, most_places);
+        NeckCheck necks(grid(), 0.6, 1000, most_places);
         for (const SpanRows& rows : layers()) necks.push(rows);
         necks.finish();
     }
