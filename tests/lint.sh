@@ -10,5 +10,7 @@ if [ $# -eq 0 ]; then
     mapfile -t files < <(git ls-files 'engine/*.cpp' 'procedural/*.cpp' 'printers/*.cpp' 'images/*.cpp' 'ranks/*.cpp' 'recipe/*.cpp' 'bindings/*.cpp' 'app/*.cpp' | grep -vE 'row_kernels|formula_batch_kernel|gap_limits|grown_cells')
     set -- "${files[@]}"
 fi
-printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p $build --quiet 2>/dev/null
+# The compiler looks for reserved names, empty bodies and null texts in a fraction of the time that clang-tidy's own checks
+# for them take: those are off in .clang-tidy.
+printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p $build --quiet --extra-arg=-Wreserved-identifier 2>/dev/null
 echo "lint: clang-tidy has nothing to say about $# files"
