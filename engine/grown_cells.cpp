@@ -51,8 +51,9 @@ void grow_cells(const CellRows& cells, const DiscWidths& disc, CellRows& all) {
         std::int32_t width = 0;
         for (std::size_t k = disc.size(); k-- > 0;) {
             while (width < disc[k]) {
-                // No cell between the moved ones may be left out.
-                const std::int32_t step = std::min({disc[k] - width, 2 * width + 1, 63});
+                // No cell between the moved ones may be left out, not even where those to one side lie beyond
+                // the end of the line and are lost.
+                const std::int32_t step = std::min({disc[k] - width, width + 1, 63});
                 spread(line, step, words, next);
                 std::swap(line, next);
                 width += step;

@@ -50,6 +50,16 @@ int length_in(std::span<const Run> runs, std::int32_t begin) {
     return length;
 }
 
+bool any_within(const CellRows& cells, const DiscWidths& disc, int line, int column) {
+    for (int k = 0; k < static_cast<int>(disc.size()); ++k) {
+        const std::int32_t width = disc[static_cast<std::size_t>(k)];
+        for (std::int32_t d = -width; d <= width; ++d) {
+            if (has(cells, line - k, column + d) || has(cells, line + k, column + d)) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
@@ -106,15 +116,26 @@ TEST_CASE("cells grow by all that a disc about them may meet, and no further", "
                 INFO("radius " << radius << " on " << target);
                 for (int l = 0; l < static_cast<int>(lattice.lines); ++l) {
                     for (int c = 0; c < columns_of(lattice); c += 1 + l % 3) {
-                        bool near = false;
-                        for (int k = 0; k < static_cast<int>(disc.size()) && !near; ++k) {
-                            const std::int32_t width = disc[static_cast<std::size_t>(k)];
-                            for (std::int32_t d = -width; d <= width && !near; ++d)
-                                near = has(cells, l - k, c + d) || has(cells, l + k, c + d);
-                        }
-                        REQUIRE(has(grown, l, c) == near);
+                        REQUIRE(has(grown, l, c) == any_within(cells, disc, l, c));
                     }
                 }
+            }
+        }
+    }
+}
+
+TEST_CASE("cells grow the same where lines end", "[morphology]") {
+    const CellLattice lattice({0, 100 * run_unit}, 5, 0, run_unit);
+    for (const double radius : {1.0, 1.6, 2.6, 5.2, 20.0, 45.0}) {
+        const DiscWidths disc = cells_met(radius * run_unit, run_unit);
+        for (const int column : {0, 1, 63, 64, columns_of(lattice) - 2, columns_of(lattice) - 1}) {
+            CellRows cells(lattice);
+            cells.line(2)[column / 64] = std::uint64_t{1} << (column % 64);
+            const CellRows grown = cells.grown(disc);
+            INFO("radius " << radius << ", column " << column);
+            for (int l = 0; l < static_cast<int>(lattice.lines); ++l) {
+                for (int c = 0; c < columns_of(lattice); ++c)
+                    REQUIRE(has(grown, l, c) == any_within(cells, disc, l, c));
             }
         }
     }
