@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <optional>
 
 #include "app/check_outputs.h"
 #include "app/check_page.h"
@@ -47,12 +48,6 @@ CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, con
     return checking.outcomes().front();
 }
 
-void write(const std::string& path, const std::string& text) {
-    TextOutput out(path);
-    out.write(text);
-    out.close();
-}
-
 /// `ranks`: the processes that share the layers; null where there is this one alone.
 std::string run(const CheckCommand& options, Ranks* ranks) {
     CancelToken cancel;
@@ -60,9 +55,17 @@ std::string run(const CheckCommand& options, Ranks* ranks) {
     const Recipe recipe = recipe_of(options);
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
+    // Files that cannot be made are told of before anything is looked at.
+    TextOutput table(options.output);
+    std::optional<TextOutput> page;
+    if (!options.page.empty()) page.emplace(options.page);
     const CheckOutcome outcome = check_layers(options, recipe, prepared, ranks);
-    write(options.output, options.json ? check_json(outcome, job).dump(2) + "\n" : check_text(outcome));
-    if (!options.page.empty()) write(options.page, check_page(outcome, job));
+    table.write(options.json ? check_json(outcome, job).dump(2) + "\n" : check_text(outcome));
+    table.close();
+    if (page) {
+        page->write(check_page(outcome, job));
+        page->close();
+    }
     return outcome.report.passed() ? "" : failure_text(outcome);
 }
 

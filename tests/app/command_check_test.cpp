@@ -184,6 +184,18 @@ TEST_CASE("wrong limits are told by their names, and nothing is written", "[chec
     CHECK(tree(folder.path()).size() == 1);
 }
 
+TEST_CASE("a file that cannot be made is told of before anything is looked at", "[check]") {
+    const Folder folder;
+    const std::string good = folder / "good", bad = folder / "missing" + "/bad";
+    for (const auto& [table, page] : {std::pair(good, bad), std::pair(bad, good)}) {
+        const Outcome run = run_lamella(fmt::format("check {} -o {} --report {}", block, table, page));
+        CHECK(run.code == 3);
+        CHECK(mentions(run.err, bad + ".part: cannot be made: No such file or directory"));
+        CHECK(!mentions(run.err, "layers"));
+        CHECK(tree(folder.path()).empty());
+    }
+}
+
 TEST_CASE("slice --check writes the bytes of a run without it, and tells what it found", "[check]") {
     const Folder folder;
     const std::string part = boxes(folder, two_blocks());
