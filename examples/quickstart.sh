@@ -7,9 +7,11 @@ cd "$(dirname "$0")/.."
 out=${1:-out}
 
 bash cmake/install_packages.sh cmake/packages-build.txt
-echo "Building the lamella command (a few minutes the first time)"
+echo "Building the lamella command (about ten minutes on two cores the first time)"
 cmake -S . -B build/quickstart -G Ninja -DCMAKE_BUILD_TYPE=Release -DLAMELLA_TESTS=OFF >/dev/null
-cmake --build build/quickstart --target lamella_command | tail -n 1
+build=(cmake --build build/quickstart --target lamella_command)
+[ -t 1 ] || build+=(-- --quiet)  # a terminal shows in one line how far it is
+"${build[@]}"
 lamella=build/quickstart/lamella
 
 mkdir -p "$out"

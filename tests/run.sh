@@ -6,6 +6,8 @@ preset=${1:-release}
 [ $# -gt 0 ] && shift
 bash cmake/install_packages.sh cmake/packages-build.txt cmake/packages-test.txt
 cmake --preset "$preset" >/dev/null
-cmake --build "build/$preset" | tail -n 1
+build=(cmake --build "build/$preset")
+[ -t 1 ] || build+=(-- --quiet)  # a terminal shows in one line how far it is
+"${build[@]}"
 export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp}
 ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
