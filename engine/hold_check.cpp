@@ -29,6 +29,37 @@ void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::ve
     }
 }
 
+/// Whether a run of row `r` lies within a pitch of components of its layer that do not float.
+bool is_beside_held(const LabelledRun& run, int r, const LabelledLayer& labelled,
+                    const std::vector<std::uint8_t>& floats) {
+    const Run wide{run.begin - run_unit, run.end + run_unit};
+    for (int near = r - 1; near <= r + 1; ++near) {
+        bool held = false;
+        for_touching(std::span(&wide, 1), labelled.row(near), [&](const Run&, const LabelledRun& other) {
+            held = held || floats[other.component] == 0;
+        });
+        if (held) return true;
+    }
+    return false;
+}
+
+/// Crumbs, pieces smaller than a sample, do not float beside what is held: rows cut the tips of slim things
+/// into such.
+void sink_crumbs(const LabelledLayer& labelled, std::vector<std::uint8_t>& floats) {
+    for (bool again = true; again;) {
+        again = false;
+        for (int r = labelled.first_row; r < labelled.first_row + labelled.rows(); ++r) {
+            for (const LabelledRun& run : labelled.row(r)) {
+                const bool is_crumb = labelled.components[run.component].length < run_unit;
+                if (floats[run.component] == 0 || !is_crumb || !is_beside_held(run, r, labelled, floats))
+                    continue;
+                floats[run.component] = 0;
+                again = true;
+            }
+        }
+    }
+}
+
 /// What of a lies further than `pitches` from b.
 SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
     SpanRows out;
@@ -126,6 +157,7 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
         sink_touching(printed, below_[k].rows.supports, floats);
+    if (any_floats(floats)) sink_crumbs(printed, floats);
     if (!any_floats(floats)) return empty_rows(layer.printed().lines());
     SpanRows floating = rows_of(layer.printed(), printed, floats);
     PassingComponents one_layer;

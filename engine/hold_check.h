@@ -22,10 +22,11 @@ struct HoldingRows {
 /// Compares each layer with those below it; the first one lies on the bed.
 ///
 /// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
-/// supports keep. A region hangs where it stands out by more than `overhang` and a pitch over the layer
-/// below; slopes are followed over several layers, so that one is found that is steeper by a quarter than
-/// what is allowed (its tangent). What hangs is excused where it is smaller than `free_stretch`, or
-/// where one direction leads everywhere from hold to hold within the length of a bridge.
+/// supports keep; pieces smaller than a sample are none within a pitch of others that are held. A region
+/// hangs where it stands out by more than `overhang` and a pitch over the layer below; slopes are followed
+/// over several layers, so that one is found that is steeper by a quarter than what is allowed (its tangent).
+/// What hangs is excused where it is smaller than `free_stretch`, or where one direction leads everywhere
+/// from hold to hold within the length of a bridge.
 class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);

@@ -353,6 +353,23 @@ TEST_CASE("a sheet in pieces is told of layer by layer", "[check]") {
     CHECK(sheets.worst.size() == 10);
 }
 
+TEST_CASE("slim tips of slanted beams are no islands, however rows cut them", "[check]") {
+    const dvec3 hub(0, 0, 2);
+    std::vector<FieldPtr> parts{make_cylinder(dvec3(0), dvec3(0, 0, 6), 1)};
+    for (int k = 0; k < 36; ++k) {
+        const double turn = k * pi / 18, climb = 0.4 + 0.1 * k;
+        const dvec3 end = hub + dvec3(12 * std::cos(turn), 12 * std::sin(turn), climb);
+        parts.push_back(make_round_cone({hub, 0.3, end, 0.2}));
+    }
+    CHECK(check(make_union(parts), only(Check::islands), 0, nullptr, 0.05).passed());
+    // One that comes down to a point of its own does begin in the air.
+    parts.push_back(make_round_cone({dvec3(0, 0, 5.5), 0.3, dvec3(9, 0, 4.5), 0.2}));
+    const CheckReport report = check(make_union(parts), only(Check::islands), 0, nullptr, 0.05);
+    const CheckResult& islands = result(report, Check::islands);
+    REQUIRE(islands.count == 1);
+    CHECK(islands.worst.front().layer == 86);  // the ball at its end reaches down to 4.3 mm
+}
+
 TEST_CASE("supports hold what hangs", "[check]") {
     const FieldPtr shelf = with(brick(), box({31, 30, 15}, {36, 40, 17})),
                    ball = make_sphere({40, 20, 10}, 2);
