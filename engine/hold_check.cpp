@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/disjoint_sets.h"
 #include "engine/layer_remainder.h"
 #include "engine/row_sets.h"
 
@@ -29,34 +30,45 @@ void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::ve
     }
 }
 
-/// Whether a run of row `r` lies within a pitch of components of its layer that do not float.
-bool is_beside_held(const LabelledRun& run, int r, const LabelledLayer& labelled,
-                    const std::vector<std::uint8_t>& floats) {
-    const Run wide{run.begin - run_unit, run.end + run_unit};
-    for (int near = r - 1; near <= r + 1; ++near) {
-        bool held = false;
-        for_touching(std::span(&wide, 1), labelled.row(near), [&](const Run&, const LabelledRun& other) {
-            held = held || floats[other.component] == 0;
-        });
-        if (held) return true;
+/// Joins those components in and beside a row that hang together as closer rows see it, wherever along it:
+/// what is slim and runs nearly along shows far apart in two rows.
+void join_by_closer_rows(const LabelledLayer& labelled, int row, const CheckGrid& grid, const RowsIn& rows_in,
+                         DisjointSets& sets) {
+    constexpr int lines_a_row = 9;  // an odd number: the middle one lies where the row does
+    constexpr std::uint32_t none = UINT32_MAX;
+    RowBand band = grid.band;
+    band.first = std::max(row - 1, 0);
+    band.count = std::min(row + 2, grid.band.count) - band.first;
+    band.sub = lines_a_row;
+    const LabelledLayer closer = label_layer(rows_in(band), 0, Growth{});
+    std::vector<std::uint32_t> seen_as(closer.components.size(), none);
+    for (int k = 0; k < band.count; ++k) {
+        for_touching(labelled.row(band.first + k), closer.row(k * lines_a_row + lines_a_row / 2),
+                     [&](const LabelledRun& run, const LabelledRun& other) {
+                         std::uint32_t& first = seen_as[other.component];
+                         if (first == none) first = run.component;
+                         sets.join(first, run.component);
+                     });
     }
-    return false;
 }
 
-/// Crumbs, pieces smaller than a sample, do not float beside what is held: rows cut the tips of slim things
-/// into such.
-void sink_crumbs(const LabelledLayer& labelled, std::vector<std::uint8_t>& floats) {
-    for (bool again = true; again;) {
-        again = false;
-        for (int r = labelled.first_row; r < labelled.first_row + labelled.rows(); ++r) {
-            for (const LabelledRun& run : labelled.row(r)) {
-                const bool is_crumb = labelled.components[run.component].length < run_unit;
-                if (floats[run.component] == 0 || !is_crumb || !is_beside_held(run, r, labelled, floats))
-                    continue;
-                floats[run.component] = 0;
-                again = true;
-            }
-        }
+/// Pieces that one row alone sees may hang together with what is held: rows cut slim tips into such.
+void sink_tips(const LabelledLayer& labelled, const CheckGrid& grid, const RowsIn& rows_in,
+               std::vector<std::uint8_t>& floats) {
+    DisjointSets sets(floats.size());
+    int looked_at = -1;
+    for (std::size_t c = 0; c < floats.size(); ++c) {  // by their first rows
+        const ComponentExtent& extent = labelled.components[c];
+        if (floats[c] == 0 || extent.first_row != extent.last_row || extent.first_row == looked_at) continue;
+        looked_at = extent.first_row;
+        join_by_closer_rows(labelled, looked_at, grid, rows_in, sets);
+    }
+    std::vector<std::uint8_t> held(floats.size(), 0);
+    for (std::uint32_t c = 0; c < floats.size(); ++c) {
+        if (floats[c] == 0) held[sets.find(c)] = 1;
+    }
+    for (std::uint32_t c = 0; c < floats.size(); ++c) {
+        if (held[sets.find(c)] != 0) floats[c] = 0;
     }
 }
 
@@ -119,13 +131,14 @@ HoldCheck::HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size
       overhangs_(most),
       bridges_(most) {}
 
-void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, int index) {
+void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, const RowsIn& rows_in,
+                    int index) {
     Below next;
     if (below_.empty()) {
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
-        const SpanRows islands = find_islands(layer, printed, index);
+        const SpanRows islands = find_islands(layer, printed, rows_in, index);
         if (follows_overhangs_) follow_overhangs(layer, cells.met, islands, next, index);
     }
     supports_.add(layer.supports);
@@ -151,13 +164,14 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
 }
 
 /// The pieces of the part that nothing holds.
-SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index) {
+SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& printed,
+                                 const RowsIn& rows_in, int index) {
     std::vector<std::uint8_t> floats(printed.components.size(), 1);
     sink_touching(printed, below_.back().rows.printed(), floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
         sink_touching(printed, below_[k].rows.supports, floats);
-    if (any_floats(floats)) sink_crumbs(printed, floats);
+    if (any_floats(floats)) sink_tips(printed, grid_, rows_in, floats);
     if (!any_floats(floats)) return empty_rows(layer.printed().lines());
     SpanRows floating = rows_of(layer.printed(), printed, floats);
     PassingComponents one_layer;

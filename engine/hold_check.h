@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 
 #include "engine/cell_rows.h"
@@ -19,21 +20,25 @@ struct HoldingRows {
     const SpanRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
 };
 
+/// What a layer prints, in the rows of any band.
+using RowsIn = std::function<SpanRows(const RowBand&)>;
+
 /// Compares each layer with those below it; the first one lies on the bed.
 ///
 /// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
-/// supports keep; pieces smaller than a sample are none within a pitch of others that are held. A region
-/// hangs where it stands out by more than `overhang` and a pitch over the layer below; slopes are followed
-/// over several layers, so that one is found that is steeper by a quarter than what is allowed (its tangent).
-/// What hangs is excused where it is smaller than `free_stretch`, or where one direction leads everywhere
-/// from hold to hold within the length of a bridge.
+/// supports keep; one that a single row sees is looked at in closer rows first. A region hangs where it
+/// stands out by more than `overhang` and a pitch over the layer below; slopes are followed over several
+/// layers, so that one is found that is steeper by a quarter than what is allowed (its tangent). What hangs
+/// is excused where it is smaller than `free_stretch`, or where one direction leads everywhere from hold to
+/// hold within the length of a bridge.
 class HoldCheck {
   public:
     HoldCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
     /// `cells` are those of the part, on one lattice for all layers; `printed` is what the layer prints,
-    /// labelled without growth.
-    void add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, int index);
+    /// labelled without growth, and `rows_in` that in other bands.
+    void add(HoldingRows layer, LayerCells cells, const LabelledLayer& printed, const RowsIn& rows_in,
+             int index);
     void finish();
 
     const FaultList& islands() const { return islands_; }
@@ -48,7 +53,8 @@ class HoldCheck {
     };
     void follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands, Below& next,
                           int index);
-    SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, int index);
+    SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, const RowsIn& rows_in,
+                          int index);
     SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
                        const SpanRows& hangs) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);

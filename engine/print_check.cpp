@@ -114,6 +114,16 @@ class PassingFaults {
     FaultList faults_;
 };
 
+/// The part and its supports.
+SpanRows printed_rows(const Layer& layer, const RowBand& band) {
+    Scratch scratch;
+    SpanRows part, supports;
+    layer.part().spans(band, scratch, part);
+    if (layer.supports() == nullptr) return part;
+    layer.supports()->spans(band, scratch, supports);
+    return united(part, supports);
+}
+
 void check_number(const char* name, double value, double above) {
     if (value > above && value < 1e9) return;
     const bool printable = std::abs(value) < 1e9;
@@ -315,8 +325,10 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.necks) state.necks->push(part);
     if (state.hold) {
         if (!checked.cells) checked.cells.emplace(part, *state.cells);
-        state.hold->add(std::move(checked.rows), *std::move(checked.cells),
-                        checked.printed.starts.empty() ? checked.part : checked.printed, index);
+        state.hold->add(
+            std::move(checked.rows), *std::move(checked.cells),
+            checked.printed.starts.empty() ? checked.part : checked.printed,
+            [&](const RowBand& band) { return printed_rows(layer, band); }, index);
     }
     if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }

@@ -41,17 +41,17 @@ FieldPtr foam() {
     return make_intersection({make_voronoi_foam(settings), make_box(settings.region)});
 }
 
-SpanRows rows_of(const Field& field, int layer) {
+SpanRows rows_of(const Field& field, int layer, const RowBand& band) {
     SliceContext context;
     Scratch scratch;
-    return all_rows(context.slice(field, (layer + 0.5) * layer_height), grid().band, scratch);
+    return all_rows(context.slice(field, (layer + 0.5) * layer_height), band, scratch);
 }
 
 const std::vector<SpanRows>& layers() {
     static const std::vector<SpanRows> all = [] {
         const FieldPtr field = foam();
         std::vector<SpanRows> rows;
-        for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i));
+        for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i, grid().band));
         return rows;
     }();
     return all;
@@ -73,7 +73,7 @@ PrintLimits limits() {
 void check_rows(benchmark::State& state) {
     const FieldPtr field = foam();
     for (auto _ : state) {
-        for (int i = 0; i < layer_count; ++i) benchmark::DoNotOptimize(rows_of(*field, i));
+        for (int i = 0; i < layer_count; ++i) benchmark::DoNotOptimize(rows_of(*field, i, grid().band));
     }
 }
 
@@ -131,11 +131,15 @@ void check_hold(benchmark::State& state) {
     std::vector<LabelledLayer> labels;
     for (const SpanRows& rows : layers())
         labels.push_back(label_layer(rows, static_cast<int>(labels.size()), Growth{}));
+    const FieldPtr field = foam();
     for (auto _ : state) {
         HoldCheck hold(grid(), limits(), most_places);
         for (std::size_t i = 0; i < labels.size(); ++i) {
             const SpanRows& rows = layers()[i];
-            hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i],
+            const auto rows_in = [&](const RowBand& band) {
+                return rows_of(*field, static_cast<int>(i), band);
+            };
+            hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i], rows_in,
                      static_cast<int>(i));
         }
         hold.finish();
