@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <deque>
 #include <limits>
 
 #include "engine/csg.h"
@@ -41,17 +42,17 @@ FieldPtr foam() {
     return make_intersection({make_voronoi_foam(settings), make_box(settings.region)});
 }
 
-SpanRows rows_of(const Field& field, int layer, const RowBand& band) {
+SpanRows rows_of(const Field& field, int layer) {
     SliceContext context;
     Scratch scratch;
-    return all_rows(context.slice(field, (layer + 0.5) * layer_height), band, scratch);
+    return all_rows(context.slice(field, (layer + 0.5) * layer_height), grid().band, scratch);
 }
 
 const std::vector<SpanRows>& layers() {
     static const std::vector<SpanRows> all = [] {
         const FieldPtr field = foam();
         std::vector<SpanRows> rows;
-        for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i, grid().band));
+        for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i));
         return rows;
     }();
     return all;
@@ -73,7 +74,7 @@ PrintLimits limits() {
 void check_rows(benchmark::State& state) {
     const FieldPtr field = foam();
     for (auto _ : state) {
-        for (int i = 0; i < layer_count; ++i) benchmark::DoNotOptimize(rows_of(*field, i, grid().band));
+        for (int i = 0; i < layer_count; ++i) benchmark::DoNotOptimize(rows_of(*field, i));
     }
 }
 
@@ -131,14 +132,18 @@ void check_hold(benchmark::State& state) {
     std::vector<LabelledLayer> labels;
     for (const SpanRows& rows : layers())
         labels.push_back(label_layer(rows, static_cast<int>(labels.size()), Growth{}));
+    // Layers are cut already where they are checked.
     const FieldPtr field = foam();
+    std::deque<SliceContext> contexts;
+    std::vector<const SliceField*> slices;
+    for (int i = 0; i < layer_count; ++i)
+        slices.push_back(&contexts.emplace_back().slice(*field, (i + 0.5) * layer_height));
+    Scratch scratch;
     for (auto _ : state) {
         HoldCheck hold(grid(), limits(), most_places);
         for (std::size_t i = 0; i < labels.size(); ++i) {
             const SpanRows& rows = layers()[i];
-            const auto rows_in = [&](const RowBand& band) {
-                return rows_of(*field, static_cast<int>(i), band);
-            };
+            const auto rows_in = [&](const RowBand& band) { return all_rows(*slices[i], band, scratch); };
             hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i], rows_in,
                      static_cast<int>(i));
         }
