@@ -56,6 +56,9 @@ std::string run(const CheckCommand& options, Ranks* ranks) {
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
     // Files that cannot be made are told of before anything is looked at.
+    if (!options.page.empty() && options.page == options.output)
+        throw InputError("--report: " + options.page +
+                         " is the file of --output, too; accepted: another one for each");
     TextOutput table(options.output);
     std::optional<TextOutput> page;
     if (!options.page.empty()) page.emplace(options.page);

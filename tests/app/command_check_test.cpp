@@ -194,6 +194,10 @@ TEST_CASE("a file that cannot be made is told of before anything is looked at", 
         CHECK(!mentions(run.err, "layers"));
         CHECK(tree(folder.path()).empty());
     }
+    const Outcome twice = run_lamella(fmt::format("check {} -o {} --report {}", block, good, good));
+    CHECK(twice.code == 2);
+    CHECK(mentions(twice.err, "is the file of --output, too"));
+    CHECK(tree(folder.path()).empty());
 }
 
 TEST_CASE("slice --check writes the bytes of a run without it, and tells what it found", "[check]") {
