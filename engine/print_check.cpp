@@ -115,13 +115,9 @@ class PassingFaults {
 };
 
 /// The part and its supports.
-SpanRows printed_rows(const Layer& layer, const RowBand& band) {
-    Scratch scratch;
-    SpanRows part, supports;
-    layer.part().spans(band, scratch, part);
-    if (layer.supports() == nullptr) return part;
-    layer.supports()->spans(band, scratch, supports);
-    return united(part, supports);
+SpanRows printed_rows(const Layer& layer, const RowBand& band, Scratch& scratch) {
+    SpanRows part = all_rows(layer.part(), band, scratch);
+    return layer.supports() == nullptr ? part : united(part, all_rows(*layer.supports(), band, scratch));
 }
 
 void check_number(const char* name, double value, double above) {
@@ -325,10 +321,11 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.necks) state.necks->push(part);
     if (state.hold) {
         if (!checked.cells) checked.cells.emplace(part, *state.cells);
+        Scratch scratch;
         state.hold->add(
             std::move(checked.rows), *std::move(checked.cells),
             checked.printed.starts.empty() ? checked.part : checked.printed,
-            [&](const RowBand& band) { return printed_rows(layer, band); }, index);
+            [&](const RowBand& band) { return printed_rows(layer, band, scratch); }, index);
     }
     if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }

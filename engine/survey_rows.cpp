@@ -25,8 +25,9 @@ SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratc
     SpanRows all;
     const auto some = scratch.rows();
     RowBand band = whole;
-    for (band.first = 0; band.first < whole.count; band.first += band_rows) {
-        band.count = std::min(band_rows, whole.count - band.first);
+    const int end = whole.first + whole.count;
+    for (; band.first < end; band.first += band_rows) {
+        band.count = std::min(band_rows, end - band.first);
         slice.spans(band, scratch, *some);
         all.append_lines(*some);
     }

@@ -14,7 +14,8 @@ namespace lamella {
 /// coordinate 0 at its left one.
 RowBand rows_over(const Rect& rect, double pitch);
 
-/// All rows of a slice; it is asked band by band, so that what it works with stays in the cache.
+/// All rows of a band, from its first one on; the slice is asked piece by piece, so that what it works with
+/// stays in the cache.
 SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
 
 /// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job (island_pitches)
