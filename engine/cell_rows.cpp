@@ -27,20 +27,26 @@ DiscWidths disc_widths(double radius, double row_pitch, Width width) {
     }
 }
 
-/// Adds the cells [first, end) of a line.
-void mark(std::int32_t first, std::int32_t end, std::uint64_t* words) {
+/// Adds the cells [first, end) of a line to a set.
+void mark(std::int32_t first, std::int32_t end, std::size_t line, CellRows& cells) {
     if (first >= end) return;
     const auto low = static_cast<std::size_t>(first / word_cells),
                high = static_cast<std::size_t>((end - 1) / word_cells);
     const std::uint64_t from = ~std::uint64_t{0} << (first % word_cells),
                         to = ~std::uint64_t{0} >> (word_cells - 1 - (end - 1) % word_cells);
     if (low == high) {
-        words[low] |= from & to;
+        cells.column(low)[line] |= from & to;
         return;
     }
-    words[low] |= from;
-    for (std::size_t i = low + 1; i < high; ++i) words[i] = ~std::uint64_t{0};
-    words[high] |= to;
+    cells.column(low)[line] |= from;
+    for (std::size_t i = low + 1; i < high; ++i) cells.column(i)[line] = ~std::uint64_t{0};
+    cells.column(high)[line] |= to;
+}
+
+/// From column to column of words: an odd number of cache lines, lest columns share places in the cache.
+std::size_t stride_of(const CellLattice& lattice) {
+    constexpr std::size_t cache_line = 8;  // words
+    return ((lattice.lines + CellLattice::lines_at_once) / cache_line | 1) * cache_line;
 }
 
 }  // namespace
@@ -49,9 +55,8 @@ CellLattice::CellLattice(Run extent, std::size_t row_count, double reach, double
     : margin_lines(static_cast<std::size_t>(reach / row_pitch) + 1) {
     const std::int32_t beside = static_cast<std::int32_t>(reach) + cell;
     first = cells_down(extent.begin - beside) * cell;
-    const auto least_words = static_cast<std::size_t>((extent.end + beside - first) / word_units) + 1;
-    words = (least_words + words_at_once - 1) / words_at_once * words_at_once;
-    lines = row_count + 2 * margin_lines;
+    words = static_cast<std::size_t>((extent.end + beside - first) / word_units) + 1;
+    lines = (row_count + 2 * margin_lines + lines_at_once - 1) / lines_at_once * lines_at_once;
 }
 
 DiscWidths cells_covered(double radius, double row_pitch) {
@@ -62,22 +67,18 @@ DiscWidths cells_met(double radius, double row_pitch) {
     return disc_widths(radius, row_pitch, [](const BallReach& reach) { return cells_up(reach.ahead); });
 }
 
+CellRows::CellRows(const CellLattice& lattice)
+    : lattice_(lattice), stride_(stride_of(lattice)), words_(place(lattice.words)) {}
+
 LayerCells::LayerCells(const SpanRows& rows, const CellLattice& lattice) : filled(lattice), met(lattice) {
     for (std::size_t l = 0; l < rows.lines(); ++l) {
-        std::uint64_t *const filled_words = filled.line(l + lattice.margin_lines),
-                             *const met_words = met.line(l + lattice.margin_lines);
+        const std::size_t line = l + lattice.margin_lines;
         for (const Run& run : rows.line(l)) {
             const std::int32_t begin = run.begin - lattice.first, end = run.end - lattice.first;
-            mark(cells_up(begin), cells_down(end), filled_words);
-            mark(cells_down(begin), cells_up(end), met_words);
+            mark(cells_up(begin), cells_down(end), line, filled);
+            mark(cells_down(begin), cells_up(end), line, met);
         }
     }
-}
-
-bool CellRows::any_in_line(std::size_t l) const {
-    std::uint64_t all = 0;
-    for (std::size_t i = 0; i < lattice_.words; ++i) all |= line(l)[i];
-    return all != 0;
 }
 
 bool CellRows::any() const {
@@ -86,24 +87,28 @@ bool CellRows::any() const {
     return all != 0;
 }
 
-void CellRows::invert() {
-    for (std::size_t l = 0; l < lattice_.lines; ++l) {
-        std::uint64_t* const words = line(l);
-        for (std::size_t i = 0; i < lattice_.words; ++i) words[i] = ~words[i];
+std::vector<std::uint64_t> CellRows::united_words() const {
+    std::vector<std::uint64_t> all(lattice_.lines);
+    for (std::size_t i = 0; i < lattice_.words; ++i) {
+        const std::uint64_t* const words = column(i);
+        for (std::size_t l = 0; l < all.size(); ++l) all[l] |= words[l];
     }
+    return all;
 }
 
-void CellRows::subtract(const CellRows& other) {
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
+void CellRows::invert() {
+    for (std::size_t i = 0; i < lattice_.words; ++i) {
+        std::uint64_t* const words = column(i);
+        for (std::size_t l = 0; l < lattice_.lines; ++l) words[l] = ~words[l];
+    }
 }
 
 /// Calls take(begin, end) for runs of cells, one after another; some may touch.
 template <typename Take>
 void CellRows::for_runs(std::size_t line, Take take) const {
-    const std::uint64_t* const words = this->line(line);
     for (std::size_t i = 0; i < lattice_.words; ++i) {
         std::int32_t at = lattice_.first + static_cast<std::int32_t>(i) * word_units;
-        for (std::uint64_t word = words[i]; word != 0;) {
+        for (std::uint64_t word = column(i)[line]; word != 0;) {
             const int void_cells = std::countr_zero(word);
             at += void_cells * CellLattice::cell;
             word >>= void_cells;
@@ -116,10 +121,11 @@ void CellRows::for_runs(std::size_t line, Take take) const {
 }
 
 SpanRows CellRows::of(const SpanRows& rows, std::size_t first_line) const {
+    const std::vector<std::uint64_t> in_line = united_words();
     SpanRows inside;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         const std::span<const Run> runs = rows.line(l);
-        if (!runs.empty() && any_in_line(first_line + l)) {
+        if (!runs.empty() && in_line[first_line + l] != 0) {
             auto next = runs.begin();
             for_runs(first_line + l, [&](std::int32_t begin, std::int32_t end) {
                 while (next != runs.end() && next->end <= begin) ++next;

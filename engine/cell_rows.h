@@ -13,12 +13,12 @@ namespace lamella {
 /// Where the cells of a layer lie. A cell is as long as half a row is wide.
 struct CellLattice {
     static constexpr std::int32_t cell = run_unit / 2;  ///< length along the lines, run units
-    static constexpr std::size_t words_at_once = 4;     ///< lines are a multiple of it
+    static constexpr std::size_t lines_at_once = 8;     ///< there is a multiple of it
 
     std::int32_t first = 0;        ///< where the first cell of each line begins, run units
     std::size_t words = 0;         ///< of a line, 64 cells each
     std::size_t lines = 0;         ///< the margin's included
-    std::size_t margin_lines = 0;  ///< before the layer's first line, and behind its last
+    std::size_t margin_lines = 0;  ///< before the layer's first line, and as many at least behind its last
 
     /// The cells of so many rows a `row_pitch` apart, whose runs lie within an extent, and of what lies no
     /// further than `reach` beside them; run units.
@@ -34,32 +34,39 @@ DiscWidths cells_covered(double radius, double row_pitch);
 DiscWidths cells_met(double radius, double row_pitch);
 
 /// A set of cells, a bit for each. Beside the lattice there are none.
+///
+/// Words lie column by column, so that many lines are worked on at once without a bit crossing lanes.
 class CellRows {
   public:
-    explicit CellRows(const CellLattice& lattice)
-        : lattice_(lattice), words_(lattice.lines * (lattice.words + 1) + 1) {}
+    explicit CellRows(const CellLattice& lattice);
     const CellLattice& lattice() const { return lattice_; }
-    /// The words of a line; there is an empty one before them and one behind.
-    std::uint64_t* line(std::size_t l) { return words_.data() + l * (lattice_.words + 1) + 1; }
-    const std::uint64_t* line(std::size_t l) const { return words_.data() + l * (lattice_.words + 1) + 1; }
-    bool any_in_line(std::size_t l) const;
+    /// The words with these cells of every line, one after another; there are lines_at_once empty ones before
+    /// them and behind.
+    std::uint64_t* column(std::size_t word) { return words_.data() + place(word); }
+    const std::uint64_t* column(std::size_t word) const { return words_.data() + place(word); }
     bool any() const;
+    /// The union of each line's words.
+    std::vector<std::uint64_t> united_words() const;
 
     /// Turns into all other cells of the lattice.
     void invert();
-    /// Takes away the cells of another set on the same lattice.
-    void subtract(const CellRows& other);
     /// These and all cells within a disc of them.
     CellRows grown(const DiscWidths& disc) const;
+    /// The cells of the lattice that are not within a disc of these.
+    CellRows beyond(const DiscWidths& disc) const;
+    /// Takes away those within a disc of the cells of another set on the same lattice.
+    void subtract_grown(const CellRows& other, const DiscWidths& disc);
     /// What of rows lies in the cells. Their first line is that one of the lattice.
     SpanRows of(const SpanRows& rows, std::size_t first_line) const;
 
   private:
+    std::size_t place(std::size_t word) const { return word * stride_ + CellLattice::lines_at_once; }
     template <typename Take>
     void for_runs(std::size_t line, Take take) const;
 
     CellLattice lattice_;
-    std::vector<std::uint64_t> words_;  // lines with an empty word between them
+    std::size_t stride_;  // from column to column
+    std::vector<std::uint64_t> words_;
 };
 
 /// The cells of a layer's runs; its first line follows those of the margin.

@@ -1,7 +1,7 @@
-// Cells grown by discs: each line is spread step by step and added to those that the disc reaches. Compiled
-// for every SIMD target; words are whole numbers, so that every target gives the same bits.
+// Cells grown by discs, a few lines at once: what a line adds that lies k away is widened together with all
+// that lines nearer by add. Compiled for every SIMD target; words are whole numbers, so that
+// every target gives the same bits.
 #include <algorithm>
-#include <cstring>
 
 #include "engine/cell_rows.h"
 
@@ -12,55 +12,107 @@
 #include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 
+#ifndef LAMELLA_GROWN_CELLS_RESULT
+#define LAMELLA_GROWN_CELLS_RESULT
+namespace lamella {
+
+/// What becomes of cells within a disc.
+enum class WithinDisc : std::uint8_t { kept, left_out, subtracted };
+
+}  // namespace lamella
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace lamella {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint64_t, CellLattice::words_at_once>;
+using Lines = hn::CappedTag<std::uint64_t, CellLattice::lines_at_once>;
 
-/// to = from, and from moved by `cells` (1 to 63) to either side. There are empty words about both.
-HWY_INLINE void spread(const std::uint64_t* from, int cells, std::size_t words, std::uint64_t* to) {
-    const Words d;
-    const int others = 64 - cells;
-    for (std::size_t i = 0; i < words; i += hn::Lanes(d)) {
-        const auto here = hn::Load(d, from + i), before = hn::LoadU(d, from + i - 1),
-                   behind = hn::LoadU(d, from + i + 1);
-        const auto up = hn::Or(hn::ShiftLeftSame(here, cells), hn::ShiftRightSame(before, others)),
-                   down = hn::Or(hn::ShiftRightSame(here, cells), hn::ShiftLeftSame(behind, others));
-        hn::Store(hn::Or(here, hn::Or(up, down)), d, to + i);
-    }
-}
+/// The words of a few lines, column by column.
+class LineBlock {
+  public:
+    explicit LineBlock(std::size_t words)
+        : words_(words), block_(hwy::AllocateAligned<std::uint64_t>(words * hn::Lanes(Lines()))) {}
 
-HWY_INLINE void add(const std::uint64_t* from, std::size_t words, std::uint64_t* to) {
-    const Words d;
-    for (std::size_t i = 0; i < words; i += hn::Lanes(d))
-        hn::StoreU(hn::Or(hn::LoadU(d, to + i), hn::Load(d, from + i)), d, to + i);
-}
-
-void grow_cells(const CellRows& cells, const DiscWidths& disc, CellRows& all) {
-    const std::size_t words = cells.lattice().words, lines = cells.lattice().lines;
-    // Aligned, and with an empty word before and behind each.
-    constexpr std::size_t beside = CellLattice::words_at_once;
-    const auto buffers = hwy::AllocateAligned<std::uint64_t>(2 * words + 3 * beside);
-    std::fill_n(buffers.get(), 2 * words + 3 * beside, 0);
-    std::uint64_t *line = buffers.get() + beside, *next = line + words + beside;
-    for (std::size_t l = 0; l < lines; ++l) {
-        if (!cells.any_in_line(l)) continue;
-        std::copy_n(cells.line(l), words, line);
-        std::int32_t width = 0;
-        for (std::size_t k = disc.size(); k-- > 0;) {
-            while (width < disc[k]) {
-                // No cell between the moved ones may be left out, not even where those to one side lie beyond
-                // the end of the line and are lost.
-                const std::int32_t step = std::min({disc[k] - width, width + 1, 63});
-                spread(line, step, words, next);
-                std::swap(line, next);
-                width += step;
-            }
-            if (k <= l) add(line, words, all.line(l - k));
-            if (k > 0 && l + k < lines) add(line, words, all.line(l + k));
+    void clear() { std::fill_n(block_.get(), words_ * hn::Lanes(Lines()), 0); }
+    /// Adds the cells of the lines that begin here, and there, and then all up to so many to either side.
+    void add_and_widen(const CellRows& cells, std::ptrdiff_t here, std::ptrdiff_t there, std::int32_t by) {
+        const auto sum = [&](std::size_t i) {
+            const Lines d;
+            const std::uint64_t* const words = cells.column(i);
+            return hn::Or(hn::Load(d, at(i)),
+                          hn::Or(hn::LoadU(d, words + here), hn::LoadU(d, words + there)));
+        };
+        if (by > 0) {
+            add_moved(1, sum);
+            widen(1, by);
+        } else {
+            for (std::size_t i = 0; i < words_; ++i) hn::Store(sum(i), Lines(), at(i));
         }
+    }
+    /// Adds all cells up to so many to either side, where so many are there.
+    void widen(std::int32_t width, std::int32_t to) {
+        while (width < to) {
+            // No cell between the moved ones may be left out.
+            const std::int32_t step = std::min({to - width, width + 1, 63});
+            add_moved(step, [&](std::size_t i) { return hn::Load(Lines(), at(i)); });
+            width += step;
+        }
+    }
+    void write(std::ptrdiff_t line, WithinDisc within, CellRows& to) const {
+        const Lines d;
+        for (std::size_t i = 0; i < words_; ++i) {
+            std::uint64_t* const words = to.column(i) + line;
+            const auto grown = hn::Load(d, at(i));
+            if (within == WithinDisc::kept) hn::StoreU(grown, d, words);
+            if (within == WithinDisc::left_out) hn::StoreU(hn::Not(grown), d, words);
+            if (within == WithinDisc::subtracted)
+                hn::StoreU(hn::AndNot(grown, hn::LoadU(d, words)), d, words);
+        }
+    }
+
+  private:
+    /// Turns into what words(i) tells and the same moved by `cells` (1 to 63) to either side.
+    template <typename WordsAt>
+    HWY_INLINE void add_moved(int cells, WordsAt words) {
+        const Lines d;
+        const int others = 64 - cells;
+        auto before = hn::Zero(d), here = words(0);
+        for (std::size_t i = 0; i < words_; ++i) {
+            const auto behind = i + 1 < words_ ? words(i + 1) : hn::Zero(d);
+            const auto up = hn::Or(hn::ShiftLeftSame(here, cells), hn::ShiftRightSame(before, others)),
+                       down = hn::Or(hn::ShiftRightSame(here, cells), hn::ShiftLeftSame(behind, others));
+            hn::Store(hn::Or(here, hn::Or(up, down)), d, at(i));
+            before = here;
+            here = behind;
+        }
+    }
+    std::uint64_t* at(std::size_t i) const { return block_.get() + i * hn::Lanes(Lines()); }
+
+    std::size_t words_;
+    hwy::AlignedFreeUniquePtr<std::uint64_t[]> block_;
+};
+
+void grow_cells(const CellRows& cells, const DiscWidths& disc, WithinDisc within, CellRows& to) {
+    const auto lines = static_cast<std::ptrdiff_t>(cells.lattice().lines),
+               at_once = static_cast<std::ptrdiff_t>(hn::Lanes(Lines())),
+               reach = static_cast<std::ptrdiff_t>(disc.size()) - 1;
+    LineBlock block(cells.lattice().words);
+    for (std::ptrdiff_t l = 0; l < lines; l += at_once) {
+        block.clear();
+        for (std::ptrdiff_t k = 0; k <= reach; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            const std::int32_t by = disc[at] - (k < reach ? disc[at + 1] : 0);
+            // Beyond the lattice there is nothing to add.
+            const bool above = l + k<lines, below = l - k> - at_once;
+            if (above || below) {
+                block.add_and_widen(cells, below ? l - k : l + k, above ? l + k : l - k, by);
+            } else {
+                block.widen(0, by);
+            }
+        }
+        block.write(l, within, to);
     }
 }
 
@@ -75,8 +127,18 @@ HWY_EXPORT(grow_cells);
 
 CellRows CellRows::grown(const DiscWidths& disc) const {
     CellRows all(lattice_);
-    HWY_DYNAMIC_DISPATCH(grow_cells)(*this, disc, all);
+    HWY_DYNAMIC_DISPATCH(grow_cells)(*this, disc, WithinDisc::kept, all);
     return all;
+}
+
+CellRows CellRows::beyond(const DiscWidths& disc) const {
+    CellRows others(lattice_);
+    HWY_DYNAMIC_DISPATCH(grow_cells)(*this, disc, WithinDisc::left_out, others);
+    return others;
+}
+
+void CellRows::subtract_grown(const CellRows& other, const DiscWidths& disc) {
+    HWY_DYNAMIC_DISPATCH(grow_cells)(other, disc, WithinDisc::subtracted, *this);
 }
 
 }  // namespace lamella

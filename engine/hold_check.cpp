@@ -82,7 +82,7 @@ SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
 /// Where something of rows that meet these cells may lie further than that from what fills the others.
 SpanRows maybe_beyond(const SpanRows& rows, const CellRows& met, const CellRows& filled, double pitches) {
     CellRows suspected = met;
-    suspected.subtract(filled.grown(cells_covered(pitches * run_unit, run_unit)));
+    suspected.subtract_grown(filled, cells_covered(pitches * run_unit, run_unit));
     return suspected.any() ? suspected.of(rows, suspected.lattice().margin_lines) : empty_rows(rows.lines());
 }
 

@@ -48,9 +48,8 @@ std::size_t margin_of(const Thinness& thinness, double row_pitch) {
 /// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie near
 /// enough to cells that discs do not reach from what is `beside` it.
 CellRows suspects(CellRows touched, const CellRows& beside, const Thinness& thinness, double row_pitch) {
-    CellRows core = beside.grown(cells_met(thinness.radius, row_pitch));
-    core.invert();
-    touched.subtract(core.grown(cells_covered(thinness.radius + thinness.slack, row_pitch)));
+    const CellRows core = beside.beyond(cells_met(thinness.radius, row_pitch));
+    touched.subtract_grown(core, cells_covered(thinness.radius + thinness.slack, row_pitch));
     return touched;
 }
 

@@ -39,7 +39,8 @@ bool has(const CellRows& cells, int line, int column) {
     const CellLattice& lattice = cells.lattice();
     if (line < 0 || line >= static_cast<int>(lattice.lines) || column < 0 || column >= columns_of(lattice))
         return false;
-    return (cells.line(static_cast<std::size_t>(line))[column / 64] >> (column % 64) & 1) != 0;
+    const std::uint64_t* const words = cells.column(static_cast<std::size_t>(column) / 64);
+    return (words[line] >> (column % 64) & 1) != 0;
 }
 
 /// Run units of a cell that lie in a line's runs.
@@ -89,8 +90,10 @@ TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
     others.invert();
     CHECK(others.of(rows, lattice.margin_lines).runs().empty());
     CHECK(cells.filled.of(rows, lattice.margin_lines).total_length() == std::int64_t{filled} * cell);
-    others.subtract(others);
-    CHECK(!others.any());
+    CellRows none = others;
+    none.subtract_grown(others, cells_met(run_unit, run_unit));
+    CHECK(!none.any());
+    CHECK(others.any());
     CHECK(cells.met.any());
 }
 
@@ -99,7 +102,8 @@ TEST_CASE("cells grow by all that a disc about them may meet, and no further", "
     const SpanRows rows = random_rows(random, 31, 40);
     for (const double radius : {0.3, 1.0, 2.6, 9.4, 40.0}) {
         const CellLattice lattice = lattice_of(rows, 40, radius * run_unit);
-        const CellRows cells = LayerCells(rows, lattice).filled;
+        const CellRows cells = LayerCells(rows, lattice).filled,
+                       all = LayerCells(random_rows(random, 31, 40), lattice).met;
         const DiscWidths covered = cells_covered(radius * run_unit, run_unit),
                          met = cells_met(radius * run_unit, run_unit);
         for (std::size_t k = 0; k < met.size(); ++k) {
@@ -111,12 +115,17 @@ TEST_CASE("cells grow by all that a disc about them may meet, and no further", "
         for (const DiscWidths& disc : {covered, met}) {
             for (const std::string& target : simd_targets()) {
                 force_simd_target(target);
-                const CellRows grown = cells.grown(disc);
+                const CellRows grown = cells.grown(disc), beyond = cells.beyond(disc);
+                CellRows left = all;
+                left.subtract_grown(cells, disc);
                 force_simd_target("");
                 INFO("radius " << radius << " on " << target);
                 for (int l = 0; l < static_cast<int>(lattice.lines); ++l) {
                     for (int c = 0; c < columns_of(lattice); c += 1 + l % 3) {
-                        REQUIRE(has(grown, l, c) == any_within(cells, disc, l, c));
+                        const bool within = any_within(cells, disc, l, c);
+                        REQUIRE(has(grown, l, c) == within);
+                        REQUIRE(has(beyond, l, c) == !within);
+                        REQUIRE(has(left, l, c) == (has(all, l, c) && !within));
                     }
                 }
             }
@@ -130,7 +139,7 @@ TEST_CASE("cells grow the same where lines end", "[morphology]") {
         const DiscWidths disc = cells_met(radius * run_unit, run_unit);
         for (const int column : {0, 1, 63, 64, columns_of(lattice) - 2, columns_of(lattice) - 1}) {
             CellRows cells(lattice);
-            cells.line(2)[column / 64] = std::uint64_t{1} << (column % 64);
+            cells.column(static_cast<std::size_t>(column) / 64)[2] = std::uint64_t{1} << (column % 64);
             const CellRows grown = cells.grown(disc);
             INFO("radius " << radius << ", column " << column);
             for (int l = 0; l < static_cast<int>(lattice.lines); ++l) {
