@@ -13,6 +13,7 @@ namespace {
 
 constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
 constexpr std::size_t most_slope_layers = 64;
+constexpr std::size_t most_kept_words = std::size_t{2} << 20;  // of all layers' cells, 16 MB
 
 bool any_floats(const std::vector<std::uint8_t>& floats) {
     return std::ranges::find(floats, 1) != floats.end();
@@ -143,7 +144,10 @@ void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& pr
     }
     supports_.add(layer.supports);
     next.rows = std::move(layer);
-    filled_below_ = std::move(cells.filled);
+    const CellLattice& lattice = cells.met.lattice();
+    if (!below_.empty() && lattice.words * lattice.lines * slope_layers_ > most_kept_words)
+        below_.back().filled.reset();
+    next.filled = std::move(cells.filled);
     below_.push_back(std::move(next));
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
 }
@@ -155,7 +159,7 @@ void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, 
     // Rows see a border up to a pitch late.
     const Below& below = below_.back();
     const SpanRows out =
-        beyond(maybe_beyond(layer.part, met, *filled_below_, step_ + 1), below.rows.part, step_ + 1);
+        beyond(maybe_beyond(layer.part, met, *below.filled, step_ + 1), below.rows.part, step_ + 1);
     const SpanRows hanging = without(without(out, held), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
@@ -195,10 +199,12 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     // Parts of small pieces are small: they need not be looked at further.
     const auto large = [&](const SpanRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
-    const CellRows filled = LayerCells(below_[first].rows.part, met.lattice()).filled;
-    const SpanRows maybe = large(maybe_beyond(layer.part, met, filled, far));
+    const Below& lowest = below_[first];
+    std::optional<CellRows> anew;
+    if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
+    const SpanRows maybe = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
     if (maybe.runs().empty()) return none;
-    SpanRows steep = large(without(beyond(maybe, below_[first].rows.part, far), held));
+    SpanRows steep = large(without(beyond(maybe, lowest.rows.part, far), held));
     const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
@@ -240,7 +246,7 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
 SpanRows HoldCheck::standing_out(const HoldingRows& layer, const SpanRows& found) const {
     if (found.runs().empty()) return found;
     const double reach = 2 * step_ + 2;
-    const CellLattice& lattice = filled_below_->lattice();
+    const CellLattice& lattice = below_.back().filled->lattice();
     const CellRows near = LayerCells(found, lattice).met.grown(cells_met(reach * run_unit, run_unit));
     const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed());
     return without(all, beyond(all, found, reach));

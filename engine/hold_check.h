@@ -50,6 +50,7 @@ class HoldCheck {
     struct Below {
         HoldingRows rows;
         SpanRows hung;
+        std::optional<CellRows> filled;  // by the part; of older layers only where there is memory to spare
     };
     void follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands, Below& next,
                           int index);
@@ -63,12 +64,11 @@ class HoldCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
-    bool follows_overhangs_;                // or nothing but islands
-    double step_;                           // by which a layer may stand out, pitches
-    std::size_t slope_layers_;              // over which a slope is followed
-    std::size_t support_layers_;            // back, whose supports an island may stand on
-    std::deque<Below> below_;               // newest last
-    std::optional<CellRows> filled_below_;  // by the part in the newest of them
+    bool follows_overhangs_;      // or nothing but islands
+    double step_;                 // by which a layer may stand out, pitches
+    std::size_t slope_layers_;    // over which a slope is followed
+    std::size_t support_layers_;  // back, whose supports an island may stand on
+    std::deque<Below> below_;     // newest last
     SupportHold supports_;
     PassingComponents hanging_;
     std::vector<EndedComponent> ended_;

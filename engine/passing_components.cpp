@@ -7,19 +7,15 @@
 namespace lamella {
 namespace {
 
-/// The components of a layer by themselves, without the runs of their patches.
+/// The components of a layer by themselves; of their patches nothing but how long they are.
 std::vector<PassingComponent> of_layer(const LabelledLayer& layer, int index, const ComponentTags& tags) {
     std::vector<PassingComponent> components(layer.components.size());
     for (std::size_t c = 0; c < components.size(); ++c) {
         components[c].extent = layer.components[c];
         components[c].largest.layer = index;
+        components[c].largest.length = layer.components[c].length;
         if (!tags.flags.empty()) components[c].flags = tags.flags[c];
         if (!tags.marks.empty()) components[c].marks = tags.marks[c];
-    }
-    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
-        for (const LabelledRun& run : layer.row(r)) {
-            components[run.component].largest.measure({index, r, run.begin, run.end});
-        }
     }
     return components;
 }
@@ -36,14 +32,11 @@ std::vector<std::uint8_t> apart_from_most(DisjointSets& sets) {
 
 }  // namespace
 
-void LayerPatch::measure(const PlacedRun& run) {
+void LayerPatch::include(const PlacedRun& run) {
     const auto width = std::int64_t{run.end} - run.begin;
     length += width;
     along += static_cast<double>(width) * 0.5 * (static_cast<double>(run.begin) + run.end);
     across += static_cast<double>(width) * run.row;
-}
-
-void LayerPatch::keep(const PlacedRun& run) {
     if (runs.size() < most_kept) runs.push_back(run);
 }
 
@@ -170,13 +163,21 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
         live_.push_back(std::move(joined[c]));
     }
     std::vector<std::uint32_t> places_of_fresh(fresh.size());
-    for (std::uint32_t c = 0; c < fresh.size(); ++c) places_of_fresh[c] = places[sets.find(old_count + c)];
-    for (LabelledRun& run : layer.runs) run.component = places_of_fresh[run.component];
-    for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
-        for (const LabelledRun& run : layer.row(r)) {
-            // Most layers are not the largest one of what goes through them.
-            LayerPatch& largest = live_[run.component].largest;
-            if (largest.layer == index) largest.keep({index, r, run.begin, run.end});
+    std::vector<LayerPatch*> patches(fresh.size());  // null: most layers are not the largest of what goes on
+    for (std::uint32_t c = 0; c < fresh.size(); ++c) {
+        places_of_fresh[c] = places[sets.find(old_count + c)];
+        LayerPatch& largest = live_[places_of_fresh[c]].largest;
+        if (largest.layer != index) continue;
+        largest = {.layer = index};
+        patches[c] = &largest;
+    }
+    std::size_t i = 0;
+    for (int r = 0; r < layer.rows(); ++r) {
+        for (const std::size_t row_end = layer.starts[static_cast<std::size_t>(r) + 1]; i < row_end; ++i) {
+            LabelledRun& run = layer.runs[i];
+            LayerPatch* const patch = patches[run.component];
+            if (patch != nullptr) patch->include(PlacedRun{index, layer.first_row + r, run.begin, run.end});
+            run.component = places_of_fresh[run.component];
         }
     }
     last_ = std::move(layer);

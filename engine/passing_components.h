@@ -16,14 +16,8 @@ struct LayerPatch {
     double along = 0, across = 0;  ///< sums of their middles (run units, rows), weighted with their lengths
     std::vector<PlacedRun> runs{};
 
-    void include(const PlacedRun& run) {
-        measure(run);
-        keep(run);
-    }
+    void include(const PlacedRun& run);
     void include(const LayerPatch& other);
-    /// The two halves of including a run.
-    void measure(const PlacedRun& run);
-    void keep(const PlacedRun& run);
     /// The point nearest to the middle of all in the run that is nearest to it: its run coordinate, half a
     /// pixel inside the run where it is that long, and its row, up to half a row from the run's.
     struct Point {

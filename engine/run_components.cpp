@@ -51,8 +51,14 @@ void number_row(std::span<const LabelledRun> before, std::span<LabelledRun> row,
     }
 }
 
-/// Gives each run the number of its component, by appearance; returns how many there are.
-std::uint32_t number_components(LabelledLayer& layer) {
+/// How the components of a layer are numbered.
+struct Numbering {
+    std::vector<std::uint32_t> numbers;  ///< of each component's parts: the component, by appearance
+    std::uint32_t count = 0;             ///< components
+};
+
+/// Gives each run the number of a part of its component.
+Numbering number_parts(LabelledLayer& layer) {
     DisjointSets sets;  // most runs take the number of one before them, which nothing else joins
     std::span<const LabelledRun> before;
     for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
@@ -61,14 +67,13 @@ std::uint32_t number_components(LabelledLayer& layer) {
         number_row(before, row, sets);
         before = row;
     }
-    std::vector<std::uint32_t> numbers(sets.size());
-    std::uint32_t count = 0;
+    Numbering numbering;
+    numbering.numbers.resize(sets.size());
     for (std::uint32_t i = 0; i < sets.size(); ++i) {
         const std::uint32_t root = sets.find(i);
-        numbers[i] = root == i ? count++ : numbers[root];
+        numbering.numbers[i] = root == i ? numbering.count++ : numbering.numbers[root];
     }
-    for (LabelledRun& run : layer.runs) run.component = numbers[run.component];
-    return count;
+    return numbering;
 }
 
 }  // namespace
@@ -103,17 +108,20 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     for (const Run& run : rows.runs()) out.runs.push_back({run.begin, run.end, 0});
     for (std::size_t l = 0; l < rows.lines(); ++l)
         out.starts.push_back(out.starts.back() + static_cast<std::uint32_t>(rows.line(l).size()));
-    out.components.resize(number_components(out));
+    const Numbering numbering = number_parts(out);
+    out.components.resize(numbering.count);
     out.owners.resize(out.runs.size());
     std::size_t i = 0;
-    for (int r = 0; r < out.rows(); ++r) {
-        for (const LabelledRun& run : out.row(r)) {
+    for (int r = 0; r < static_cast<int>(rows.lines()); ++r) {
+        for (const std::size_t end = out.starts[static_cast<std::size_t>(r) + 1]; i < end; ++i) {
+            LabelledRun& run = out.runs[i];
+            run.component = numbering.numbers[run.component];
             ComponentExtent& extent = out.components[run.component];
             extent.length += run.end - run.begin;
             extent.along = {std::min(extent.along.begin, run.begin), std::max(extent.along.end, run.end)};
             extent.first_row = std::min(extent.first_row, r);
             extent.last_row = r;
-            out.owners[i++] = run.component;
+            out.owners[i] = run.component;
         }
     }
     for (ComponentExtent& extent : out.components) extent.first_layer = extent.last_layer = layer;
@@ -133,7 +141,9 @@ LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth)
         append_grown_row(rows, std::max(r - growth.rows, 0), std::min(r + growth.rows, count - 1),
                          growth.units, row, out);
     }
-    out.components.resize(number_components(out));
+    const Numbering numbering = number_parts(out);
+    for (LabelledRun& run : out.runs) run.component = numbering.numbers[run.component];
+    out.components.resize(numbering.count);
     for (int r = 0; r < count; ++r) {
         for_touching(
             rows.line(static_cast<std::size_t>(r)), out.row(r),
