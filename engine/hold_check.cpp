@@ -204,13 +204,14 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
     const SpanRows maybe = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
     if (maybe.runs().empty()) return none;
-    SpanRows steep = large(without(beyond(maybe, lowest.rows.part, far), held));
+    SpanRows steep = without(maybe, held);
     const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
     };
     explain(hangs, 0);
     for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
+    steep = beyond(large(steep), lowest.rows.part, far);
     return large(steep);
 }
 

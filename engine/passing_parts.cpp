@@ -49,7 +49,8 @@ const LabelledLayer& PassingParts::add(LabelledLayer layer) {
         records_.at(numbers[c]).length += layer.components[c].length;
     }
     // Of components that share a part, some were counted before another one joined it.
-    for (LabelledRun& run : layer.runs) run.component = find(numbers[run.component]);
+    for (std::uint32_t& number : numbers) number = find(number);
+    for (LabelledRun& run : layer.runs) run.component = numbers[run.component];
     last_ = std::move(layer);
     return last_;
 }
