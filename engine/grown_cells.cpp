@@ -1,6 +1,6 @@
-// Cells grown by discs, a few lines at once: what a line adds that lies k away is widened together with all
-// that lines nearer by add. Compiled for every SIMD target; words are whole numbers, so that
-// every target gives the same bits.
+// Cells grown by discs, a few lines at once, from the middle of the disc outward: what has come in of nearer
+// lines is widened once more with each line further away, so that it ends up widest. Compiled for every SIMD
+// target; words are whole numbers, so that every target gives the same bits.
 #include <algorithm>
 
 #include "engine/cell_rows.h"
@@ -105,9 +105,10 @@ void grow_cells(const CellRows& cells, const DiscWidths& disc, WithinDisc within
             const auto at = static_cast<std::size_t>(k);
             const std::int32_t by = disc[at] - (k < reach ? disc[at + 1] : 0);
             // Beyond the lattice there is nothing to add.
-            const bool above = l + k<lines, below = l - k> - at_once;
-            if (above || below) {
-                block.add_and_widen(cells, below ? l - k : l + k, above ? l + k : l - k, by);
+            const std::ptrdiff_t before = l - k, behind = l + k;
+            const bool any_before = before + at_once > 0, any_behind = behind < lines;
+            if (any_before || any_behind) {
+                block.add_and_widen(cells, any_before ? before : behind, any_behind ? behind : before, by);
             } else {
                 block.widen(0, by);
             }
