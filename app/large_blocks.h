@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <set>
+#include <utility>
 
 namespace lamella {
 
@@ -39,10 +41,18 @@ class LargeBlocks {
     std::size_t reach() const;
 
   private:
-    using Extents = std::map<std::size_t, std::size_t>;  ///< offset -> bytes, both whole pages
+    using Sizes = std::set<std::pair<std::size_t, std::size_t>>;  ///< bytes and offset, both whole pages
+    struct Extent {
+        std::size_t bytes = 0;
+        Sizes::node_type size{};  ///< of a block, to be its hole's
+    };
+    using Extents = std::map<std::size_t, Extent>;  ///< by offset
 
     Extents::iterator best_hole(std::size_t bytes);
     bool grow(std::size_t bytes);
+    void shorten(Extents::iterator hole, std::size_t bytes);
+    void resize(Extents::iterator hole, std::size_t bytes) noexcept;
+    Extents::iterator join_next(Extents::iterator hole) noexcept;
 
     mutable std::mutex mutex_;
     std::byte* base_ = nullptr;
@@ -51,6 +61,7 @@ class LargeBlocks {
     std::size_t reach_ = 0;
     Extents used_;
     Extents holes_;  ///< no two touch
+    Sizes sizes_;    ///< of the holes
 };
 
 }  // namespace lamella

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/error.h"
 #include "engine/parallel_strips.h"
@@ -21,22 +22,29 @@ class LeftRuns {
     bool empty() const { return count_ == 0; }
     std::span<const Run> all() const { return {runs_.data(), count_}; }
 
-    /// Takes away sorted runs that reach further to both sides.
+    /// Takes away sorted runs that reach further to both sides. Which of two runs ends first is hard to
+    /// foretell, so no branch depends on it: each step writes what may be left, and counts it if it is.
     void take_away(std::span<const Run> taken, const BallReach& reach) {
         const Run *t = taken.data(), *const end = t + taken.size();
-        const std::int32_t first = runs_.front().begin - reach.ahead;
+        const std::int32_t first = runs_.front().begin - reach.ahead, last = runs_[count_ - 1].end + reach.back;
         while (t != end && t->end <= first) ++t;
-        if (t == end || t->begin - reach.back >= runs_[count_ - 1].end) return;
-        make_room(count_ + static_cast<std::size_t>(end - t));
+        if (t == end || t->begin >= last) return;
+        make_room(count_ + static_cast<std::size_t>(end - t) + 1);
+        const Run *run = runs_.data(), *const runs_end = run + count_;
         Run* left = buffer_.data();
-        for (const Run& run : all()) {
-            while (t != end && t->end + reach.ahead <= run.begin) ++t;
-            std::int32_t from = run.begin;
-            for (const Run* cut = t; cut != end && cut->begin - reach.back < run.end; ++cut) {
-                if (cut->begin - reach.back > from) *left++ = {from, cut->begin - reach.back};
-                from = std::max(from, cut->end + reach.ahead);
-            }
-            if (from < run.end) *left++ = {from, run.end};
+        std::int32_t from = std::numeric_limits<std::int32_t>::min();  // where the last run taken has ended
+        while (t != end && run != runs_end) {
+            const std::int32_t to = t->begin - reach.back, behind = t->end + reach.ahead;
+            *left = {std::max(run->begin, from), std::min(run->end, to)};
+            left += left->begin < left->end ? 1 : 0;
+            const bool goes_on = to < run->end;
+            from = goes_on ? behind : from;
+            t += goes_on ? 1 : 0;
+            run += goes_on ? 0 : 1;
+        }
+        for (; run != runs_end; ++run) {
+            *left = {std::max(run->begin, from), run->end};
+            left += left->begin < left->end ? 1 : 0;
         }
         count_ = static_cast<std::size_t>(left - buffer_.data());
         runs_.swap(buffer_);
