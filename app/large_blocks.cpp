@@ -107,7 +107,8 @@ void LargeBlocks::free(void* block) noexcept {
     if (bytes >= given_back_bytes) madvise(base_ + hole->first, bytes, MADV_DONTNEED);
 }
 
-// A hole and the next one become one where they touch. Returns the hole in which the next one lies, or that one.
+// A hole and the next one become one where they touch. Returns the hole in which the next one lies, or that
+// one.
 LargeBlocks::Extents::iterator LargeBlocks::join_next(Extents::iterator hole) noexcept {
     const auto next = std::next(hole);
     if (next == holes_.end() || hole->first + hole->second.bytes != next->first) return next;

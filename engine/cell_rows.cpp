@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "engine/ball_rows.h"
+#include "engine/bit_runs.h"
+#include "engine/row_sets.h"
 
 namespace lamella {
 namespace {
@@ -41,6 +44,13 @@ void mark(std::int32_t first, std::int32_t end, std::size_t line, CellRows& cell
     cells.column(low)[line] |= from;
     for (std::size_t i = low + 1; i < high; ++i) cells.column(i)[line] = ~std::uint64_t{0};
     cells.column(high)[line] |= to;
+}
+
+/// Whether any of the words of a few lines has a bit.
+bool any_bit(const std::uint64_t* words) {
+    std::uint64_t all = 0;
+    for (std::size_t i = 0; i < CellLattice::lines_at_once; ++i) all |= words[i];
+    return all != 0;
 }
 
 /// From column to column of words: an odd number of cache lines, lest columns share places in the cache.
@@ -87,15 +97,6 @@ bool CellRows::any() const {
     return all != 0;
 }
 
-std::vector<std::uint64_t> CellRows::united_words() const {
-    std::vector<std::uint64_t> all(lattice_.lines);
-    for (std::size_t i = 0; i < lattice_.words; ++i) {
-        const std::uint64_t* const words = column(i);
-        for (std::size_t l = 0; l < all.size(); ++l) all[l] |= words[l];
-    }
-    return all;
-}
-
 void CellRows::invert() {
     for (std::size_t i = 0; i < lattice_.words; ++i) {
         std::uint64_t* const words = column(i);
@@ -103,38 +104,44 @@ void CellRows::invert() {
     }
 }
 
-/// Calls take(begin, end) for runs of cells, one after another; some may touch.
-template <typename Take>
-void CellRows::for_runs(std::size_t line, Take take) const {
+SpanRows CellRows::runs(std::size_t first_line, std::size_t count) const {
+    constexpr std::size_t at_once = CellLattice::lines_at_once;
+    struct CellRun {
+        std::size_t line;
+        Run run;
+    };
+    std::vector<CellRun> found;  // column by column
+    std::vector<std::uint32_t> starts(lattice_.lines + 1, 0);
     for (std::size_t i = 0; i < lattice_.words; ++i) {
-        std::int32_t at = lattice_.first + static_cast<std::int32_t>(i) * word_units;
-        for (std::uint64_t word = column(i)[line]; word != 0;) {
-            const int void_cells = std::countr_zero(word);
-            at += void_cells * CellLattice::cell;
-            word >>= void_cells;
-            const int cells = std::countr_one(word);
-            take(at, at + cells * CellLattice::cell);
-            at += cells * CellLattice::cell;
-            word = cells == word_cells ? 0 : word >> cells;
+        const std::uint64_t* const words = column(i);
+        const std::int32_t first = lattice_.first + static_cast<std::int32_t>(i) * word_units;
+        for (std::size_t block = 0; block < lattice_.lines; block += at_once) {
+            if (!any_bit(words + block)) continue;
+            for (std::size_t l = block; l < block + at_once; ++l) {
+                for_bit_runs(words[l], [&](int begin, int end) {
+                    found.push_back(
+                        {l, {first + begin * CellLattice::cell, first + end * CellLattice::cell}});
+                    ++starts[l + 1];
+                });
+            }
         }
     }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<Run> sorted(found.size());
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    for (const CellRun& cells : found) sorted[next[cells.line]++] = cells.run;
+    SpanRows all;
+    all.reserve(count, sorted.size());
+    for (std::size_t l = first_line; l < first_line + count; ++l) {
+        for (std::uint32_t i = starts[l]; i < starts[l + 1]; ++i) all.push(sorted[i].begin, sorted[i].end);
+        all.end_line();
+    }
+    return all;
 }
 
 SpanRows CellRows::of(const SpanRows& rows, std::size_t first_line) const {
-    const std::vector<std::uint64_t> in_line = united_words();
     SpanRows inside;
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
-        const std::span<const Run> runs = rows.line(l);
-        if (!runs.empty() && in_line[first_line + l] != 0) {
-            auto next = runs.begin();
-            for_runs(first_line + l, [&](std::int32_t begin, std::int32_t end) {
-                while (next != runs.end() && next->end <= begin) ++next;
-                for (auto run = next; run != runs.end() && run->begin < end; ++run)
-                    inside.push(std::max(run->begin, begin), std::min(run->end, end));
-            });
-        }
-        inside.end_line();
-    }
+    intersect(runs(first_line, rows.lines()), rows, inside);
     return inside;
 }
 

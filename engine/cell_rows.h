@@ -45,8 +45,6 @@ class CellRows {
     std::uint64_t* column(std::size_t word) { return words_.data() + place(word); }
     const std::uint64_t* column(std::size_t word) const { return words_.data() + place(word); }
     bool any() const;
-    /// The union of each line's words.
-    std::vector<std::uint64_t> united_words() const;
 
     /// Turns into all other cells of the lattice.
     void invert();
@@ -56,13 +54,13 @@ class CellRows {
     CellRows beyond(const DiscWidths& disc) const;
     /// Takes away those within a disc of the cells of another set on the same lattice.
     void subtract_grown(const CellRows& other, const DiscWidths& disc);
+    /// The cells of so many lines as runs, joined where they touch. Quick where there are few.
+    SpanRows runs(std::size_t first_line, std::size_t count) const;
     /// What of rows lies in the cells. Their first line is that one of the lattice.
     SpanRows of(const SpanRows& rows, std::size_t first_line) const;
 
   private:
     std::size_t place(std::size_t word) const { return word * stride_ + CellLattice::lines_at_once; }
-    template <typename Take>
-    void for_runs(std::size_t line, Take take) const;
 
     CellLattice lattice_;
     std::size_t stride_;  // from column to column

@@ -26,7 +26,8 @@ class LeftRuns {
     /// foretell, so no branch depends on it: each step writes what may be left, and counts it if it is.
     void take_away(std::span<const Run> taken, const BallReach& reach) {
         const Run *t = taken.data(), *const end = t + taken.size();
-        const std::int32_t first = runs_.front().begin - reach.ahead, last = runs_[count_ - 1].end + reach.back;
+        const std::int32_t first = runs_.front().begin - reach.ahead,
+                           last = runs_[count_ - 1].end + reach.back;
         while (t != end && t->end <= first) ++t;
         if (t == end || t->begin >= last) return;
         make_room(count_ + static_cast<std::size_t>(end - t) + 1);
@@ -81,7 +82,11 @@ void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& b
         return false;
     };
     for (std::size_t l = first; l < last; ++l) {
-        if (from.line(l).empty() || !anything_near(static_cast<std::ptrdiff_t>(l))) {
+        if (from.line(l).empty()) {
+            out.end_line();
+            continue;
+        }
+        if (!anything_near(static_cast<std::ptrdiff_t>(l))) {
             out.append_line(from.line(l));
             continue;
         }
@@ -125,6 +130,10 @@ BallLines::BallLines(const LayerLattice& lattice, double radius)
 
 void subtract_grown(const SpanRows& a, const SpanRows& b, double radius, double row_pitch, SpanRows& out) {
     check_lines(a, b);
+    if (a.runs().empty() || b.runs().empty()) {
+        out = a;
+        return;
+    }
     const BallLines disc({row_pitch, infinity, a.lines()}, radius);
     out.clear();
     out.reserve(a.lines(), a.runs().size());

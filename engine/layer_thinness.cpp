@@ -53,6 +53,35 @@ CellRows suspects(CellRows touched, const CellRows& beside, const Thinness& thin
     return touched;
 }
 
+/// What lies in `where`, whose rows have a margin, of the solid or of the void.
+SpanRows medium_within(const SpanRows& where, const SpanRows& rows, std::size_t margin, Medium medium) {
+    SpanRows within;
+    for (std::size_t l = 0; l < where.lines(); ++l) {
+        const bool in_margin = l < margin || l >= margin + rows.lines();
+        const std::span<const Run> solid = in_margin ? std::span<const Run>() : rows.line(l - margin);
+        if (medium == Medium::solid) {
+            intersect_line(where.line(l), solid, within);
+        } else {
+            subtract_line(where.line(l), solid, within);
+        }
+    }
+    return within;
+}
+
+/// All of the lines that have something, and of those that stand no more than so many beside one.
+SpanRows lines_about(const SpanRows& rows, std::size_t beside) {
+    SpanRows all;
+    std::size_t seen = 0, end = 0;  // lines looked at, and where those end that are taken
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        for (; seen < std::min(l + beside + 1, rows.lines()); ++seen) {
+            if (!rows.line(seen).empty()) end = seen + beside + 1;
+        }
+        if (l < end) all.push(-far_out, far_out);
+        all.end_line();
+    }
+    return all;
+}
+
 /// The points of a medium that are too thin, out of the suspected cells. They are looked at run by run.
 void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, const Thinness& thinness,
                 double row_pitch, SpanRows& out) {
@@ -61,14 +90,17 @@ void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, 
         return;
     }
     const double reach = thinness.radius + thinness.slack;
-    const std::size_t margin = suspected.lattice().margin_lines;
-    SpanRows solid = widened(rows, margin), voids = void_of(solid);
-    if (medium == Medium::gaps) std::swap(solid, voids);
-    SpanRows core, thin;
+    const std::size_t margin = suspected.lattice().margin_lines, lines = rows.lines() + 2 * margin;
     // Where balls fit matters no further from there than they reach.
-    subtract_grown(suspected.grown(cells_met(reach, row_pitch)).of(solid, 0), voids, thinness.radius,
-                   row_pitch, core);
-    subtract_grown(suspected.of(solid, 0), core, reach, row_pitch, thin);
+    const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).runs(0, lines),
+                   about = lines_about(near, static_cast<std::size_t>(thinness.radius / row_pitch));
+    const Medium other = medium == Medium::solid ? Medium::gaps : Medium::solid;
+    const auto within = [&](const SpanRows& where, Medium in) {
+        return medium_within(where, rows, margin, in);
+    };
+    SpanRows core, thin;
+    subtract_grown(within(near, medium), within(about, other), thinness.radius, row_pitch, core);
+    subtract_grown(within(suspected.runs(0, lines), medium), core, reach, row_pitch, thin);
     without_margin(thin, margin, out);
 }
 

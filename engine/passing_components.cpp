@@ -82,45 +82,86 @@ void PassingComponent::include(PassingComponent other) {
     }
 }
 
-/// Joins what touches: a layer's components, which follow those that live, and these.
-void PassingComponents::join_touching(const LabelledLayer& layer, DisjointSets& sets) const {
-    constexpr std::uint32_t none = UINT32_MAX;
-    const auto old_count = static_cast<std::uint32_t>(live_.size());
-    std::vector<std::uint32_t> joined_last(layer.components.size(), none);  // most say the same again
-    const auto join = [&](const LabelledRun& run, const LabelledRun& older) {
-        std::uint32_t& last = joined_last[run.component];
+/// What of a layer's components is joined to those that live.
+class LayerJoins {
+  public:
+    LayerJoins(const LabelledLayer& layer, DisjointSets& sets)
+        : sets_(sets),
+          old_count_(static_cast<std::uint32_t>(sets.size() - layer.components.size())),
+          joined_last_(layer.components.size(), none) {}
+
+    /// Each run to the first one of that component which it touches. Most are joined to it already.
+    void join_to(std::uint32_t component, std::span<const LabelledRun> row,
+                 std::span<const LabelledRun> older) {
+        auto other = older.begin();
+        for (const LabelledRun& run : row) {
+            if (joined_last_[run.component] == component) continue;
+            while (other != older.end() && (other->end < run.begin || other->component != component)) ++other;
+            if (other == older.end()) return;
+            if (other->begin <= run.end) join(run, *other);
+        }
+    }
+    /// To all runs of other components than that.
+    void join_to_others_than(std::uint32_t component, std::span<const LabelledRun> row,
+                             std::span<const LabelledRun> older) {
+        auto first = row.begin();
+        for (const LabelledRun& other : older) {
+            if (other.component == component) continue;
+            while (first != row.end() && first->end < other.begin) ++first;
+            for (auto run = first; run != row.end() && run->begin <= other.end; ++run) join(*run, other);
+        }
+    }
+    void join(const LabelledRun& run, const LabelledRun& older) {
+        std::uint32_t& last = joined_last_[run.component];  // most say the same again
         if (last == older.component) return;
         last = older.component;
-        sets.join(old_count + run.component, older.component);
-    };
+        sets_.join(old_count_ + run.component, older.component);
+    }
+
+  private:
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    DisjointSets& sets_;
+    std::uint32_t old_count_;
+    std::vector<std::uint32_t> joined_last_;
+};
+
+/// Joins what touches: a layer's components, which follow those that live, and these.
+void PassingComponents::join_touching(const LabelledLayer& layer, DisjointSets& sets) const {
+    LayerJoins joins(layer, sets);
     const int first = layer.first_row, end = first + layer.rows();
     for (int r = first; r < end; ++r) {
-        const std::span<const LabelledRun> older = last_.row(r);
-        if (older.empty()) continue;
-        // Where all is of one component, as in most rows, a run that is joined to it needs no look.
-        const std::uint32_t only = older.front().component;
-        if (std::ranges::all_of(older, [&](const LabelledRun& run) { return run.component == only; })) {
-            const auto wanted = [&](const LabelledRun& run) { return joined_last[run.component] != only; };
-            for_first_touching(layer.row(r), wanted, older, join);
-        } else {
-            for_touching(layer.row(r), older, join);
-        }
+        const RowOfLast older = row_of_last(r);
+        if (older.has_main) joins.join_to(main_, layer.row(r), last_.row(r));
+        if (older.has_others) joins.join_to_others_than(main_, layer.row(r), last_.row(r));
     }
     // Rows beside each other matter where something is not yet joined to what all the rest is.
     const std::vector<std::uint8_t> apart = apart_from_most(sets);
-    const auto any_apart = [&](std::span<const LabelledRun> row, std::uint32_t from) {
+    const auto any_apart = [&](std::span<const LabelledRun> row, std::size_t from) {
         return std::ranges::any_of(row,
                                    [&](const LabelledRun& run) { return apart[from + run.component] != 0; });
     };
-    std::vector<std::uint8_t> older_apart;  // of rows from one before the first to one behind the last
-    for (int r = first - 1; r <= end; ++r) older_apart.push_back(any_apart(last_.row(r), 0) ? 1 : 0);
-    auto before = older_apart.begin();
-    for (int r = first; r < end; ++r, ++before) {
-        if (layer.row(r).empty()) continue;
-        const bool is_apart = any_apart(layer.row(r), old_count);
-        if (is_apart || before[0] != 0) for_touching(layer.row(r), last_.row(r - 1), join);
-        if (is_apart || before[2] != 0) for_touching(layer.row(r), last_.row(r + 1), join);
+    const auto older_apart = [&](int r) {
+        const RowOfLast older = row_of_last(r);
+        return (older.has_main && apart[main_] != 0) || (older.has_others && any_apart(last_.row(r), 0));
+    };
+    const bool layer_apart = std::find(apart.begin() + static_cast<std::ptrdiff_t>(live_.size()), apart.end(),
+                                       std::uint8_t{1}) != apart.end();
+    const auto join = [&](const LabelledRun& run, const LabelledRun& older) { joins.join(run, older); };
+    bool below = older_apart(first - 1), beside = older_apart(first);
+    for (int r = first; r < end; ++r) {
+        const bool above = older_apart(r + 1);
+        const bool is_apart = layer_apart && any_apart(layer.row(r), live_.size());
+        if (is_apart || below) for_touching(layer.row(r), last_.row(r - 1), join);
+        if (is_apart || above) for_touching(layer.row(r), last_.row(r + 1), join);
+        below = beside;
+        beside = above;
     }
+}
+
+PassingComponents::RowOfLast PassingComponents::row_of_last(int r) const {
+    const int i = r - last_.first_row;
+    return i < 0 || i >= last_.rows() ? RowOfLast{} : rows_of_last_[static_cast<std::size_t>(i)];
 }
 
 void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags& tags,
@@ -166,18 +207,25 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
     std::vector<LayerPatch*> patches(fresh.size());  // null: most layers are not the largest of what goes on
     for (std::uint32_t c = 0; c < fresh.size(); ++c) {
         places_of_fresh[c] = places[sets.find(old_count + c)];
-        LayerPatch& largest = live_[places_of_fresh[c]].largest;
-        if (largest.layer != index) continue;
-        largest = {.layer = index};
-        patches[c] = &largest;
+        LayerPatch& patch = live_[places_of_fresh[c]].largest;
+        if (patch.layer != index) continue;
+        patch = {.layer = index};
+        patches[c] = &patch;
     }
+    const auto largest = std::ranges::max_element(
+        live_, {}, [](const PassingComponent& component) { return component.extent.length; });
+    main_ = static_cast<std::uint32_t>(largest - live_.begin());
+    rows_of_last_.assign(static_cast<std::size_t>(layer.rows()), {});
     std::size_t i = 0;
-    for (int r = 0; r < layer.rows(); ++r) {
-        for (const std::size_t row_end = layer.starts[static_cast<std::size_t>(r) + 1]; i < row_end; ++i) {
+    for (std::size_t r = 0; r < rows_of_last_.size(); ++r) {
+        const int row = layer.first_row + static_cast<int>(r);
+        for (; i < layer.starts[r + 1]; ++i) {
             LabelledRun& run = layer.runs[i];
             LayerPatch* const patch = patches[run.component];
-            if (patch != nullptr) patch->include(PlacedRun{index, layer.first_row + r, run.begin, run.end});
+            if (patch != nullptr) patch->include(PlacedRun{index, row, run.begin, run.end});
             run.component = places_of_fresh[run.component];
+            rows_of_last_[r].has_main |= run.component == main_;
+            rows_of_last_[r].has_others |= run.component != main_;
         }
     }
     last_ = std::move(layer);

@@ -68,10 +68,17 @@ class PassingComponents {
     }
 
   private:
+    /// Of which components the runs of a row are.
+    struct RowOfLast {
+        bool has_main = false, has_others = false;
+    };
     void join_touching(const LabelledLayer& layer, DisjointSets& sets) const;
+    RowOfLast row_of_last(int r) const;
 
     LabelledLayer last_;                  // components are places in live_
     std::vector<PassingComponent> live_;  // the earliest first
+    std::uint32_t main_ = 0;              // the largest of them
+    std::vector<RowOfLast> rows_of_last_;
 };
 
 }  // namespace lamella

@@ -5,6 +5,11 @@
 
 namespace lamella {
 
+/// One line of the operation, appended.
+void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+
 /// The operands have equally many lines.
 inline SpanRows united(const SpanRows& a, const SpanRows& b) {
     SpanRows out;

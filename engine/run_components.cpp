@@ -33,23 +33,32 @@ void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t u
     out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
 }
 
-/// Gives the runs of a row numbers of components: those of what they touch in the row before, or new ones.
-void number_row(std::span<const LabelledRun> before, std::span<LabelledRun> row, DisjointSets& sets) {
-    constexpr std::uint32_t none = UINT32_MAX;
-    auto first = before.begin();
-    for (LabelledRun& run : row) {
-        std::uint32_t number = none;
-        while (first != before.end() && first->end < run.begin) ++first;
-        for (auto other = first; other != before.end() && other->begin <= run.end; ++other) {
-            if (number == none) {
-                number = other->component;
-            } else if (number != other->component) {
-                sets.join(number, other->component);
-            }
+/// Numbers the parts that a layer's runs belong to, run by run.
+class PartNumbers {
+  public:
+    /// The number of the next run: that of what it touches in the row before, or a new one.
+    std::uint32_t next(std::int32_t begin, std::int32_t end) {
+        const LabelledRun* const before_end = before_.data() + before_.size();
+        while (first_ != before_end && first_->end < begin) ++first_;
+        if (first_ == before_end || first_->begin > end) return sets_.add();
+        const std::uint32_t number = first_->component;
+        for (const LabelledRun* other = first_ + 1; other != before_end && other->begin <= end; ++other) {
+            if (number != other->component) sets_.join(number, other->component);
         }
-        run.component = number != none ? number : sets.add();
+        return number;
     }
-}
+    /// What comes next is another row, above that one.
+    void begin_row(std::span<const LabelledRun> before) {
+        before_ = before;
+        first_ = before.data();
+    }
+    DisjointSets& sets() { return sets_; }
+
+  private:
+    DisjointSets sets_;  // most runs take the number of one before them, which nothing else joins
+    std::span<const LabelledRun> before_;
+    const LabelledRun* first_ = nullptr;  // of those before, what no later run lies behind
+};
 
 /// How the components of a layer are numbered.
 struct Numbering {
@@ -57,16 +66,7 @@ struct Numbering {
     std::uint32_t count = 0;             ///< components
 };
 
-/// Gives each run the number of a part of its component.
-Numbering number_parts(LabelledLayer& layer) {
-    DisjointSets sets;  // most runs take the number of one before them, which nothing else joins
-    std::span<const LabelledRun> before;
-    for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
-        const std::span<LabelledRun> row(layer.runs.data() + layer.starts[r],
-                                         layer.runs.data() + layer.starts[r + 1]);
-        number_row(before, row, sets);
-        before = row;
-    }
+Numbering numbering_of(DisjointSets& sets) {
     Numbering numbering;
     numbering.numbers.resize(sets.size());
     for (std::uint32_t i = 0; i < sets.size(); ++i) {
@@ -74,6 +74,22 @@ Numbering number_parts(LabelledLayer& layer) {
         numbering.numbers[i] = root == i ? numbering.count++ : numbering.numbers[root];
     }
     return numbering;
+}
+
+std::span<const LabelledRun> row_before(const LabelledLayer& layer, std::size_t r) {
+    if (r == 0) return {};
+    return std::span(layer.runs).subspan(layer.starts[r - 1], layer.starts[r] - layer.starts[r - 1]);
+}
+
+/// Gives each run the number of a part of its component.
+Numbering number_parts(LabelledLayer& layer) {
+    PartNumbers parts;
+    for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
+        parts.begin_row(row_before(layer, r));
+        for (std::size_t i = layer.starts[r]; i < layer.starts[r + 1]; ++i)
+            layer.runs[i].component = parts.next(layer.runs[i].begin, layer.runs[i].end);
+    }
+    return numbering_of(parts.sets());
 }
 
 }  // namespace
@@ -105,10 +121,14 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     out.starts.reserve(rows.lines() + 1);
     out.starts.push_back(0);
     out.runs.reserve(rows.runs().size());
-    for (const Run& run : rows.runs()) out.runs.push_back({run.begin, run.end, 0});
-    for (std::size_t l = 0; l < rows.lines(); ++l)
-        out.starts.push_back(out.starts.back() + static_cast<std::uint32_t>(rows.line(l).size()));
-    const Numbering numbering = number_parts(out);
+    PartNumbers parts;
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        parts.begin_row(row_before(out, l));
+        for (const Run& run : rows.line(l))
+            out.runs.push_back({run.begin, run.end, parts.next(run.begin, run.end)});
+        out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
+    }
+    const Numbering numbering = numbering_of(parts.sets());
     out.components.resize(numbering.count);
     out.owners.resize(out.runs.size());
     std::size_t i = 0;
@@ -119,7 +139,7 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
             ComponentExtent& extent = out.components[run.component];
             extent.length += run.end - run.begin;
             extent.along = {std::min(extent.along.begin, run.begin), std::max(extent.along.end, run.end)};
-            extent.first_row = std::min(extent.first_row, r);
+            if (r < extent.first_row) extent.first_row = r;
             extent.last_row = r;
             out.owners[i] = run.component;
         }

@@ -1,8 +1,7 @@
-// Set operations on sorted runs, one line at a time.
+// Bands of lines, and runs copied, summed up and packed.
 #include "engine/runs.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "engine/parcel.h"
 
@@ -43,64 +42,5 @@ void SpanRows::carry(Parcel& parcel) {
             throw FaultError("a layer's parcel has runs that are out of order");
     }
 }
-
-namespace {
-
-void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
-    if (b.empty()) return out.append_line(a);
-    if (a.empty()) return out.append_line(b);
-    std::size_t i = 0, j = 0;
-    while (i < a.size() && j < b.size()) {
-        const Run& next = a[i].begin <= b[j].begin ? a[i++] : b[j++];
-        out.push(next.begin, next.end);
-    }
-    for (; i < a.size(); ++i) out.push(a[i].begin, a[i].end);
-    for (; j < b.size(); ++j) out.push(b[j].begin, b[j].end);
-    out.end_line();
-}
-
-void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
-    std::size_t i = 0, j = 0;
-    while (i < a.size() && j < b.size()) {
-        out.push(std::max(a[i].begin, b[j].begin), std::min(a[i].end, b[j].end));
-        if (a[i].end < b[j].end) {
-            ++i;
-        } else {
-            ++j;
-        }
-    }
-    out.end_line();
-}
-
-void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
-    if (b.empty()) return out.append_line(a);
-    std::size_t j = 0;
-    for (const Run& run : a) {
-        std::int32_t from = run.begin;
-        while (j < b.size() && b[j].end <= from) ++j;
-        for (std::size_t k = j; k < b.size() && b[k].begin < run.end; ++k) {
-            out.push(from, b[k].begin);
-            from = std::max(from, b[k].end);
-        }
-        out.push(from, run.end);
-    }
-    out.end_line();
-}
-
-template <typename LineOperation>
-void line_by_line(const SpanRows& a, const SpanRows& b, SpanRows& out, LineOperation operation) {
-    assert(a.lines() == b.lines() && &out != &a && &out != &b);
-    out.clear();
-    out.reserve(a.lines(), a.runs().size());
-    for (std::size_t l = 0; l < a.lines(); ++l) operation(a.line(l), b.line(l), out);
-}
-
-}  // namespace
-
-void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) { line_by_line(a, b, out, unite_line); }
-void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
-    line_by_line(a, b, out, intersect_line);
-}
-void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out) { line_by_line(a, b, out, subtract_line); }
 
 }  // namespace lamella

@@ -149,3 +149,41 @@ TEST_CASE("cells grow the same where lines end", "[morphology]") {
         }
     }
 }
+
+TEST_CASE("cells grow alike where few are, where all are, and in lines of many words", "[morphology]") {
+    constexpr int columns = 5000;  // 157 words
+    std::mt19937 random(3);
+    std::uniform_int_distribution<std::size_t> any(0, 4);
+    SpanRows few, most;
+    const std::vector<int> places{7, 640, 644, 3100, 4990};
+    for (int l = 0; l < 41; ++l) {
+        const int place = places[any(random)];
+        if (l % 9 == 0) few.push(place * run_unit, (place + 3) * run_unit);
+        few.end_line();
+        most.push(0, (columns - place) * run_unit);
+        most.push((columns - place + 2) * run_unit, columns * run_unit);
+        most.end_line();
+    }
+    const CellLattice lattice({0, columns * run_unit}, few.lines(), 40 * run_unit, run_unit);
+    REQUIRE(lattice.words > 2 * 64);
+    for (const SpanRows* rows : {&few, &most}) {
+        const CellRows cells = LayerCells(*rows, lattice).met;
+        CHECK(cells.of(*rows, lattice.margin_lines) == *rows);
+        for (const double radius : {0.0, 1.5, 3.0, 39.0}) {
+            const DiscWidths disc = cells_met(radius * run_unit, run_unit);
+            const CellRows grown = cells.grown(disc), beyond = cells.beyond(disc);
+            CellRows left = LayerCells(most, lattice).met;
+            const CellRows all = left;
+            left.subtract_grown(cells, disc);
+            INFO("radius " << radius << (rows == &few ? ", few" : ", most"));
+            for (int l = 0; l < static_cast<int>(lattice.lines); ++l) {
+                for (int c = l % 5; c<columns_of(lattice); c += radius> 10 ? 97 : 5) {
+                    const bool within = any_within(cells, disc, l, c);
+                    REQUIRE(has(grown, l, c) == within);
+                    REQUIRE(has(beyond, l, c) == !within);
+                    REQUIRE(has(left, l, c) == (has(all, l, c) && !within));
+                }
+            }
+        }
+    }
+}
