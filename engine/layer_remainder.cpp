@@ -81,15 +81,11 @@ void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& b
         }
         return false;
     };
+    std::size_t same = first;  // from there on lines stay as they are
     for (std::size_t l = first; l < last; ++l) {
-        if (from.line(l).empty()) {
-            out.end_line();
-            continue;
-        }
-        if (!anything_near(static_cast<std::ptrdiff_t>(l))) {
-            out.append_line(from.line(l));
-            continue;
-        }
+        if (from.line(l).empty() || !anything_near(static_cast<std::ptrdiff_t>(l))) continue;
+        out.append_lines(from, same, l - same);
+        same = l + 1;
         left.assign(from.line(l));
         for (const BallLines::Line& line : ball.lines()) {
             if (left.empty()) break;
@@ -100,6 +96,7 @@ void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& b
         }
         out.append_line(left.all());
     }
+    out.append_lines(from, same, last - same);
 }
 
 void check_lines(const SpanRows& from, const SpanRows& taken) {

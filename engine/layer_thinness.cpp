@@ -68,15 +68,20 @@ SpanRows medium_within(const SpanRows& where, const SpanRows& rows, std::size_t 
     return within;
 }
 
-/// All of the lines that have something, and of those that stand no more than so many beside one.
-SpanRows lines_about(const SpanRows& rows, std::size_t beside) {
+/// On each line what lies no further along and across from rows than a ball reaches, and what is between.
+SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
+    const auto beside = static_cast<std::size_t>(radius / row_pitch);
+    const std::int32_t along = static_cast<std::int32_t>(radius) + 1;
     SpanRows all;
-    std::size_t seen = 0, end = 0;  // lines looked at, and where those end that are taken
     for (std::size_t l = 0; l < rows.lines(); ++l) {
-        for (; seen < std::min(l + beside + 1, rows.lines()); ++seen) {
-            if (!rows.line(seen).empty()) end = seen + beside + 1;
+        std::int32_t begin = far_out, end = -far_out;
+        for (std::size_t k = l - std::min(l, beside); k < std::min(l + beside + 1, rows.lines()); ++k) {
+            const std::span<const Run> runs = rows.line(k);
+            if (runs.empty()) continue;
+            begin = std::min(begin, runs.front().begin - along);
+            end = std::max(end, runs.back().end + along);
         }
-        if (l < end) all.push(-far_out, far_out);
+        all.push(begin, end);
         all.end_line();
     }
     return all;
@@ -93,7 +98,7 @@ void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, 
     const std::size_t margin = suspected.lattice().margin_lines, lines = rows.lines() + 2 * margin;
     // Where balls fit matters no further from there than they reach.
     const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).runs(0, lines),
-                   about = lines_about(near, static_cast<std::size_t>(thinness.radius / row_pitch));
+                   about = extents_about(near, thinness.radius, row_pitch);
     const Medium other = medium == Medium::solid ? Medium::gaps : Medium::solid;
     const auto within = [&](const SpanRows& where, Medium in) {
         return medium_within(where, rows, margin, in);

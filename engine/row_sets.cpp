@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace lamella {
 
@@ -20,15 +21,12 @@ void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
 }
 
 void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
-    if (a.empty() || b.empty()) return out.end_line();
-    std::size_t i = 0, j = 0;
-    while (i < a.size() && j < b.size()) {
-        out.push(std::max(a[i].begin, b[j].begin), std::min(a[i].end, b[j].end));
-        if (a[i].end < b[j].end) {
-            ++i;
-        } else {
-            ++j;
-        }
+    if (a.size() > b.size()) std::swap(a, b);
+    auto next = b.begin();
+    for (const Run& run : a) {
+        while (next != b.end() && next->end <= run.begin) ++next;
+        for (auto other = next; other != b.end() && other->begin < run.end; ++other)
+            out.push(std::max(run.begin, other->begin), std::min(run.end, other->end));
     }
     out.end_line();
 }

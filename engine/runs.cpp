@@ -21,7 +21,9 @@ void SpanRows::append_lines(const SpanRows& rows, std::size_t first, std::size_t
     const std::uint32_t begin = starts.front();
     const auto before = static_cast<std::uint32_t>(runs_.size());
     runs_.insert(runs_.end(), rows.runs_.begin() + begin, rows.runs_.begin() + starts.back());
-    for (const std::uint32_t end : starts.subspan(1)) starts_.push_back(before + (end - begin));
+    const std::size_t lines = starts_.size();
+    starts_.resize(lines + count);
+    for (std::size_t i = 0; i < count; ++i) starts_[lines + i] = before + (starts[i + 1] - begin);
 }
 
 std::int64_t SpanRows::total_length() const {
