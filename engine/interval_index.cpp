@@ -1,6 +1,7 @@
 // Bins over the intervals; within a bin, items by their rank.
 #include "engine/interval_index.h"
 
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -51,17 +52,22 @@ std::size_t IntervalIndex::bin_of(double v) const {
 void IntervalIndex::query(const Interval& interval, std::vector<std::uint32_t>& items) const {
     items.clear();
     if (bins_ == 0 || interval.hi < extent_.lo || extent_.hi < interval.lo) return;
+    // A bit for each rank sorts them, and finds once what stands in several bins. Which ones meet is hard to
+    // foretell, so no branch depends on it.
+    constexpr std::uint32_t word_bits = 64;
+    std::vector<std::uint64_t> met((intervals_.size() + word_bits - 1) / word_bits, 0);
     const std::size_t first = bin_of(interval.lo), last = bin_of(interval.hi);
-    for (std::size_t b = first; b <= last; ++b) {
-        for (std::uint32_t k = starts_[b]; k < starts_[b + 1]; ++k) {
-            const std::uint32_t rank = ranks_[k];
-            const Interval& extent = intervals_[rank];
-            if (extent.hi < interval.lo || interval.hi < extent.lo) continue;
-            if (b == std::max(first, bin_of(extent.lo))) items.push_back(rank);
-        }
+    for (std::uint32_t k = starts_[first]; k < starts_[last + 1]; ++k) {
+        const std::uint32_t rank = ranks_[k];
+        const Interval& extent = intervals_[rank];
+        const bool meets =
+            static_cast<int>(extent.lo <= interval.hi) & static_cast<int>(interval.lo <= extent.hi);
+        met[rank / word_bits] |= std::uint64_t{meets} << rank % word_bits;
     }
-    if (last > first) std::sort(items.begin(), items.end());
-    for (std::uint32_t& i : items) i = item_[i];
+    for (std::uint32_t i = 0; i < met.size(); ++i) {
+        for (std::uint64_t word = met[i]; word != 0; word &= word - 1)
+            items.push_back(item_[i * word_bits + static_cast<std::uint32_t>(std::countr_zero(word))]);
+    }
 }
 
 }  // namespace lamella
