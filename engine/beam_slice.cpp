@@ -1,16 +1,11 @@
-// Prepares beams for the row kernel, and takes the exact path where single precision would not do.
+// Beams go through the row kernel, and through the exact path where single precision would not do.
 #include "engine/beam_slice.h"
 
+#include "engine/beam_group.h"
 #include "engine/slice_context.h"
 
 namespace lamella {
 namespace {
-
-/// Below this value of cos^2 - ux^2 the line is nearly parallel to the beam and the kernel's quotient loses
-/// digits.
-constexpr double least_slope = 1e-4;
-/// Beams longer than this many radii lose digits in single precision.
-constexpr double longest_in_radii = 100;
 
 /// The part of the beam's axis whose balls can meet the plane, as a range of its parameter in [0, 1].
 Interval axis_near_plane(const Beam& beam, double z) {
@@ -53,6 +48,22 @@ void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lin
     }
 }
 
+/// Adds the runs of a group's beams, and empties it.
+void collect_group(BeamGroup& group, const RowBand& band, double z, RunCollector& runs) {
+    group.prepare();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const LineRange& lines = group.lines(i);
+        if (group.needs_doubles(i)) {
+            collect_exactly(group.beam(i), band, lines, z, runs);
+        } else {
+            const int count = lines.last - lines.first;
+            const auto out = runs.add(lines.first, count);
+            beam_rows(group.frame(i), group.in_plane(i), count, out.begin, out.end);
+        }
+    }
+    group.clear();
+}
+
 }  // namespace
 
 BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
@@ -68,51 +79,12 @@ BeamRows::BeamRows(const std::vector<Beam>& beams, double z) : z_(z) {
 }
 
 void BeamRows::collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const {
-    sections_.visit(band, lines,
-                    [&](std::uint32_t i, const LineRange& met) { collect_beam(beams_[i], band, met, runs); });
-}
-
-void BeamRows::collect_beam(const Beam& beam, const RowBand& band, const LineRange& lines,
-                            RunCollector& runs) const {
-    const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
-    const dvec3 d = beam.b - beam.a;
-    const double length = std::sqrt(glm::dot(d, d));
-    const double least_radius = std::min(beam.ra, beam.rb);
-    const bool one_ball = length <= std::abs(beam.ra - beam.rb);
-    if (one_ball || length > longest_in_radii * least_radius)
-        return collect_exactly(beam, band, lines, z_, runs);
-    const dvec3 axis = d / length;
-    const double sine = (beam.ra - beam.rb) / length, cos2 = 1 - sine * sine;
-    const double a = axis[across_axis] * axis[across_axis] + axis.z * axis.z - sine * sine;
-    if (a < least_slope) return collect_exactly(beam, band, lines, z_, runs);
-
-    const Interval part = axis_near_plane(beam, z_);
-    const double s = (part.lo + part.hi) * 0.5 * length;
-    const dvec3 reference = beam.a + axis * s;
-    const double radius = beam.ra - s * sine, z = z_ - reference.z;
-    BeamInPlane p;
-    p.ux = static_cast<float>(axis[along_axis]);
-    p.uy = static_cast<float>(axis[across_axis]);
-    p.z = static_cast<float>(z);
-    p.qz = static_cast<float>(z * axis.z);
-    p.a = static_cast<float>(a);
-    p.inverse_a = 1.0F / p.a;
-    p.cos2 = static_cast<float>(cos2);
-    p.sine = static_cast<float>(sine);
-    p.radius = static_cast<float>(radius);
-    p.low = static_cast<float>(radius * sine - s * cos2);
-    p.high = static_cast<float>(radius * sine + (length - s) * cos2);
-    const dvec3 first = beam.a - reference, second = beam.b - reference;
-    p.ax = static_cast<float>(first[along_axis]);
-    p.ay = static_cast<float>(first[across_axis]);
-    p.ah = static_cast<float>(beam.ra * beam.ra - (z - first.z) * (z - first.z));
-    p.bx = static_cast<float>(second[along_axis]);
-    p.by = static_cast<float>(second[across_axis]);
-    p.bh = static_cast<float>(beam.rb * beam.rb - (z - second.z) * (z - second.z));
-
-    const int count = lines.last - lines.first;
-    const auto out = runs.add(lines.first, count);
-    beam_rows(line_frame(band, lines.first, dvec2(reference)), p, count, out.begin, out.end);
+    BeamGroup group(band, z_);
+    sections_.visit(band, lines, [&](std::uint32_t i, const LineRange& met) {
+        group.add(beams_[i], met);
+        if (group.full()) collect_group(group, band, z_, runs);
+    });
+    if (group.size() > 0) collect_group(group, band, z_, runs);
 }
 
 void BeamSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {

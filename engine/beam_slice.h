@@ -1,7 +1,6 @@
 // The slice of a set of beams: an index of the beams that meet the plane, and their runs in closed form.
 #pragma once
 
-#include <mutex>
 #include <vector>
 
 #include "engine/beam.h"
@@ -27,9 +26,6 @@ class BeamRows {
     std::size_t size() const { return beams_.size(); }
 
   private:
-    void collect_beam(const Beam& beam, const RowBand& band, const LineRange& lines,
-                      RunCollector& runs) const;
-
     std::vector<Beam> beams_;
     double z_ = 0;
     PlaneIndex sections_;  ///< where each beam meets the plane
