@@ -91,12 +91,6 @@ LayerCells::LayerCells(const SpanRows& rows, const CellLattice& lattice) : fille
     }
 }
 
-bool CellRows::any() const {
-    std::uint64_t all = 0;
-    for (const std::uint64_t word : words_) all |= word;
-    return all != 0;
-}
-
 void CellRows::invert() {
     for (std::size_t i = 0; i < lattice_.words; ++i) {
         std::uint64_t* const words = column(i);
@@ -128,12 +122,13 @@ SpanRows CellRows::runs(std::size_t first_line, std::size_t count) const {
     }
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     std::vector<Run> sorted(found.size());
-    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
-    for (const CellRun& cells : found) sorted[next[cells.line]++] = cells.run;
+    for (const CellRun& cells : found)
+        sorted[starts[cells.line]++] = cells.run;  // to where the next one starts
     SpanRows all;
     all.reserve(count, sorted.size());
+    std::uint32_t i = first_line > 0 ? starts[first_line - 1] : 0;
     for (std::size_t l = first_line; l < first_line + count; ++l) {
-        for (std::uint32_t i = starts[l]; i < starts[l + 1]; ++i) all.push(sorted[i].begin, sorted[i].end);
+        for (; i < starts[l]; ++i) all.push(sorted[i].begin, sorted[i].end);
         all.end_line();
     }
     return all;

@@ -44,7 +44,6 @@ class CellRows {
     /// them and behind.
     std::uint64_t* column(std::size_t word) { return words_.data() + place(word); }
     const std::uint64_t* column(std::size_t word) const { return words_.data() + place(word); }
-    bool any() const;
 
     /// Turns into all other cells of the lattice.
     void invert();

@@ -84,7 +84,7 @@ SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
 SpanRows maybe_beyond(const SpanRows& rows, const CellRows& met, const CellRows& filled, double pitches) {
     CellRows suspected = met;
     suspected.subtract_grown(filled, cells_covered(pitches * run_unit, run_unit));
-    return suspected.any() ? suspected.of(rows, suspected.lattice().margin_lines) : empty_rows(rows.lines());
+    return suspected.of(rows, suspected.lattice().margin_lines);
 }
 
 /// The runs of those components of a layer that are chosen.

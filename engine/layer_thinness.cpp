@@ -90,12 +90,13 @@ SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
 /// The points of a medium that are too thin, out of the suspected cells. They are looked at run by run.
 void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, const Thinness& thinness,
                 double row_pitch, SpanRows& out) {
-    if (!suspected.any()) {
+    const double reach = thinness.radius + thinness.slack;
+    const std::size_t margin = suspected.lattice().margin_lines, lines = rows.lines() + 2 * margin;
+    const SpanRows at = suspected.runs(0, lines);
+    if (at.runs().empty()) {
         out = empty_rows(rows.lines());
         return;
     }
-    const double reach = thinness.radius + thinness.slack;
-    const std::size_t margin = suspected.lattice().margin_lines, lines = rows.lines() + 2 * margin;
     // Where balls fit matters no further from there than they reach.
     const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).runs(0, lines),
                    about = extents_about(near, thinness.radius, row_pitch);
@@ -105,7 +106,7 @@ void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, 
     };
     SpanRows core, thin;
     subtract_grown(within(near, medium), within(about, other), thinness.radius, row_pitch, core);
-    subtract_grown(within(suspected.runs(0, lines), medium), core, reach, row_pitch, thin);
+    subtract_grown(within(at, medium), core, reach, row_pitch, thin);
     without_margin(thin, margin, out);
 }
 

@@ -215,18 +215,19 @@ void PassingComponents::add(LabelledLayer layer, int index, const ComponentTags&
     const auto largest = std::ranges::max_element(
         live_, {}, [](const PassingComponent& component) { return component.extent.length; });
     main_ = static_cast<std::uint32_t>(largest - live_.begin());
-    rows_of_last_.assign(static_cast<std::size_t>(layer.rows()), {});
-    std::size_t i = 0;
+    rows_of_last_.resize(static_cast<std::size_t>(layer.rows()));
     for (std::size_t r = 0; r < rows_of_last_.size(); ++r) {
         const int row = layer.first_row + static_cast<int>(r);
-        for (; i < layer.starts[r + 1]; ++i) {
+        RowOfLast contents;
+        for (std::size_t i = layer.starts[r]; i < layer.starts[r + 1]; ++i) {
             LabelledRun& run = layer.runs[i];
             LayerPatch* const patch = patches[run.component];
             if (patch != nullptr) patch->include(PlacedRun{index, row, run.begin, run.end});
             run.component = places_of_fresh[run.component];
-            rows_of_last_[r].has_main |= run.component == main_;
-            rows_of_last_[r].has_others |= run.component != main_;
+            contents.has_main |= run.component == main_;
+            contents.has_others |= run.component != main_;
         }
+        rows_of_last_[r] = contents;
     }
     last_ = std::move(layer);
 }
