@@ -91,13 +91,16 @@ SpanRows maybe_beyond(const SpanRows& rows, const CellRows& met, const CellRows&
 SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
                  const std::vector<std::uint8_t>& chosen) {
     SpanRows out;
-    std::size_t i = 0;
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
+    std::size_t i = 0, done = 0;
+    for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        out.end_lines(l - done);
         for (const Run& run : rows.line(l)) {
             if (chosen[labelled.owners[i++]] != 0) out.push(run.begin, run.end);
         }
         out.end_line();
+        done = l + 1;
     }
+    out.end_lines(rows.lines() - done);
     return out;
 }
 
@@ -217,29 +220,29 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
 SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index) {
-    std::vector<std::vector<Run>> bad(hanging.lines());
-    if (!large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) {
-        const SpanRows held = without(layer.printed(), hanging);
-        for (const HangingRegion& region :
-             find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
-            if (!region.bridge) {
-                for (const PlacedRun& run : region.runs)
-                    bad[static_cast<std::size_t>(run.row)].push_back({run.begin, run.end});
-            } else if (*region.bridge > limits_.bridge) {
-                LayerPatch patch{.layer = index};
-                for (const PlacedRun& run : region.runs) patch.include(run);
-                Fault fault = grid_.fault(patch);
-                fault.size = *region.bridge;
-                bridges_.add(std::move(fault));
-            }
+    if (large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) return empty_rows(hanging.lines());
+    std::vector<PlacedRun> bad;
+    const SpanRows held = without(layer.printed(), hanging);
+    for (const HangingRegion& region :
+         find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
+        if (!region.bridge) {
+            bad.insert(bad.end(), region.runs.begin(), region.runs.end());
+        } else if (*region.bridge > limits_.bridge) {
+            LayerPatch patch{.layer = index};
+            for (const PlacedRun& run : region.runs) patch.include(run);
+            Fault fault = grid_.fault(patch);
+            fault.size = *region.bridge;
+            bridges_.add(std::move(fault));
         }
     }
+    std::ranges::sort(bad);
     SpanRows out;
-    for (std::vector<Run>& line : bad) {
-        std::ranges::sort(line, {}, &Run::begin);
-        for (const Run& run : line) out.push(run.begin, run.end);
-        out.end_line();
+    for (const PlacedRun& run : bad) {
+        const auto row = static_cast<std::size_t>(run.row);
+        if (row > out.lines()) out.end_lines(row - out.lines());
+        out.push(run.begin, run.end);
     }
+    out.end_lines(hanging.lines() - out.lines());
     return out;
 }
 

@@ -82,8 +82,8 @@ void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& b
         return false;
     };
     std::size_t same = first;  // from there on lines stay as they are
-    for (std::size_t l = first; l < last; ++l) {
-        if (from.line(l).empty() || !anything_near(static_cast<std::ptrdiff_t>(l))) continue;
+    for (std::size_t l = from.line_with_runs(first); l < last; l = from.line_with_runs(l + 1)) {
+        if (!anything_near(static_cast<std::ptrdiff_t>(l))) continue;
         out.append_lines(from, same, l - same);
         same = l + 1;
         left.assign(from.line(l));

@@ -49,41 +49,59 @@ void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out
 
 namespace {
 
-template <typename LineOperation>
-void line_by_line(const SpanRows& a, const SpanRows& b, SpanRows& out, std::size_t runs,
-                  LineOperation operation) {
-    assert(a.lines() == b.lines() && &out != &a && &out != &b);
-    out.clear();
-    out.reserve(a.lines(), runs);
-    for (std::size_t l = 0; l < a.lines(); ++l) {
-        if (a.line(l).empty() && b.line(l).empty()) {
-            out.end_line();
-        } else {
-            operation(a.line(l), b.line(l), out);
-        }
+/// The first line from `l` on where both have runs, or behind the last one.
+std::size_t line_with_both(const SpanRows& a, const SpanRows& b, std::size_t l) {
+    for (const std::size_t lines = a.lines();;) {
+        const std::size_t of_a = a.line_with_runs(l);
+        if (of_a == lines) return lines;
+        l = b.line_with_runs(of_a);
+        if (l == of_a || l == lines) return l;
     }
 }
 
 }  // namespace
 
+// Where few lines hold anything that the others meet, all others are passed or copied many at once.
+
 void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) {
-    if (a.runs().empty() || b.runs().empty()) {
-        out = a.runs().empty() ? b : a;
-    } else {
-        line_by_line(a, b, out, a.runs().size() + b.runs().size(), unite_line);
+    const bool a_has_more = a.runs().size() >= b.runs().size();
+    const SpanRows &most = a_has_more ? a : b, &others = a_has_more ? b : a;
+    assert(a.lines() == b.lines() && &out != &a && &out != &b);
+    out.clear();
+    out.reserve(a.lines(), a.runs().size() + b.runs().size());
+    std::size_t same = 0;  // from there on lines stay as they are
+    for (std::size_t l = others.line_with_runs(0); l < a.lines(); l = others.line_with_runs(l + 1)) {
+        out.append_lines(most, same, l - same);
+        unite_line(most.line(l), others.line(l), out);
+        same = l + 1;
     }
+    out.append_lines(most, same, a.lines() - same);
 }
 
 void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
-    line_by_line(a, b, out, std::min(a.runs().size(), b.runs().size()), intersect_line);
+    assert(a.lines() == b.lines() && &out != &a && &out != &b);
+    out.clear();
+    out.reserve(a.lines(), std::min(a.runs().size(), b.runs().size()));
+    std::size_t done = 0;
+    for (std::size_t l = line_with_both(a, b, 0); l < a.lines(); l = line_with_both(a, b, l + 1)) {
+        out.end_lines(l - done);
+        intersect_line(a.line(l), b.line(l), out);
+        done = l + 1;
+    }
+    out.end_lines(a.lines() - done);
 }
 
 void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out) {
-    if (a.runs().empty() || b.runs().empty()) {
-        out = a;
-    } else {
-        line_by_line(a, b, out, a.runs().size(), subtract_line);
+    assert(a.lines() == b.lines() && &out != &a && &out != &b);
+    out.clear();
+    out.reserve(a.lines(), a.runs().size());
+    std::size_t same = 0;
+    for (std::size_t l = line_with_both(a, b, 0); l < a.lines(); l = line_with_both(a, b, l + 1)) {
+        out.append_lines(a, same, l - same);
+        subtract_line(a.line(l), b.line(l), out);
+        same = l + 1;
     }
+    out.append_lines(a, same, a.lines() - same);
 }
 
 }  // namespace lamella

@@ -44,8 +44,7 @@ inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_
 /// Rows without a run.
 inline SpanRows empty_rows(std::size_t lines) {
     SpanRows out;
-    out.reserve(lines, 0);
-    for (std::size_t l = 0; l < lines; ++l) out.end_line();
+    out.end_lines(lines);
     return out;
 }
 

@@ -122,18 +122,26 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     out.starts.push_back(0);
     out.runs.reserve(rows.runs().size());
     PartNumbers parts;
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
+    const auto end_rows = [&](std::size_t count) {
+        out.starts.insert(out.starts.end(), count, static_cast<std::uint32_t>(out.runs.size()));
+    };
+    std::size_t done = 0;
+    for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        end_rows(l - done);
         parts.begin_row(row_before(out, l));
         for (const Run& run : rows.line(l))
             out.runs.push_back({run.begin, run.end, parts.next(run.begin, run.end)});
-        out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
+        end_rows(1);
+        done = l + 1;
     }
+    end_rows(rows.lines() - done);
     const Numbering numbering = numbering_of(parts.sets());
     out.components.resize(numbering.count);
     out.owners.resize(out.runs.size());
     std::size_t i = 0;
-    for (int r = 0; r < static_cast<int>(rows.lines()); ++r) {
-        for (const std::size_t end = out.starts[static_cast<std::size_t>(r) + 1]; i < end; ++i) {
+    for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        const int r = static_cast<int>(l);
+        for (const std::size_t end = out.starts[l + 1]; i < end; ++i) {
             LabelledRun& run = out.runs[i];
             run.component = numbering.numbers[run.component];
             ComponentExtent& extent = out.components[run.component];

@@ -87,6 +87,15 @@ class SpanRows {
         return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};
     }
     std::span<const Run> runs() const { return runs_; }
+    /// The first line from `l` on that has a run; lines() where there is none.
+    std::size_t line_with_runs(std::size_t l) const {
+        constexpr std::size_t stride = 16;  // many lines are passed at once
+        const std::size_t count = lines();
+        const std::uint32_t begin = starts_[l];
+        while (l + stride <= count && starts_[l + stride] == begin) l += stride;
+        while (l < count && starts_[l + 1] == begin) ++l;
+        return l;
+    }
 
     /// Adds a run to the line being built; runs come sorted by begin; one that meets the last is joined with
     /// it.
@@ -100,6 +109,10 @@ class SpanRows {
     }
     /// Ends the line being built.
     void end_line() { starts_.push_back(static_cast<std::uint32_t>(runs_.size())); }
+    /// Ends it, and adds empty ones, so many in all.
+    void end_lines(std::size_t count) {
+        starts_.insert(starts_.end(), count, static_cast<std::uint32_t>(runs_.size()));
+    }
     void append_line(std::span<const Run> runs) {
         runs_.insert(runs_.end(), runs.begin(), runs.end());
         end_line();
