@@ -150,11 +150,11 @@ TEST_CASE("cells grow the same where lines end", "[morphology]") {
 }
 
 TEST_CASE("cells grow alike where few are, where all are, and in lines of many words", "[morphology]") {
-    constexpr int columns = 5000;  // 157 words
+    constexpr int columns = 10000;  // 158 words
     std::mt19937 random(3);
     std::uniform_int_distribution<std::size_t> any(0, 4);
     SpanRows few, most;
-    const std::vector<int> places{7, 640, 644, 3100, 4990};
+    const std::vector<int> places{7, 640, 644, 6100, 9990};
     for (int l = 0; l < 41; ++l) {
         const int place = places[any(random)];
         if (l % 9 == 0) few.push(place * run_unit, (place + 3) * run_unit);
