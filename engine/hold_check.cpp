@@ -158,15 +158,14 @@ void HoldCheck::add(HoldingRows layer, LayerCells cells, const LabelledLayer& pr
 /// Tells of what hangs beside islands; `next` is to hold what of it may.
 void HoldCheck::follow_overhangs(const HoldingRows& layer, const CellRows& met, const SpanRows& islands,
                                  Below& next, int index) {
-    const SpanRows held = supports_.held();
     // Rows see a border up to a pitch late.
     const Below& below = below_.back();
     const SpanRows out =
         beyond(maybe_beyond(layer.part, met, *below.filled, step_ + 1), below.rows.part, step_ + 1);
-    const SpanRows hanging = without(without(out, held), islands);
+    const SpanRows hanging = without(supports_.unheld(out), islands);
     const SpanRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    const SpanRows steep = too_steep(layer, met, held, next.hung);
+    const SpanRows steep = too_steep(layer, met, next.hung);
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
@@ -194,8 +193,7 @@ SpanRows HoldCheck::find_islands(const HoldingRows& layer, const LabelledLayer& 
 }
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
-                              const SpanRows& hangs) const {
+SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& hangs) const {
     SpanRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
     const std::size_t first = below_.size() - slope_layers_;
@@ -207,7 +205,7 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
     const SpanRows maybe = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
     if (maybe.runs().empty()) return none;
-    SpanRows steep = without(maybe, held);
+    SpanRows steep = supports_.unheld(maybe);
     const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);

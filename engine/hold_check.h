@@ -56,8 +56,7 @@ class HoldCheck {
                           int index);
     SpanRows find_islands(const HoldingRows& layer, const LabelledLayer& printed, const RowsIn& rows_in,
                           int index);
-    SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& held,
-                       const SpanRows& hangs) const;
+    SpanRows too_steep(const HoldingRows& layer, const CellRows& met, const SpanRows& hangs) const;
     SpanRows judge_regions(const HoldingRows& layer, const SpanRows& hanging, int index);
     SpanRows standing_out(const HoldingRows& layer, const SpanRows& found) const;
     void add_overhang(const SpanRows& rows, int index);

@@ -1,53 +1,99 @@
-// Supports and their upper ends as balls, grown within the next layer.
+// Supports and their upper ends as balls, the nearest rows first, as long as anything is left.
 #include "engine/support_hold.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/layer_offset.h"
 #include "engine/row_sets.h"
 
 namespace lamella {
+namespace {
 
-SupportHold::SupportHold(const CheckGrid& grid, double spacing, double gap)
-    : grid_(grid),
-      spacing_(spacing),
-      gap_(gap),
-      layers_(static_cast<std::size_t>((spacing + gap) / grid.layer_height)) {
-    last_ = empty_rows(static_cast<std::size_t>(grid.band.count));
+double square(std::size_t rows) {
+    const double distance = static_cast<double>(rows) * run_unit;
+    return distance * distance;
 }
 
-SpanRows SupportHold::held() const {
-    const double unit = grid_.band.along_pitch / run_unit;
-    BallRows balls;
-    std::vector<BallRun> line;
-    bool any = !last_.runs().empty();
-    for (const SpanRows& top : tops_) any = any || !top.runs().empty();
-    if (!any) return last_;
-    for (std::size_t l = 0; l < last_.lines(); ++l) {
-        line.clear();
-        const auto add = [&](const SpanRows& rows, std::size_t layers_down) {
-            const double way = std::max(static_cast<double>(layers_down) * grid_.layer_height - gap_, 0.0);
-            const double left = (spacing_ * spacing_ - way * way) / (unit * unit);
-            if (left < 0) return;
-            for (const Run& run : rows.line(l)) line.push_back({run.begin, run.end, left});
-        };
-        add(last_, 0);
-        for (std::size_t k = 0; k < tops_.size(); ++k) add(tops_[k], tops_.size() - k);
-        std::ranges::sort(line, {}, &BallRun::begin);
-        balls.append_line(line);
+/// Takes a run away from sorted ones.
+void take_away(const Run& taken, std::vector<Run>& from) {
+    auto run = std::ranges::partition_point(from, [&](const Run& r) { return r.end <= taken.begin; });
+    if (run == from.end() || run->begin >= taken.end) return;
+    if (run->begin < taken.begin) {
+        const std::int32_t end = run->end;
+        run->end = taken.begin;
+        ++run;
+        if (taken.end < end) {
+            from.insert(run, {taken.end, end});
+            return;
+        }
     }
+    const auto last = std::find_if(run, from.end(), [&](const Run& r) { return r.end > taken.end; });
+    if (last != from.end()) last->begin = std::max(last->begin, taken.end);
+    from.erase(run, last);
+}
+
+}  // namespace
+
+SupportHold::SupportHold(const CheckGrid& grid, double spacing, double gap)
+    : last_(empty_rows(static_cast<std::size_t>(grid.band.count))), tops_(last_.lines()) {
+    const double unit = grid.band.along_pitch / run_unit;
+    const auto layers_up = static_cast<std::size_t>((spacing + gap) / grid.layer_height);
+    for (std::size_t k = 0; k <= layers_up; ++k) {
+        const double way = std::max(static_cast<double>(k) * grid.layer_height - gap, 0.0);
+        weights_.push_back((spacing * spacing - way * way) / (unit * unit));
+    }
+    for (std::size_t r = 0; square(r) <= weights_.front(); ++r)
+        reaches_.emplace_back(std::sqrt(weights_.front() - square(r)));
+}
+
+/// Tells take(run) what is held from a row so many rows away of what lies in the run `about`.
+template <typename Take>
+void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const {
+    const BallReach most = reaches_[rows_away];
+    const std::int32_t first = about.begin - most.ahead, last = about.end + most.back;
+    const auto reaches = [&](const Run& run) { return run.end > first && run.begin < last; };
+    for (const Run& run : last_.line(row)) {
+        if (reaches(run)) take({run.begin - most.back, run.end + most.ahead});
+    }
+    for (const Top& top : tops_[row]) {
+        if (!reaches(top.run)) continue;
+        const double left = weights_[layers_ - top.layer] - square(rows_away);
+        if (left < 0) continue;
+        const BallReach reach(std::sqrt(left));
+        take({top.run.begin - reach.back, top.run.end + reach.ahead});
+    }
+}
+
+SpanRows SupportHold::unheld(const SpanRows& rows) const {
     SpanRows out;
-    grow_rows(balls, run_unit, out);
+    std::vector<Run> left;
+    std::size_t done = 0;
+    const auto take = [&](const Run& held) { take_away(held, left); };
+    for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        left.assign(rows.line(l).begin(), rows.line(l).end());
+        for (std::size_t away = 0; away < reaches_.size() && !left.empty(); ++away) {
+            const Run about{left.front().begin, left.back().end};
+            if (away <= l) for_held_by_row(l - away, away, about, take);
+            if (away > 0 && l + away < rows.lines()) for_held_by_row(l + away, away, about, take);
+        }
+        out.end_lines(l - done);
+        out.append_line(left);
+        done = l + 1;
+    }
+    out.end_lines(rows.lines() - done);
     return out;
 }
 
 void SupportHold::add(const SpanRows& supports) {
-    SpanRows ended;
-    subtract(last_, supports, ended);
-    tops_.push_back(std::move(ended));
-    if (tops_.size() > layers_) tops_.pop_front();
+    const SpanRows ended = without(last_, supports);
+    for (std::size_t l = 0; l < ended.lines(); ++l) {
+        std::vector<Top>& tops = tops_[l];
+        for (const Run& run : ended.line(l)) tops.push_back({run, layers_});
+        const auto reaches_on = [&](const Top& top) { return layers_ + 1 - top.layer < weights_.size(); };
+        tops.erase(tops.begin(), std::ranges::find_if(tops, reaches_on));
+    }
     last_ = supports;
+    ++layers_;
 }
 
 }  // namespace lamella

@@ -1,31 +1,42 @@
 // What supports hold of the layers above them.
 #pragma once
 
-#include <deque>
+#include <vector>
 
+#include "engine/ball_rows.h"
 #include "engine/fault_list.h"
 
 namespace lamella {
 
 /// Follows supports upward: a place is held where it lies within `spacing` of a support, at its height or
-/// above, as the overhang survey places them. Memory: the layers within that distance, of which only places
-/// where supports end are kept.
+/// above, as the overhang survey places them. Memory: the last layer's supports, and of the layers within
+/// that distance the places where supports end.
 class SupportHold {
   public:
     /// Lengths in mm; `gap` is the height that may lie between a support and what it holds.
     SupportHold(const CheckGrid& grid, double spacing, double gap);
 
-    /// What the supports so far hold of the next layer.
-    SpanRows held() const;
+    /// What of these rows of the next layer the supports so far do not hold. Quick where that is little, or
+    /// where they are held from near.
+    SpanRows unheld(const SpanRows& rows) const;
     /// The supports of the next layer.
     void add(const SpanRows& supports);
 
   private:
-    CheckGrid grid_;
-    double spacing_, gap_;
-    std::size_t layers_;         // below the last one, from which something may be held
-    SpanRows last_;              // of the last layer
-    std::deque<SpanRows> tops_;  // of layers below it, what the next one has not; newest last
+    /// A run of a layer that the next one has not.
+    struct Top {
+        Run run;
+        std::size_t layer;
+    };
+    /// Of a line some rows away, what is held of it.
+    template <typename Take>
+    void for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const;
+
+    std::vector<double> weights_;     // of what ends so many layers down: square of its reach, run units^2
+    std::vector<BallReach> reaches_;  // of what goes on, so many rows away
+    SpanRows last_;                   // of the last layer
+    std::vector<std::vector<Top>> tops_;  // by row, the oldest first
+    std::size_t layers_ = 0;              // added
 };
 
 }  // namespace lamella
