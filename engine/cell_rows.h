@@ -12,8 +12,8 @@ namespace lamella {
 
 /// Where the cells of a layer lie. A cell is as long as a row is wide.
 struct CellLattice {
-    static constexpr std::int32_t cell = run_unit;  ///< length along the lines, run units
-    static constexpr std::size_t lines_at_once = 8;     ///< there is a multiple of it
+    static constexpr std::int32_t cell = run_unit;   ///< length along the lines, run units
+    static constexpr std::size_t lines_at_once = 8;  ///< there is a multiple of it
 
     std::int32_t first = 0;        ///< where the first cell of each line begins, run units
     std::size_t words = 0;         ///< of a line, 64 cells each
