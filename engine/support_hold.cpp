@@ -35,18 +35,27 @@ void take_away(const Run& taken, std::vector<Run>& from) {
 }  // namespace
 
 SupportHold::SupportHold(const CheckGrid& grid, double spacing, double gap)
-    : last_(empty_rows(static_cast<std::size_t>(grid.band.count))), tops_(last_.lines()) {
-    const double unit = grid.band.along_pitch / run_unit;
-    const auto layers_up = static_cast<std::size_t>((spacing + gap) / grid.layer_height);
-    for (std::size_t k = 0; k <= layers_up; ++k) {
-        const double way = std::max(static_cast<double>(k) * grid.layer_height - gap, 0.0);
-        weights_.push_back((spacing * spacing - way * way) / (unit * unit));
-    }
-    for (std::size_t r = 0; square(r) <= weights_.front(); ++r)
-        reaches_.emplace_back(std::sqrt(weights_.front() - square(r)));
+    : spacing_(spacing),
+      gap_(gap),
+      layer_height_(grid.layer_height),
+      unit_(grid.band.along_pitch / run_unit),
+      layers_up_(static_cast<std::size_t>((spacing + gap) / grid.layer_height)),
+      last_(empty_rows(static_cast<std::size_t>(grid.band.count))),
+      tops_(last_.lines()) {
+    const double most = weight(0);
+    for (std::size_t r = 0; r < last_.lines() && square(r) <= most; ++r)
+        reaches_.emplace_back(std::sqrt(most - square(r)));
 }
 
-/// Tells take(run) what is held from a row so many rows away of what lies in the run `about`.
+bool SupportHold::empty() const {
+    return last_.runs().empty() && std::ranges::all_of(tops_, &std::vector<Top>::empty);
+}
+
+double SupportHold::weight(std::size_t layers_down) const {
+    const double way = std::max(static_cast<double>(layers_down) * layer_height_ - gap_, 0.0);
+    return (spacing_ * spacing_ - way * way) / (unit_ * unit_);
+}
+
 template <typename Take>
 void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const {
     const BallReach most = reaches_[rows_away];
@@ -57,7 +66,7 @@ void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const 
     }
     for (const Top& top : tops_[row]) {
         if (!reaches(top.run)) continue;
-        const double left = weights_[layers_ - top.layer] - square(rows_away);
+        const double left = weight(layers_ - top.layer) - square(rows_away);
         if (left < 0) continue;
         const BallReach reach(std::sqrt(left));
         take({top.run.begin - reach.back, top.run.end + reach.ahead});
@@ -65,9 +74,9 @@ void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const 
 }
 
 SpanRows SupportHold::unheld(const SpanRows& rows) const {
+    if (rows.runs().empty() || empty()) return rows;
     SpanRows out;
     std::vector<Run> left;
-    std::size_t done = 0;
     const auto take = [&](const Run& held) { take_away(held, left); };
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
         left.assign(rows.line(l).begin(), rows.line(l).end());
@@ -76,11 +85,10 @@ SpanRows SupportHold::unheld(const SpanRows& rows) const {
             if (away <= l) for_held_by_row(l - away, away, about, take);
             if (away > 0 && l + away < rows.lines()) for_held_by_row(l + away, away, about, take);
         }
-        out.end_lines(l - done);
+        out.end_lines(l - out.lines());
         out.append_line(left);
-        done = l + 1;
     }
-    out.end_lines(rows.lines() - done);
+    out.end_lines(rows.lines() - out.lines());
     return out;
 }
 
@@ -89,7 +97,7 @@ void SupportHold::add(const SpanRows& supports) {
     for (std::size_t l = 0; l < ended.lines(); ++l) {
         std::vector<Top>& tops = tops_[l];
         for (const Run& run : ended.line(l)) tops.push_back({run, layers_});
-        const auto reaches_on = [&](const Top& top) { return layers_ + 1 - top.layer < weights_.size(); };
+        const auto reaches_on = [&](const Top& top) { return layers_ + 1 - top.layer <= layers_up_; };
         tops.erase(tops.begin(), std::ranges::find_if(tops, reaches_on));
     }
     last_ = supports;

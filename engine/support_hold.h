@@ -28,13 +28,19 @@ class SupportHold {
         Run run;
         std::size_t layer;
     };
-    /// Of a line some rows away, what is held of it.
+    /// Whether nothing is left of supports that might hold anything.
+    bool empty() const;
+    /// The square of the reach of what ends so many layers down, run units^2.
+    double weight(std::size_t layers_down) const;
+    /// Tells take(run) what a row holds of a run `about` on a line so many rows away.
     template <typename Take>
     void for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const;
 
-    std::vector<double> weights_;     // of what ends so many layers down: square of its reach, run units^2
-    std::vector<BallReach> reaches_;  // of what goes on, so many rows away
-    SpanRows last_;                   // of the last layer
+    double spacing_, gap_;                // mm
+    double layer_height_, unit_;          // mm; a run unit
+    std::size_t layers_up_;               // over its end to which a support may hold something
+    std::vector<BallReach> reaches_;      // of what goes on, so many rows away
+    SpanRows last_;                       // of the last layer
     std::vector<std::vector<Top>> tops_;  // by row, the oldest first
     std::size_t layers_ = 0;              // added
 };
