@@ -91,16 +91,15 @@ SpanRows maybe_beyond(const SpanRows& rows, const CellRows& met, const CellRows&
 SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
                  const std::vector<std::uint8_t>& chosen) {
     SpanRows out;
-    std::size_t i = 0, done = 0;
+    std::size_t i = 0;
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
-        out.end_lines(l - done);
+        out.end_lines(l - out.lines());
         for (const Run& run : rows.line(l)) {
             if (chosen[labelled.owners[i++]] != 0) out.push(run.begin, run.end);
         }
         out.end_line();
-        done = l + 1;
     }
-    out.end_lines(rows.lines() - done);
+    out.end_lines(rows.lines() - out.lines());
     return out;
 }
 
@@ -237,7 +236,7 @@ SpanRows HoldCheck::judge_regions(const HoldingRows& layer, const SpanRows& hang
     SpanRows out;
     for (const PlacedRun& run : bad) {
         const auto row = static_cast<std::size_t>(run.row);
-        if (row > out.lines()) out.end_lines(row - out.lines());
+        out.end_lines(row - out.lines());
         out.push(run.begin, run.end);
     }
     out.end_lines(hanging.lines() - out.lines());

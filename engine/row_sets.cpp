@@ -69,39 +69,33 @@ void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), a.runs().size() + b.runs().size());
-    std::size_t same = 0;  // from there on lines stay as they are
     for (std::size_t l = others.line_with_runs(0); l < a.lines(); l = others.line_with_runs(l + 1)) {
-        out.append_lines(most, same, l - same);
+        out.append_lines(most, out.lines(), l - out.lines());
         unite_line(most.line(l), others.line(l), out);
-        same = l + 1;
     }
-    out.append_lines(most, same, a.lines() - same);
+    out.append_lines(most, out.lines(), a.lines() - out.lines());
 }
 
 void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), std::min(a.runs().size(), b.runs().size()));
-    std::size_t done = 0;
     for (std::size_t l = line_with_both(a, b, 0); l < a.lines(); l = line_with_both(a, b, l + 1)) {
-        out.end_lines(l - done);
+        out.end_lines(l - out.lines());
         intersect_line(a.line(l), b.line(l), out);
-        done = l + 1;
     }
-    out.end_lines(a.lines() - done);
+    out.end_lines(a.lines() - out.lines());
 }
 
 void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), a.runs().size());
-    std::size_t same = 0;
     for (std::size_t l = line_with_both(a, b, 0); l < a.lines(); l = line_with_both(a, b, l + 1)) {
-        out.append_lines(a, same, l - same);
+        out.append_lines(a, out.lines(), l - out.lines());
         subtract_line(a.line(l), b.line(l), out);
-        same = l + 1;
     }
-    out.append_lines(a, same, a.lines() - same);
+    out.append_lines(a, out.lines(), a.lines() - out.lines());
 }
 
 }  // namespace lamella

@@ -122,19 +122,17 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
     out.starts.push_back(0);
     out.runs.reserve(rows.runs().size());
     PartNumbers parts;
-    const auto end_rows = [&](std::size_t count) {
-        out.starts.insert(out.starts.end(), count, static_cast<std::uint32_t>(out.runs.size()));
+    const auto end_rows_before = [&](std::size_t l) {
+        out.starts.resize(l + 1, static_cast<std::uint32_t>(out.runs.size()));
     };
-    std::size_t done = 0;
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
-        end_rows(l - done);
+        end_rows_before(l);
         parts.begin_row(row_before(out, l));
         for (const Run& run : rows.line(l))
             out.runs.push_back({run.begin, run.end, parts.next(run.begin, run.end)});
-        end_rows(1);
-        done = l + 1;
+        end_rows_before(l + 1);
     }
-    end_rows(rows.lines() - done);
+    end_rows_before(rows.lines());
     const Numbering numbering = numbering_of(parts.sets());
     out.components.resize(numbering.count);
     out.owners.resize(out.runs.size());
