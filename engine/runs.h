@@ -109,7 +109,7 @@ class SpanRows {
     }
     /// Ends the line being built.
     void end_line() { starts_.push_back(static_cast<std::uint32_t>(runs_.size())); }
-    /// Ends it, and adds empty ones, so many in all.
+    /// Ends the line being built and adds empty ones behind it, `count` lines in all.
     void end_lines(std::size_t count) {
         starts_.insert(starts_.end(), count, static_cast<std::uint32_t>(runs_.size()));
     }
