@@ -141,7 +141,7 @@ void BeamGroup::add(const Beam& beam, const LineRange& lines) {
     ends_.b_across[size_] = beam.b[across];
     ends_.b_z[size_] = beam.b.z;
     ends_.rb[size_] = beam.rb;
-    ends_.first_line[size_] = static_cast<double>(band_.first) * band_.sub + lines.first;
+    ends_.first_line[size_] = band_.number(lines.first);
     ++size_;
 }
 
@@ -157,6 +157,7 @@ LineFrame BeamGroup::frame(std::size_t i) const {
     return {.line0 = in_plane_.line0[i],
             .line_pitch = static_cast<float>(band_.across_pitch / band_.sub),
             .first = in_plane_.first[i],
+            .step = band_.step,
             .scale = static_cast<float>(run_unit / band_.along_pitch),
             .shift = in_plane_.shift[i],
             .unit0 = in_plane_.unit0[i]};

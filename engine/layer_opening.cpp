@@ -19,13 +19,12 @@ LayerLattice widened(LayerLattice lattice, std::size_t margin) {
 LayerLattice ball_lattice(const RowBand& band, double layer_height, double across, double up) {
     if (!(across > 0 && up > 0)) throw InputError("a ball reaches farther than nothing in all directions");
     const double unit = std::abs(band.along_pitch) / run_unit;
-    return {std::abs(band.across_pitch) / band.sub / unit, layer_height * (across / up) / unit,
+    return {std::abs(band.line_pitch()) / unit, layer_height * (across / up) / unit,
             static_cast<std::size_t>(band.lines())};
 }
 
 SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up) {
-    const double across = thickness - std::abs(band.across_pitch) / band.sub,
-                 up = thickness_up - layer_height;
+    const double across = thickness - std::abs(band.line_pitch()), up = thickness_up - layer_height;
     if (!(across > 0)) throw InputError("rows as far apart as a thickness cannot tell it");
     const double radius = 0.5 * across / std::abs(band.along_pitch) * run_unit;
     if (up > 0) return {ball_lattice(band, layer_height, across, up), radius};

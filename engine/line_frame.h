@@ -16,8 +16,9 @@ struct LineRange {
 inline LineRange lines_across(const RowBand& band, const Interval& across) {
     const double per_mm = band.sub / band.across_pitch;
     const double p = (across.lo - band.across_origin) * per_mm, q = (across.hi - band.across_origin) * per_mm;
-    const double offset = static_cast<double>(band.first) * band.sub + 0.5;
-    const double lo = std::ceil(std::min(p, q) - offset), hi = std::floor(std::max(p, q) - offset) + 1;
+    const double offset = band.number(0) + 0.5, step = band.step;
+    const double lo = std::ceil((std::min(p, q) - offset) / step),
+                 hi = std::floor((std::max(p, q) - offset) / step) + 1;
     const double lines = band.lines();
     return {static_cast<int>(std::min(std::max(lo, 0.0), lines)),
             static_cast<int>(std::min(std::max(hi, 0.0), lines))};
@@ -38,7 +39,8 @@ inline LineFrame line_frame(const RowBand& band, int first, dvec2 reference) {
     };
     return {.line0 = static_cast<float>(position - reference[across]),
             .line_pitch = static_cast<float>(pitch),
-            .first = clamped(static_cast<double>(band.first) * band.sub + first - line),
+            .first = clamped(band.number(first) - line),
+            .step = band.step,
             .scale = static_cast<float>(run_unit / band.along_pitch),
             .shift = static_cast<float>(unit - unit0),
             .unit0 = clamped(unit0)};

@@ -19,7 +19,7 @@ int first_line_from(const RowBand& band, double position, bool rising) {
     int lo = 0, hi = band.lines();
     const auto line = [&](int l) { return rising ? band.line(l) : band.line(band.lines() - 1 - l); };
     // A guess from the pitch, then exact comparison with the very positions that the runs use.
-    const double guess = (position - line(0)) / (std::abs(band.across_pitch) / band.sub);
+    const double guess = (position - line(0)) / std::abs(band.line_pitch());
     int l = static_cast<int>(std::min(std::max(guess, 0.0), static_cast<double>(hi)));
     while (l > lo && line(l - 1) >= position) --l;
     while (l < hi && line(l) < position) ++l;

@@ -20,9 +20,10 @@ PolygonSlice::PolygonSlice(std::span<const std::vector<dvec2>> polygons) {
 
 void PolygonSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
     out.clear();
+    if (band.lines() == 0) return;
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     std::vector<std::vector<double>> crossings(static_cast<std::size_t>(band.lines()));
-    const double first = band.line(0), step = band.across_pitch / band.sub;
+    const double first = band.line(0), step = band.line_pitch();
     for (const Side& side : sides_) {
         const double low = std::min(side.a[across], side.b[across]),
                      high = std::max(side.a[across], side.b[across]);

@@ -17,11 +17,15 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatLanes = hn::Vec<Floats>;
 
-/// Positions across of the lines from `i` on; `lane` counts the lanes from 0 (made once, for it goes
-/// through memory).
+/// How many lines each lane lies behind the first (made once, for it goes through memory).
+HWY_INLINE hn::Vec<Ints> lane_lines(const LineFrame& frame) {
+    return hn::Mul(hn::Iota(Ints(), 0), hn::Set(Ints(), frame.step));
+}
+
+/// Positions across of the lines from the i-th on.
 HWY_INLINE FloatLanes positions(const LineFrame& frame, hn::Vec<Ints> lane, int i) {
     const Floats d;
-    const auto line = hn::ConvertTo(d, hn::Add(lane, hn::Set(Ints(), frame.first + i)));
+    const auto line = hn::ConvertTo(d, hn::Add(lane, hn::Set(Ints(), frame.first + i * frame.step)));
     return hn::Add(hn::Set(d, frame.line0), hn::Mul(line, hn::Set(d, frame.line_pitch)));
 }
 
@@ -59,7 +63,7 @@ void cut_beam(const LineFrame& frame, const BeamInPlane& beam, int count, std::i
     const auto ax = set(beam.ax), ay = set(beam.ay), ah = set(beam.ah);
     const auto bx = set(beam.bx), by = set(beam.by), bh = set(beam.bh);
 
-    const auto lane = hn::Iota(Ints(), 0);
+    const auto lane = lane_lines(frame);
     const int lanes = static_cast<int>(hn::Lanes(d));
     for (int i = 0; i < count; i += lanes) {
         const auto y = positions(frame, lane, i);
@@ -100,7 +104,7 @@ void clip_prism(const LineFrame& frame, const PrismInPlane& prism, int count, st
                 std::int32_t* end) {
     const Floats d;
     const auto far = hn::Set(d, 1e6F);
-    const auto lane = hn::Iota(Ints(), 0);
+    const auto lane = lane_lines(frame);
     const int lanes = static_cast<int>(hn::Lanes(d));
     for (int i = 0; i < count; i += lanes) {
         const auto y = positions(frame, lane, i);

@@ -10,8 +10,9 @@ namespace lamella {
 /// a kernel works with is relative to that point; lengths in mm.
 struct LineFrame {
     float line0;         ///< from the point to the reference line, across
-    float line_pitch;    ///< from line to line
+    float line_pitch;    ///< from a line to the next in number
     std::int32_t first;  ///< first line to do, counted from the reference line
+    std::int32_t step;   ///< from one line to do to the next
     float scale;         ///< run units per mm (negative in a mirrored band)
     float shift;         ///< fraction of a run unit to add
     std::int32_t unit0;  ///< run unit of the point, floored
@@ -34,8 +35,8 @@ struct PrismInPlane {
     std::array<float, 5> nx, ny, limit;
 };
 
-/// Write begin and end of lines frame.first .. frame.first + count - 1; begin >= end where the line misses.
-/// They write up to RunCollector::slack entries more.
+/// Write begin and end of `count` lines; begin >= end where the line misses. They write up to
+/// RunCollector::slack entries more.
 void beam_rows(const LineFrame& frame, const BeamInPlane& beam, int count, std::int32_t* begin,
                std::int32_t* end);
 void prism_rows(const LineFrame& frame, const PrismInPlane& prism, int count, std::int32_t* begin,

@@ -29,7 +29,9 @@ struct Run {
 ///
 /// Run coordinate u lies at along_origin + u / 256 * along_pitch; sub-line k of row i lies at
 /// across_origin + (i + (k + 1/2) / sub) * across_pitch. Pitches may be negative (mirrored displays).
-/// Pixel (i, j) therefore covers run coordinates [256 j, 256 (j + 1)) of row i.
+/// Pixel (i, j) therefore covers run coordinates [256 j, 256 (j + 1)) of row i. Lines have numbers, counted
+/// from the first one of row 0; with a `step`, only those whose number is a multiple of it are in the band.
+/// A line gives the same runs in whichever band it is asked for.
 struct RowBand {
     Axis axis = Axis::x;       ///< direction of the lines
     double along_origin = 0;   ///< mm, where run coordinate 0 lies
@@ -41,19 +43,30 @@ struct RowBand {
     int sub = 1;               ///< lines per row
     int lo = 0;                ///< runs are clipped to pixels [lo, hi)
     int hi = 0;
+    int step = 1;  ///< from line to line
 
-    int lines() const { return count * sub; }
-    /// Position of line `l` of the band (0 <= l < lines()), mm across.
+    int lines() const { return step == 1 ? count * sub : steps_before(first + count) - steps_before(first); }
+    /// The number of line `l` of the band (0 <= l < lines()).
+    int number(int l) const { return step == 1 ? first * sub + l : (steps_before(first) + l) * step; }
+    /// Its position, mm across.
     double line(int l) const {
-        const int row = first + l / sub;
-        return across_origin + (row + (l % sub + 0.5) / sub) * across_pitch;
+        const int n = number(l), row = floor_quotient(n, sub);
+        return across_origin + (row + (n - row * sub + 0.5) / sub) * across_pitch;
     }
+    /// From line to line, mm; of the sign of across_pitch.
+    double line_pitch() const { return across_pitch / sub * step; }
     /// Position of run coordinate u, mm along.
     double along(double u) const { return along_origin + u * (along_pitch / run_unit); }
     /// Run coordinate (not rounded) of a position along the lines, mm.
     double coordinate(double p) const { return (p - along_origin) * (run_unit / along_pitch); }
-    /// The part of the plane that the band covers, mm.
+    /// The part of the plane that the band's rows cover, mm.
     Rect rect() const;
+    friend bool operator==(const RowBand&, const RowBand&) = default;
+
+  private:
+    static int floor_quotient(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+    /// The multiples of `step` from 0 on that are numbers of lines before a row, negative behind it.
+    int steps_before(int row) const { return -floor_quotient(-row * sub, step); }
 };
 
 /// The point of the plane at run coordinate u, on the lower edge of row `row` (may be fractional).

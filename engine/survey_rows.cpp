@@ -21,7 +21,9 @@ RowBand rows_over(const Rect& rect, double pitch) {
 }
 
 SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch) {
-    constexpr int band_rows = 64;
+    // As many rows as hold so many lines.
+    constexpr int band_lines = 64;
+    const int band_rows = std::max(1, band_lines * whole.step / whole.sub);
     SpanRows all;
     const auto some = scratch.rows();
     RowBand band = whole;

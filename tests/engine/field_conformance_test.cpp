@@ -22,6 +22,7 @@
 #include "procedural/surface_windows.h"
 #include "procedural/tpms.h"
 #include "procedural/voronoi_foam.h"
+#include "tests/engine/every_line.h"
 #include "tests/engine/gradings.h"
 #include "tests/engine/shapes.h"
 
@@ -482,6 +483,23 @@ TEST_CASE("a line's runs do not depend on the band it is asked in") {
                 const auto got = part.line(static_cast<std::size_t>(l));
                 REQUIRE(std::equal(expected.begin(), expected.end(), got.begin(), got.end()));
             }
+        }
+    }
+}
+
+TEST_CASE("a line's runs do not depend on whether its neighbours are asked for") {
+    for (const Named& named : all_fields()) {
+        INFO(named.name);
+        SliceContext context;
+        const SliceField& slice = context.slice(*named.field, 0.17);
+        for (const Axis axis : {Axis::x, Axis::y}) {
+            RowBand band = band_of(axis, axis == Axis::x ? 0.06 : -0.07, 4);
+            CHECK(require_same_lines_by_steps(slice, band) > 0);
+            // The same lines from the other side, with numbers below 0.
+            band.across_origin += 30 * band.across_pitch;
+            band.across_pitch = -band.across_pitch;
+            band.first = -40;
+            CHECK(require_same_lines_by_steps(slice, band) > 0);
         }
     }
 }

@@ -107,3 +107,23 @@ TEST_CASE("lines lie at the same place however the rows are split into bands") {
     for (int l = 0; l < part.lines(); ++l) REQUIRE(part.line(l) == whole.line(64 * 4 + l));
     REQUIRE(whole.line(0) == Approx(-3.25 + 0.05 / 8));
 }
+
+TEST_CASE("a band with a step holds the lines whose numbers are multiples of it") {
+    const int sub = 4, first = -9, count = 31;
+    const RowBand whole{Axis::x, 1.5, 0.025, -3.25, -0.05, first, count, sub, 0, 100};
+    for (const int step : {1, 2, 3, 4, 5, 13, 400}) {
+        RowBand band = whole;
+        band.step = step;
+        std::vector<int> expected;
+        for (int n = first * sub; n < (first + count) * sub; ++n) {
+            if (n % step == 0) expected.push_back(n);
+        }
+        REQUIRE(band.lines() == static_cast<int>(expected.size()));
+        for (int l = 0; l < band.lines(); ++l) {
+            const int n = expected[static_cast<std::size_t>(l)];
+            REQUIRE(band.number(l) == n);
+            REQUIRE(band.line(l) == whole.line(n - first * sub));
+        }
+        CHECK(band.line_pitch() == Approx(-0.05 / sub * step));
+    }
+}
