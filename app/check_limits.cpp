@@ -1,6 +1,10 @@
 // The machine's limits, the job's layers, and what changes verdicts.
 #include "app/check_limits.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "printers/mask.h"
 #include "printers/registry.h"
 #include "recipe/build_supports.h"
 
@@ -39,6 +43,21 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
     plan.notes.push_back("Whether each layer fits a sheet is seen when the layers are laid out.");
 }
 
+/// Puts the rows on lines of the masks, where some lie about as far apart as is wanted: what is found of them
+/// serves both.
+void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
+    constexpr double most_apart = 0.1;  // of the pitch wanted
+    if (find_backend(printer.backend).medium != Medium::pixels) return;
+    std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
+    if (!lines) return;
+    const double pitch = std::abs(lines->line_pitch());
+    lines->step = std::max(1, static_cast<int>(std::lround(options.pitch / pitch)));
+    const double found = lines->step * pitch;
+    if (std::abs(found - options.pitch) > most_apart * options.pitch) return;
+    options.lines = lines;
+    options.pitch = found;
+}
+
 }  // namespace
 
 CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts) {
@@ -53,8 +72,10 @@ CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts) {
     allow_several(plan, parts);
     note_ties(plan, printer);
     note_sheets(plan, printer);
-    const double pitch = printer.check.pitch;
-    plan.options.pitch = pitch > 0 ? pitch : check_pitch(job, limits);
+    plan.options.pitch = printer.check.pitch;
+    if (plan.options.pitch > 0) return plan;
+    plan.options.pitch = check_pitch(job, limits);
+    lie_on_masks(plan.options, printer, job);
     return plan;
 }
 

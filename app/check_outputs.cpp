@@ -13,6 +13,7 @@ class SharedCheck : public Backend {
     int begin(const Job& job, LayerRange range, bool /*resume*/) override {
         return check_->begin(job, range, false);
     }
+    std::optional<RowBand> lines_looked_at() const override { return check_->lines_looked_at(); }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override { return check_->render(layer); }
     std::unique_ptr<LayerProduct> empty_product() const override { return check_->empty_product(); }
     void write(const Layer& layer, LayerProduct& product) override { check_->write(layer, product); }

@@ -101,12 +101,12 @@ Json limits_mm3_json(const PrintLimits& limits) {
     return {{"large_part", limits.large_part}, {"cavity", limits.cavity}, {"cup", limits.cup}};
 }
 
-/// A row's height, where it begins and where it ends.
+/// Where each run begins and ends, in the middle of its row.
 Json runs_json(const Fault& fault, const RowBand& band) {
     Json runs = Json::array();
     for (const PlacedRun& run : fault.runs) {
         const dvec2 a = on_band(band, run.begin, run.row + 0.5), b = on_band(band, run.end, run.row + 0.5);
-        runs.push_back({a.y, a.x, b.x});
+        runs.push_back({a.x, a.y, b.x, b.y});
     }
     return runs;
 }
@@ -118,7 +118,7 @@ Json fault_json(Check check, const Fault& fault, const RowBand& band) {
             {"first_layer", fault.first_layer},
             {"end_layer", fault.end_layer},
             {"box_mm", {{"lo", triple(fault.box.lo)}, {"hi", triple(fault.box.hi)}}},
-            {"runs_y_x_x_mm", runs_json(fault, band)}};
+            {"runs_x_y_x_y_mm", runs_json(fault, band)}};
 }
 
 Json result_json(const CheckResult& result, const CheckOutcome& outcome) {

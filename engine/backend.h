@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ class Backend {
     /// is set and an unfinished output of the same job (Job::identity) and range exists. Throws InputError
     /// when the output exists already or belongs to another job, FaultError when it cannot be made.
     virtual int begin(const Job& job, LayerRange range, bool resume) = 0;
+    /// Lines of each layer that `render` looks at, where others may go through them, too.
+    virtual std::optional<RowBand> lines_looked_at() const { return {}; }
     /// Computes what will be written of a layer. Thread-safe, pure.
     virtual std::unique_ptr<LayerProduct> render(const Layer& layer) const = 0;
     /// An empty product, to unpack into what `render` of another process packed. Null where layers cannot be

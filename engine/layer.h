@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/cancel_token.h"
 #include "engine/contours.h"
 #include "engine/field.h"
+#include "engine/kept_lines.h"
 #include "engine/picture.h"
 #include "engine/slice_context.h"
 
@@ -56,6 +58,14 @@ class Layer {
     const SliceField& part_at(double share) const;
     const SliceField* supports_at(double share) const;
 
+    /// Lets these lines of the part and its supports be kept when a back-end goes through all that their
+    /// numbers count, so that another one need not ask for them again.
+    void keep_lines(const RowBand& wanted) const;
+    /// What keeps lines of a slice, for whoever goes through it; empty where none are wanted.
+    std::span<KeptLines> kept_lines(const SliceField& slice) const;
+    /// The lines of a slice that were kept; null where they were not.
+    const SpanRows* lines_kept(const SliceField& slice, const RowBand& wanted) const;
+
     void spans(const RowBand& band, SpanRows& out) const { part().spans(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
         return trace_contours(part(), tolerance, scratch_);
@@ -75,6 +85,7 @@ class Layer {
     double z_;
     double thickness_;
     mutable SliceContext context_;
+    mutable std::vector<KeptLines> part_lines_, support_lines_;
     mutable Scratch scratch_;
 };
 

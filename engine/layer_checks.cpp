@@ -51,8 +51,8 @@ void ReachCheck::add(const SpanRows& rows, int index) {
         const int row = static_cast<int>(l);
         const Run first = rows.line(l).front(), last = rows.line(l).back();
         const PlacedRun placed{index, row, last.begin, last.end};
-        if (last.end > extent_.along.end) right_ = placed;
-        if (row > extent_.last_row || extent_.first_row > extent_.last_row) back_ = placed;
+        if (last.end > extent_.along.end) along_ = placed;
+        if (row > extent_.last_row || extent_.first_row > extent_.last_row) across_ = placed;
         if (index > extent_.last_layer) top_ = placed;
         extent_.include({0, {first.begin, last.end}, row, row, index, index});
     }
@@ -61,21 +61,23 @@ void ReachCheck::add(const SpanRows& rows, int index) {
 void ReachCheck::finish() {
     if (extent_.first_row > extent_.last_row) return;
     const dvec3 size = grid_.box(extent_).size();
-    judge(0, size.x, right_);
-    judge(1, size.y, back_);
+    const glm::length_t along = grid_.band.axis == Axis::x ? 0 : 1, across = 1 - along;
+    judge(along, size[along], along_);
+    judge(across, size[across], across_);
     // Layers count from the bed, what is left out below the first one with them.
     judge(2, (extent_.last_layer + 1) * grid_.layer_height, top_);
 }
 
 void ReachCheck::judge(glm::length_t axis, double size, const PlacedRun& end) {
     // Rows and layers are known to one of their own.
-    const double known[] = {1e-6, grid_.band.across_pitch, grid_.layer_height};
-    if (size <= build_volume_[axis] + known[axis]) return;
+    const bool is_along = axis == (grid_.band.axis == Axis::x ? 0 : 1);
+    const double known = axis == 2 ? grid_.layer_height : is_along ? 1e-6 : grid_.band.across_pitch;
+    if (size <= build_volume_[axis] + known) return;
     LayerPatch patch{.layer = end.layer};
     patch.include(end);
     Fault fault = grid_.fault(patch);
     fault.size = size - build_volume_[axis];
-    if (axis == 0) fault.at.x = grid_.band.along(end.end);
+    if (is_along) fault.at[axis] = grid_.band.along(end.end);
     faults_.add(std::move(fault));
 }
 

@@ -48,7 +48,7 @@ class ReachCheck {
     CheckGrid grid_;
     dvec3 build_volume_;
     ComponentExtent extent_;
-    PlacedRun right_{}, back_{}, top_{};  // the ends farthest out
+    PlacedRun along_{}, across_{}, top_{};  // the ends farthest out
     FaultList faults_;
 };
 

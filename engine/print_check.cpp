@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/check_rows.h"
 #include "engine/error.h"
 #include "engine/fault_list.h"
 #include "engine/hold_check.h"
@@ -25,18 +26,8 @@ constexpr double most_rows = 1 << 15;  // along a side
 constexpr double pitches_in_a_thickness = 5;
 constexpr double slack_share = 1.5;  // of a ball's radius; see Thinness
 
-CheckGrid check_grid(const Job& job, double pitch) {
-    const dvec3 size = job.bounds.size();
-    CheckGrid grid;
-    // A row and a pixel of void all round.
-    grid.band.along_origin = job.bounds.lo.x - pitch;
-    grid.band.across_origin = job.bounds.lo.y - pitch;
-    grid.band.along_pitch = grid.band.across_pitch = pitch;
-    grid.band.count = static_cast<int>(size.y / pitch) + 4;
-    grid.band.hi = static_cast<int>(size.x / pitch) + 4;
-    grid.z0 = job.z0();
-    grid.layer_height = job.layer_height;
-    return grid;
+CheckRows check_rows(const Job& job, const PrintCheckOptions& options) {
+    return options.lines ? CheckRows(job, *options.lines) : CheckRows(job, options.pitch);
 }
 
 /// What the layers of a check have in common.
@@ -135,9 +126,10 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     if (!job.part || job.bounds.empty() || !std::isfinite(size.x + size.y + size.z))
         throw InputError("print check: there is no part, or its bounds are infinite");
     const auto wanted = [&](Check check) { return limits.verdict(check) != Verdict::off; };
-    check_number("pitch", options.pitch, std::max(size.x, size.y) / most_rows * (1 - 1e-9));
+    const double pitch = options.lines ? std::abs(options.lines->line_pitch()) : options.pitch;
+    check_number("pitch", pitch, std::max(size.x, size.y) / most_rows * (1 - 1e-9));
     // A ball that fits must reach a row at least.
-    const double least = 2 * options.pitch;
+    const double least = 2 * pitch;
     if (wanted(Check::thickness)) check_number("least thickness", limits.thickness, least);
     if (wanted(Check::gaps)) check_number("least gap", limits.gap, least);
     if (wanted(Check::necks)) check_number("least neck", limits.neck, least);
@@ -199,7 +191,8 @@ class ThicknessCheck {
 struct PrintCheck::State {
     State(const Job& job, const PrintCheckOptions& given)
         : options(given),
-          grid(check_grid(job, given.pitch)),
+          rows(check_rows(job, given)),
+          grid{rows.band(), job.z0(), job.layer_height},
           layer_count(job.layer_count),
           sheets(grid, given.most_places),
           empty(grid, given.most_places),
@@ -232,6 +225,7 @@ struct PrintCheck::State {
     void report_one(Check check, double limit, const FaultList* faults);
 
     PrintCheckOptions options;
+    CheckRows rows;
     CheckGrid grid;
     int layer_count;
     std::optional<PassingFaults> pieces;
@@ -278,19 +272,20 @@ int PrintCheck::begin(const Job& /*job*/, LayerRange range, bool /*resume*/) {
     return 0;
 }
 
+std::optional<RowBand> PrintCheck::lines_looked_at() const { return state_->rows.lines(); }
+
 std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
     auto product = std::make_unique<CheckedLayer>(state.shape());
     Scratch scratch;
-    SpanRows part = all_rows(layer.part(), state.grid.band, scratch);
+    SpanRows part = state.rows.of_part(layer, scratch);
     product->area = state.grid.area(part.total_length());
     if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness || state.gaps || state.hold) product->cells.emplace(part, *state.cells);
     if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells);
     if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells);
-    SpanRows supports = layer.supports() != nullptr ? all_rows(*layer.supports(), state.grid.band, scratch)
-                                                    : empty_rows(part.lines());
+    SpanRows supports = state.rows.of_supports(layer, scratch);
     product->support_area = state.grid.area(supports.total_length());
     if (!supports.runs().empty()) {
         product->rows.part_with_supports = united(part, supports);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/layer_stream.h"
@@ -44,7 +45,10 @@ struct CheckReport {
 
 struct PrintCheckOptions {
     PrintLimits limits;
-    double pitch = 0.1;            ///< mm from row to row; thicknesses are known to about a pitch
+    double pitch = 0.1;  ///< mm from row to row; thicknesses are known to about a pitch
+    /// Lines that another back-end goes through anyway, with a step: the rows then lie there, and what it
+    /// finds of them need not be found again. The pitch is theirs.
+    std::optional<RowBand> lines{};
     std::size_t most_places = 10;  ///< faults of each kind that are told of
 };
 
@@ -54,15 +58,16 @@ double check_pitch(const Job& job, const PrintLimits& limits);
 
 /// Looks at layers as they stream by. A back-end of its own or beside others; writes nothing.
 ///
-/// Rows lie a pitch apart and are exact along x. Memory depends on a few layers' runs, not on their number.
-/// The report is a pure function of job and options, the same by any number of threads. Throws InputError
-/// when the limits or the pitch make no sense for the job.
+/// Rows lie a pitch apart and are exact along their own direction. Memory depends on a few layers' runs, not
+/// on their number. The report is a pure function of job and options, the same by any number of threads.
+/// Throws InputError when the limits or the pitch make no sense for the job.
 class PrintCheck : public Backend {
   public:
     PrintCheck(const Job& job, const PrintCheckOptions& options);
     ~PrintCheck() override;
 
     int begin(const Job& job, LayerRange range, bool resume) override;
+    std::optional<RowBand> lines_looked_at() const override;
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     std::unique_ptr<LayerProduct> empty_product() const override;
     void write(const Layer& layer, LayerProduct& product) override;

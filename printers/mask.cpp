@@ -85,12 +85,21 @@ RowSpan rows_meeting(const RowBand& grid, double lo, double hi, int height) {
     return {clamped(std::floor(std::min(a, b)) - 1), clamped(std::ceil(std::max(a, b)) + 1)};
 }
 
+/// Lines that each pixel row is covered by.
+int lines_a_row(const ImageProfile& profile) {
+    return profile.antialiasing == Antialiasing::rows ? profile.sub_rows : 1;
+}
+
 /// The grey runs of one slice, rows at a time from the top.
 class SliceMask {
   public:
-    SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile)
-        : slice_(&slice), layout_(&layout), antialiasing_(profile.antialiasing) {
-        if (antialiasing_ == Antialiasing::rows) sub_ = profile.sub_rows;
+    SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile,
+              std::span<KeptLines> kept)
+        : slice_(&slice),
+          layout_(&layout),
+          antialiasing_(profile.antialiasing),
+          sub_(lines_a_row(profile)),
+          kept_(kept) {
         white_ = white_of(profile);
         const Rect solid = slice.bounds();
         if (solid.empty()) return;
@@ -115,6 +124,7 @@ class SliceMask {
             const RowBand band = layout_->rows(row, count, sub_);
             spans_.clear();
             slice_->spans(band, scratch_, spans_);
+            for (KeptLines& lines : kept_) lines.add(band, spans_);
             if (antialiasing_ == Antialiasing::off) {
                 threshold(band, spans_, runs, white_);
             } else {
@@ -124,13 +134,20 @@ class SliceMask {
         }
     }
 
+    /// All rows that hold something were added.
+    void finish() {
+        if (antialiasing_ == Antialiasing::exact) return;
+        for (KeptLines& lines : kept_) lines.finish(layout_->rows(0, 0, sub_));
+    }
+
     double pixels() const { return pixels_; }  ///< covered so far
 
   private:
     const SliceField* slice_;
     const MaskLayout* layout_;
     Antialiasing antialiasing_;
-    int sub_ = 1;
+    int sub_;
+    std::span<KeptLines> kept_;
     int white_ = white_of_8_bits;
     RowSpan rows_{0, 0};
     Scratch scratch_;
@@ -147,10 +164,11 @@ struct GreySum {
 /// The mean of a solid's masks on several planes, rows at a time from the top.
 class SolidMask {
   public:
-    SolidMask(const std::vector<const SliceField*>& planes, const MaskLayout& layout,
+    SolidMask(const Layer& layer, const std::vector<const SliceField*>& planes, const MaskLayout& layout,
               const ImageProfile& profile)
         : width_(layout.width()) {
-        for (const SliceField* plane : planes) planes_.emplace_back(*plane, layout, profile);
+        for (const SliceField* plane : planes)
+            planes_.emplace_back(*plane, layout, profile, layer.kept_lines(*plane));
     }
 
     bool meets(int row, int count) const {
@@ -185,6 +203,11 @@ class SolidMask {
         for (const GreySum& run : sums_) {
             out.push(run.length, static_cast<std::uint16_t>((run.value + n / 2) / n));
         }
+    }
+
+    /// All rows that hold something were added.
+    void finish() {
+        for (SliceMask& plane : planes_) plane.finish();
     }
 
     /// Covered so far, the mean of the planes.
@@ -276,12 +299,21 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
     return band;
 }
 
+std::optional<RowBand> mask_lines(const ImageProfile& profile, const Box& part_bounds) {
+    const dvec2 room = display_room(profile);
+    const dvec3 size = part_bounds.size();
+    const bool reads_lines = profile.antialiasing != Antialiasing::exact && profile.sub_layers == 1;
+    if (!reads_lines || size.x > room.x || size.y > room.y) return {};
+    const MaskLayout layout(profile, part_bounds);
+    return layout.rows(0, layout.height(), lines_a_row(profile));
+}
+
 MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImageProfile& profile,
                     double support_grey, const BandSink& sink) {
-    SolidMask part(planes_of(layer, MaskedSolid::part, profile), layout, profile);
+    SolidMask part(layer, planes_of(layer, MaskedSolid::part, profile), layout, profile);
     const auto support_planes = planes_of(layer, MaskedSolid::supports, profile);
     std::optional<SolidMask> supports;
-    if (!support_planes.empty()) supports.emplace(support_planes, layout, profile);
+    if (!support_planes.empty()) supports.emplace(layer, support_planes, layout, profile);
     const GreyTable of_part = grey_table(profile, 1), of_supports = grey_table(profile, support_grey);
     std::vector<GreyRun> runs, below, spare;
     for (int row = 0; row < layout.height(); row += png_band_rows) {
@@ -302,13 +334,15 @@ MaskArea mask_layer(const Layer& layer, const MaskLayout& layout, const ImagePro
         }
         sink(runs, count);
     }
+    part.finish();
+    if (supports) supports->finish();
     const double pixel = layout.column_pitch() * layout.row_pitch();
     return {part.pixels() * pixel, supports ? supports->pixels() * pixel : 0};
 }
 
 double mask_solid(const Layer& layer, MaskedSolid which, const MaskLayout& layout,
                   const ImageProfile& profile, const BandSink& sink) {
-    SolidMask solid(planes_of(layer, which, profile), layout, profile);
+    SolidMask solid(layer, planes_of(layer, which, profile), layout, profile);
     const GreyTable greys = grey_table(profile, 1);
     std::vector<GreyRun> runs, spare;
     for (int row = 0; row < layout.height(); row += png_band_rows) {
@@ -318,6 +352,7 @@ double mask_solid(const Layer& layer, MaskedSolid which, const MaskLayout& layou
         apply(greys, layout.width(), runs, spare);
         sink(runs, count);
     }
+    solid.finish();
     return solid.pixels() * layout.column_pitch() * layout.row_pitch();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "engine/coverage.h"
@@ -39,6 +40,10 @@ class MaskLayout {
 
 /// What a display has room for, mm: all of it but the margin at its edge.
 dvec2 display_room(const ImageProfile& profile);
+
+/// All lines of a layer that masks are made of. None where they look at other things as well, or where the
+/// part is larger than the display. Throws InputError for a profile that makes no sense.
+std::optional<RowBand> mask_lines(const ImageProfile& profile, const Box& part_bounds);
 
 /// Takes the runs of the next `rows` rows of an image.
 using BandSink = std::function<void(std::span<const GreyRun> runs, int rows)>;

@@ -85,10 +85,11 @@ TEST_CASE("a second piece is told with its volume and place, and decides the exi
     }
     // Every run lies in the piece, and together they are its section.
     double area = 0;
-    for (const Json& run : fault["runs_y_x_x_mm"]) {
-        CHECK(run[0].get<double>() > 0);
-        CHECK(run[0].get<double>() < 5);
-        area += (run[2].get<double>() - run[1].get<double>()) * 0.125;
+    for (const Json& run : fault["runs_x_y_x_y_mm"]) {
+        CHECK(run[1] == run[3]);
+        CHECK(run[1].get<double>() > 0);
+        CHECK(run[1].get<double>() < 5);
+        area += (run[2].get<double>() - run[0].get<double>()) * 0.125;
     }
     CHECK(area == Approx(25));
     const std::string asked = "check -q " + part + only({"connectivity"});
@@ -227,6 +228,36 @@ TEST_CASE("slice --check writes the bytes of a run without it, and tells what it
     CHECK(quiet.code == 1);
     CHECK_FALSE(mentions(quiet.err, "each layer is one piece"));
     CHECK(mentions(quiet.err, "sheets (8 places)"));
+}
+
+TEST_CASE("slice --check says of masks what check says, from lines that both look at", "[check]") {
+    const Folder folder;
+    const std::string foam =
+        "--shape box --shape-size 9,7,5 --cell 2 --beam 0.3 --layer-height 0.1 --support pillars "
+        "--printer-pixel 0.025 ";
+    const std::string landscape = "--printer-width 800 --printer-height 700 ";
+    const auto report_of = [&](const std::string& more) {
+        return Json::parse(run_lamella("check --json " + foam + more).out);
+    };
+    for (const auto& [machine, pitch] : std::vector<std::pair<std::string, double>>{
+             {landscape + "--printer png ", 0.08125},  // 13 quarters of a pixel
+             {"--printer-width 700 --printer-height 800 --printer png --printer-portrait ", 0.08125},
+             {landscape + "--printer sl1 --printer-mirror-x ", 0.08125},
+             {landscape + "--printer nanodlp --printer-mirror-y --printer-sub-rows 3 ", 0.025 / 3 * 10},
+             {landscape + "--printer png --printer-antialiasing off ", 0.075},
+             {landscape + "--printer png --printer-antialiasing exact ", 0.08},
+             {landscape + "--printer png --printer-sub-layers 2 ", 0.08},
+             {landscape + "--printer png --check-pitch 0.1 ", 0.1}}) {
+        INFO(machine);
+        const Json alone = report_of(machine);
+        CHECK(alone["pitch_mm"].get<double>() == Approx(pitch));
+        const Outcome run =
+            run_lamella("slice --check --json --force " + foam + machine + "-o " + folder / "out");
+        REQUIRE((run.code == 0 || run.code == 1));
+        CHECK(Json::parse(run.out)["checks"][0] == alone);
+        CHECK(alone["checks"].size() == 10);
+        fs::remove_all(folder / "out");
+    }
 }
 
 TEST_CASE("slice --check looks at each output's machine, and at all layers or none", "[check]") {

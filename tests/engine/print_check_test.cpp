@@ -495,6 +495,63 @@ TEST_CASE("a checked layer that is damaged on its way is refused", "[check]") {
     CHECK_THROWS_AS(arrives(whole, PrintCheck(job, options)), FaultError);
 }
 
+namespace {
+
+/// Lines of a display with its middle over a part's, every few of them `pitch` apart.
+RowBand display_lines(const Box& bounds, Axis axis, double along_sign, double across_sign) {
+    const int along = axis == Axis::x ? 0 : 1, side = 2000;
+    const double pixel = pitch / 2;
+    RowBand lines{.axis = axis, .along_pitch = along_sign * pixel, .across_pitch = across_sign * pixel};
+    lines.along_origin = bounds.center()[along] - side / 2 * lines.along_pitch;
+    lines.across_origin = bounds.center()[1 - along] - side / 2 * lines.across_pitch;
+    lines.count = lines.hi = side;
+    lines.sub = 2;
+    lines.step = 4;
+    return lines;
+}
+
+}  // namespace
+
+TEST_CASE("rows on a display's lines show the same faults, whichever way they run", "[check]") {
+    const FieldPtr part =
+        with(with(make_difference(brick(), make_sphere({1.5, 30, 10}, 0.65)), make_sphere({40, 20, 10}, 4)),
+             box({38, 40, 6}, {38.3, 60, 9}));
+    PrintCheckOptions options = all_checks();
+    options.limits.build_volume = {40, 70, 40};
+    options.limits.thickness = options.limits.thickness_up = 0.8;
+    options.pitch = pitch;
+    const CheckReport expected = check(part, options);
+    CHECK(result(expected, Check::connectivity).count == 2);
+    CHECK(result(expected, Check::build_volume).count == 1);
+    CHECK(result(expected, Check::cavities).count == 1);
+    CHECK(result(expected, Check::islands).count == 2);
+    const auto tells_of_plate = [](Check check) {
+        return check == Check::islands || check == Check::thickness;
+    };
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        for (const double along_sign : {1.0, -1.0}) {
+            for (const double across_sign : {1.0, -1.0}) {
+                options.lines = display_lines(part->bounds(), axis, along_sign, across_sign);
+                const CheckReport report = check(part, options);
+                CHECK(report.volume == Approx(expected.volume).epsilon(1e-3));
+                REQUIRE(report.results.size() == check_count);
+                for (std::size_t k = 0; k < check_count; ++k) {
+                    const CheckResult &a = report.results[k], &b = expected.results[k];
+                    INFO("check " << k << ", axis " << static_cast<int>(axis));
+                    CHECK(a.count == b.count);
+                    // The plate of 0.3 mm is three rows wide or four.
+                    CHECK(a.total ==
+                          Approx(b.total).epsilon(tells_of_plate(report.results[k].check) ? 0.25 : 0.05));
+                }
+                for (const Check kind : {Check::connectivity, Check::cavities})
+                    check_near(result(report, kind).worst.front().at,
+                               result(expected, kind).worst.front().at);
+                CHECK(result(report, Check::build_volume).worst.front().at.x == Approx(44).margin(pitch));
+            }
+        }
+    }
+}
+
 TEST_CASE("limits that make no sense are refused", "[check]") {
     PrintCheckOptions options = only(Check::thickness);
     options.limits.thickness = pitch;
