@@ -1,7 +1,6 @@
 // The machine's limits, the job's layers, and what changes verdicts.
 #include "app/check_limits.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "printers/mask.h"
@@ -43,17 +42,17 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
     plan.notes.push_back("Whether each layer fits a sheet is seen when the layers are laid out.");
 }
 
-/// Puts the rows on lines of the masks, where some lie about as far apart as is wanted: what is found of them
-/// serves both.
+/// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of them
+/// serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
 void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
-    constexpr double most_apart = 0.1;  // of the pitch wanted
+    constexpr double least_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
     if (find_backend(printer.backend).medium != Medium::pixels) return;
     std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
     if (!lines) return;
     const double pitch = std::abs(lines->line_pitch());
-    lines->step = std::max(1, static_cast<int>(std::lround(options.pitch / pitch)));
+    lines->step = static_cast<int>(options.pitch / pitch * (1 + 1e-9));
     const double found = lines->step * pitch;
-    if (std::abs(found - options.pitch) > most_apart * options.pitch) return;
+    if (found < least_share * options.pitch) return;
     options.lines = lines;
     options.pitch = found;
 }

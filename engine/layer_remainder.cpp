@@ -3,62 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/error.h"
 #include "engine/parallel_strips.h"
 
 namespace lamella {
 namespace {
-
-/// Runs of a line, of which more and more is taken away. Room is made once for many.
-class LeftRuns {
-  public:
-    void assign(std::span<const Run> runs) {
-        count_ = runs.size();
-        make_room(count_);
-        std::ranges::copy(runs, runs_.begin());
-    }
-    bool empty() const { return count_ == 0; }
-    std::span<const Run> all() const { return {runs_.data(), count_}; }
-
-    /// Takes away sorted runs that reach further to both sides. Which of two runs ends first is hard to
-    /// foretell, so no branch depends on it: each step writes what may be left, and counts it if it is.
-    void take_away(std::span<const Run> taken, const BallReach& reach) {
-        const Run *t = taken.data(), *const end = t + taken.size();
-        const std::int32_t first = runs_.front().begin - reach.ahead,
-                           last = runs_[count_ - 1].end + reach.back;
-        while (t != end && t->end <= first) ++t;
-        if (t == end || t->begin >= last) return;
-        make_room(count_ + static_cast<std::size_t>(end - t) + 1);
-        const Run *run = runs_.data(), *const runs_end = run + count_;
-        Run* left = buffer_.data();
-        std::int32_t from = std::numeric_limits<std::int32_t>::min();  // where the last run taken has ended
-        while (t != end && run != runs_end) {
-            const std::int32_t to = t->begin - reach.back, behind = t->end + reach.ahead;
-            *left = {std::max(run->begin, from), std::min(run->end, to)};
-            left += left->begin < left->end ? 1 : 0;
-            const bool goes_on = to < run->end;
-            from = goes_on ? behind : from;
-            t += goes_on ? 1 : 0;
-            run += goes_on ? 0 : 1;
-        }
-        for (; run != runs_end; ++run) {
-            *left = {std::max(run->begin, from), run->end};
-            left += left->begin < left->end ? 1 : 0;
-        }
-        count_ = static_cast<std::size_t>(left - buffer_.data());
-        runs_.swap(buffer_);
-    }
-
-  private:
-    void make_room(std::size_t count) {
-        if (buffer_.size() < count) buffer_.resize(2 * count);
-        if (runs_.size() < count) runs_.resize(2 * count);
-    }
-    std::vector<Run> runs_, buffer_;  // of which count_ are runs left
-    std::size_t count_ = 0;
-};
 
 /// Whether rows have a run from row `first` to row `last`; both may lie beside them.
 bool any_run(const SpanRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
@@ -136,6 +86,23 @@ void subtract_grown(const SpanRows& a, const SpanRows& b, double radius, double 
     out.reserve(a.lines(), a.runs().size());
     append_remainder(
         a, [&](int) { return &b; }, disc, 0, a.lines(), out);
+}
+
+std::span<const Run> RunRemainder::of(const Run& run, std::size_t line, LayersAbout taken,
+                                      const BallLines& ball) {
+    left_.assign({&run, 1});
+    for (const BallLines::Line& on : ball.lines()) {
+        const SpanRows* rows = taken[static_cast<std::size_t>(on.layer + ball.layers())];
+        const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(line) + on.row;
+        if (rows == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(rows->lines())) continue;
+        const std::span<const Run> runs = rows->line(static_cast<std::size_t>(row));
+        const Run* const end = runs.data() + runs.size();
+        const Run* const near = first_ending_behind(runs, left_.all().front().begin - on.reach.ahead);
+        if (near == end || near->begin >= left_.all().back().end + on.reach.back) continue;
+        left_.take_away({near, end}, on.reach);
+        if (left_.empty()) break;
+    }
+    return left_.all();
 }
 
 void RemainingLayers::push(SpanRows from, SpanRows taken) {

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <vector>
 
-#include "engine/ball_rows.h"
+#include "engine/left_runs.h"
 
 namespace lamella {
 
@@ -28,6 +29,20 @@ class BallLines {
   private:
     int layers_, rows_;
     std::vector<Line> lines_;
+};
+
+/// The rows of layers about one, from as many below it as a ball reaches to as many above; null where there
+/// is none.
+using LayersAbout = std::span<const SpanRows* const>;
+
+/// What of single runs of the middle layer is left when a ball about each point of layers is taken away.
+class RunRemainder {
+  public:
+    /// What is left of a run of that line; valid until the next call.
+    std::span<const Run> of(const Run& run, std::size_t line, LayersAbout taken, const BallLines& ball);
+
+  private:
+    LeftRuns left_;
 };
 
 /// The same of layers that stream by, with balls that reach from layer to layer. What lies beside the lines

@@ -11,11 +11,11 @@
 #include "engine/hold_check.h"
 #include "engine/layer_checks.h"
 #include "engine/layer_opening.h"
-#include "engine/layer_thinness.h"
 #include "engine/neck_check.h"
 #include "engine/number_format.h"
 #include "engine/row_sets.h"
 #include "engine/survey_rows.h"
+#include "engine/thin_beyond_places.h"
 #include "engine/void_check.h"
 
 namespace lamella {
@@ -181,7 +181,7 @@ class ThicknessCheck {
     Medium medium_;
     Thinness measure_;
     double row_pitch_ = 0;
-    std::optional<ThinLayers> neighbours_;
+    std::optional<ThinBeyondPlaces> neighbours_;
     int next_ = 0;  // layer to be told of
     PassingFaults found_;
 };

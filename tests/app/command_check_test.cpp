@@ -240,10 +240,10 @@ TEST_CASE("slice --check says of masks what check says, from lines that both loo
         return Json::parse(run_lamella("check --json " + foam + more).out);
     };
     for (const auto& [machine, pitch] : std::vector<std::pair<std::string, double>>{
-             {landscape + "--printer png ", 0.08125},  // 13 quarters of a pixel
-             {"--printer-width 700 --printer-height 800 --printer png --printer-portrait ", 0.08125},
-             {landscape + "--printer sl1 --printer-mirror-x ", 0.08125},
-             {landscape + "--printer nanodlp --printer-mirror-y --printer-sub-rows 3 ", 0.025 / 3 * 10},
+             {landscape + "--printer png ", 0.075},  // 12 quarters of a pixel
+             {"--printer-width 700 --printer-height 800 --printer png --printer-portrait ", 0.075},
+             {landscape + "--printer sl1 --printer-mirror-x ", 0.075},
+             {landscape + "--printer nanodlp --printer-mirror-y --printer-sub-rows 3 ", 0.025 / 3 * 9},
              {landscape + "--printer png --printer-antialiasing off ", 0.075},
              {landscape + "--printer png --printer-antialiasing exact ", 0.08},
              {landscape + "--printer png --printer-sub-layers 2 ", 0.08},

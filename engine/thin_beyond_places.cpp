@@ -1,0 +1,191 @@
+// Places where a ball fits, found run by run where nothing near has one, then all of them about what is left.
+#include "engine/thin_beyond_places.h"
+
+#include <algorithm>
+#include <ranges>
+
+#include "engine/error.h"
+#include "engine/row_sets.h"
+
+namespace lamella {
+namespace {
+
+/// Rows with `margin` empty ones on either side.
+SpanRows widened(const SpanRows& rows, std::size_t margin) {
+    SpanRows wide;
+    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
+    wide.end_lines(margin);
+    wide.append_lines(rows);
+    wide.end_lines(margin);
+    return wide;
+}
+
+/// Rows beyond the given ones that decide about them.
+std::size_t margin_of(const Thinness& thinness, double row_pitch) {
+    return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
+}
+
+/// Calls visit(number) for the runs of a line that meet a stretch.
+template <typename Visit>
+void for_runs_meeting(const SpanRows& rows, std::size_t line, const Run& stretch, Visit visit) {
+    const std::span<const Run> runs = rows.line(line);
+    const Run *run = first_ending_behind(runs, stretch.begin), *const end = runs.data() + runs.size();
+    auto number = static_cast<std::size_t>(run - rows.runs().data());
+    for (; run != end && run->begin < stretch.end; ++run) visit(number++);
+}
+
+}  // namespace
+
+ThinBeyondPlaces::ThinBeyondPlaces(const LayerLattice& lattice, const Thinness& thinness, Medium medium)
+    : medium_(medium),
+      lines_(lattice.lines),
+      margin_(margin_of(thinness, lattice.row_pitch)),
+      fitting_(lattice, thinness.radius),
+      near_(lattice, thinness.radius + thinness.slack),
+      near_place_(near_),
+      beyond_(static_cast<std::size_t>(fitting_.layers() + near_.layers())),
+      next_(beyond_) {
+    push_beyond();
+}
+
+void ThinBeyondPlaces::push(const SpanRows& layer) {
+    if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
+    ++to_come_;
+    push_slab(widened(layer, margin_), true);
+}
+
+/// The void goes on, and balls fit there.
+void ThinBeyondPlaces::push_beyond() {
+    for (std::size_t i = 0; i < beyond_; ++i) push_slab(empty_rows(lines_ + 2 * margin_), false);
+}
+
+void ThinBeyondPlaces::push_slab(SpanRows solid, bool is_judged) {
+    const std::size_t index = first_ + slabs_.size();
+    SpanRows of = complement(solid, -far_out, far_out), beside = std::move(solid);
+    if (medium_ == Medium::solid) std::swap(of, beside);
+    OpenRuns open(of, static_cast<std::int32_t>(index), margin_, is_judged ? lines_ : 0);
+    RunPlaces places(of);
+    std::vector<NumberedRun> left;
+    if (is_judged) {
+        for (std::size_t l = margin_; l < margin_ + lines_; ++l) {
+            const std::size_t first = first_run(of, l);
+            for (std::size_t k = 0; k < of.line(l).size(); ++k) left.push_back({l, first + k});
+        }
+    }
+    slabs_.push_back({std::move(of), std::move(beside), std::move(open), std::move(left), std::move(places)});
+    for (; found_ + static_cast<std::size_t>(fitting_.layers()) <= index; ++found_) find_places(found_);
+}
+
+/// Closes what of a run lies near the places that runs beside it in another line are near.
+void ThinBeyondPlaces::ask(std::size_t index, const NumberedRun& run, std::size_t other,
+                           std::size_t other_line) {
+    Slab& here = slab(index);
+    if (!here.open.is_open(run.number) || other_line >= here.of.lines() || !is_kept(other)) return;
+    const Slab& there = slab(other);
+    here.open.close_near_those_of(there.open, there.of, other_line, places_, here.of.runs()[run.number], run,
+                                  near_place_);
+}
+
+/// Finds the places in a run of a layer.
+void ThinBeyondPlaces::search(std::size_t index, const NumberedRun& run) {
+    beside_.clear();
+    for (int k = -fitting_.layers(); k <= fitting_.layers(); ++k) {
+        const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(index) + k - static_cast<std::ptrdiff_t>(first_);
+        const bool is_there = i >= 0 && i < static_cast<std::ptrdiff_t>(slabs_.size());
+        beside_.push_back(is_there ? &slabs_[static_cast<std::size_t>(i)].beside : nullptr);
+    }
+    Slab& here = slab(index);
+    here.places.put(run.number, run.line,
+                    remainder_.of(here.of.runs()[run.number], run.line, beside_, fitting_));
+}
+
+/// Looks for places in those runs of a layer that lie near none of which their neighbours know.
+void ThinBeyondPlaces::find_places(std::size_t index) {
+    Slab& here = slab(index);
+    if (index > first_) {
+        const Slab& below = slab(index - 1);
+        here.open.close_near_those_of(below.open, below.of, places_, here.of, near_place_);
+    }
+    const auto forget_closed = [](Slab& slab) {
+        std::erase_if(slab.left, [&](const NumberedRun& run) { return !slab.open.is_open(run.number); });
+        slab.left.shrink_to_fit();
+    };
+    forget_closed(here);
+    const auto ask_ahead = [&] {
+        for (const NumberedRun& run : here.left | std::views::reverse) ask(index, run, index, run.line + 1);
+    };
+    for (const NumberedRun& run : here.left) ask(index, run, index, run.line - 1);
+    ask_ahead();
+    for (const NumberedRun& run : here.left) {
+        ask(index, run, index, run.line - 1);
+        if (!here.open.is_open(run.number)) continue;
+        search(index, run);
+        for (const Run& found : here.places.in(run.number)) {
+            here.open.close_near(
+                places_.add({static_cast<std::int32_t>(index), static_cast<std::int32_t>(run.line), found}),
+                places_, run, near_place_);
+        }
+    }
+    ask_ahead();
+    forget_closed(here);
+    for (std::size_t k = index; k-- > first_;) {
+        Slab& below = slab(k);
+        for (const NumberedRun& run : below.left) ask(k, run, k + 1, run.line);
+        const std::size_t before = below.left.size();
+        forget_closed(below);
+        if (below.left.size() == before) break;
+    }
+}
+
+/// Takes away what of a run's stretches lies near any place, those in runs not searched so far included.
+void ThinBeyondPlaces::look_near(std::size_t index, const NumberedRun& run, LeftRuns& left) {
+    OpenRuns& open = slab(index).open;
+    for (const BallLines::Line& on : near_.lines()) {
+        const std::size_t other = index + static_cast<std::size_t>(on.layer);
+        const std::ptrdiff_t l = static_cast<std::ptrdiff_t>(run.line) + on.row;
+        Slab& there = slab(other);
+        if (l < 0 || l >= static_cast<std::ptrdiff_t>(there.of.lines())) continue;
+        const auto line = static_cast<std::size_t>(l);
+        if (there.places.all_searched() && !there.places.any_in_line(line)) continue;
+        const Run stretch{left.all().front().begin - on.reach.ahead, left.all().back().end + on.reach.back};
+        for_runs_meeting(there.of, line, stretch, [&](std::size_t number) {
+            if (!there.places.is_searched(number)) search(other, {line, number});
+            if (left.empty()) return;
+            left.take_away(there.places.in(number), on.reach);
+            for (const Run& place : there.places.in(number))
+                open.close_near(
+                    places_.add({static_cast<std::int32_t>(other), static_cast<std::int32_t>(line), place}),
+                    places_, run, near_place_);
+        });
+        if (left.empty()) return;
+    }
+}
+
+/// Appends what is too thin in a layer, without the margin's lines.
+void ThinBeyondPlaces::thin_of(std::size_t index, SpanRows& out) {
+    Slab& here = slab(index);
+    LeftRuns left;
+    for (const NumberedRun& run : here.left) {
+        for (const std::size_t line : {run.line - 1, run.line + 1}) ask(index, run, index, line);
+        for (const std::size_t other : {index - 1, index + 1}) ask(index, run, other, run.line);
+        if (!here.open.is_open(run.number)) continue;
+        left.assign({&here.open.of(run.number), 1});
+        look_near(index, run, left);
+        out.end_lines(run.line - margin_ - out.lines());
+        for (const Run& thin : left.all()) out.push(thin.begin, thin.end);
+    }
+    out.end_lines(lines_ - out.lines());
+}
+
+bool ThinBeyondPlaces::pop(SpanRows& out) {
+    if (to_come_ == 0 || next_ + beyond_ >= first_ + slabs_.size()) return false;
+    out.clear();
+    thin_of(next_, out);
+    ++next_;
+    --to_come_;
+    for (; first_ + beyond_ < next_; ++first_) slabs_.pop_front();
+    places_.forget_below(static_cast<std::int32_t>(first_) - near_.layers());
+    return true;
+}
+
+}  // namespace lamella
