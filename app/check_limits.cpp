@@ -42,8 +42,8 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
     plan.notes.push_back("Whether each layer fits a sheet is seen when the layers are laid out.");
 }
 
-/// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of them
-/// serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
+/// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of
+/// them serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
 void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
     constexpr double least_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
     if (find_backend(printer.backend).medium != Medium::pixels) return;

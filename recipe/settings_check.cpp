@@ -88,7 +88,7 @@ void add_check_settings(std::vector<Setting>& table) {
                        {.unit = "mm",
                         .limits = {0, 100},
                         .help = "Distance of the rows that a check looks at; 0: a fifth of the least size, "
-                                 "or the nearest that puts them on lines that masks are made of."});
+                                "or the nearest that puts them on lines that masks are made of."});
     add_row<&C::places>(table, "places", "--check-places",
                         {.limits = {1, 1000}, .help = "Faults of each kind that are told of, the worst."});
     add_sizes(table);
