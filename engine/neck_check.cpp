@@ -23,40 +23,23 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
     }
 }
 
-}  // namespace
-
-NeckCheck::Sampling::Sampling(const CheckGrid& grid, double thickness) {
+/// As few rows and layers as tell a thickness, mm.
+CheckSampling sampling_for(const CheckGrid& grid, double thickness) {
     constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
     const auto one_of = [&](double pitch, double samples) {
         return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
     };
-    rows = one_of(grid.band.across_pitch, rows_in_a_neck);
-    layers = one_of(grid.layer_height, layers_in_a_neck);
+    return {one_of(grid.band.across_pitch, rows_in_a_neck), one_of(grid.layer_height, layers_in_a_neck)};
 }
 
-CheckGrid NeckCheck::Sampling::of(CheckGrid grid) const {
-    // The sampled row is the middle of those that it stands for.
-    grid.band.across_origin += rows % 2 == 0 ? 0.5 * grid.band.across_pitch : 0;
-    grid.band.across_pitch *= rows;
-    grid.band.count = (grid.band.count + rows - 1) / rows;
-    grid.layer_height *= layers;
-    return grid;
-}
-
-SpanRows NeckCheck::Sampling::of(const SpanRows& layer) const {
-    if (rows == 1) return layer;
-    const auto step = static_cast<std::size_t>(rows);
-    SpanRows sampled;
-    for (std::size_t l = 0; l < layer.lines(); l += step)
-        sampled.append_line(layer.line(std::min(l + step / 2, layer.lines() - 1)));
-    return sampled;
-}
+}  // namespace
 
 NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
-    : NeckCheck(Sampling(grid, thickness).of(grid), Sampling(grid, thickness), thickness, large_part, most) {}
+    : NeckCheck(sampling_for(grid, thickness).of(grid), sampling_for(grid, thickness), thickness, large_part,
+                most) {}
 
-NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,
-                     std::size_t most)
+NeckCheck::NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness,
+                     double large_part, std::size_t most)
     : grid_(sampled),
       sampling_(sampling),
       large_part_(large_part),
@@ -64,8 +47,7 @@ NeckCheck::NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double 
       necks_(most) {}
 
 void NeckCheck::push(const SpanRows& layer) {
-    const int index = pushed_++;
-    if (index != sampling_.sampled_layer(index / sampling_.layers)) return;
+    if (!sampling_.samples(pushed_++)) return;
     solid_.push_back(sampling_.of(layer));
     thin_.push(solid_.back());
     carry_on();
@@ -159,16 +141,7 @@ void NeckCheck::finish() {
 Fault NeckCheck::neck(const PassingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);
-    fault.layer = sampling_.sampled_layer(fault.layer);
-    fault.first_layer *= sampling_.layers;
-    fault.end_layer = std::min(fault.end_layer * sampling_.layers, pushed_);
-    std::vector<PlacedRun> runs;
-    for (const PlacedRun& run : fault.runs) {
-        for (int k = 0; k < sampling_.rows; ++k)
-            runs.push_back({fault.layer, run.row * sampling_.rows + k, run.begin, run.end});
-    }
-    fault.runs = std::move(runs);
-    return fault;
+    return sampling_.told(std::move(fault), grid_, pushed_);
 }
 
 }  // namespace lamella

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "engine/fault_list.h"
+#include "engine/check_sampling.h"
 #include "engine/layer_thinness.h"
 #include "engine/passing_parts.h"
 
@@ -28,16 +28,7 @@ class NeckCheck {
         LabelledLayer parts;  ///< components are numbers of parts_
         SpanRows rest;
     };
-    /// One row and one layer of so many are looked at.
-    struct Sampling {
-        int rows, layers;
-        /// As few as tell a thickness, mm.
-        Sampling(const CheckGrid& grid, double thickness);
-        CheckGrid of(CheckGrid grid) const;
-        int sampled_layer(int course) const { return course * layers + (layers - 1) / 2; }
-        SpanRows of(const SpanRows& layer) const;
-    };
-    NeckCheck(const CheckGrid& sampled, const Sampling& sampling, double thickness, double large_part,
+    NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness, double large_part,
               std::size_t most);
     void carry_on();
     void split(SpanRows thin);
@@ -47,7 +38,7 @@ class NeckCheck {
     Fault neck(const PassingComponent& rest) const;
 
     CheckGrid grid_;  // of what is looked at
-    Sampling sampling_;
+    CheckSampling sampling_;
     int pushed_ = 0;  // layers
     double large_part_;
     ThinLayers thin_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "engine/check_rows.h"
@@ -74,7 +75,15 @@ struct CheckedLayer : LayerProduct {
 class PassingFaults {
   public:
     PassingFaults(const CheckGrid& grid, double least, std::size_t most)
-        : grid_(grid), least_(least), faults_(most) {}
+        : PassingFaults(grid, {}, std::numeric_limits<int>::max(), least, most) {}
+    /// Of rows and layers of which some are looked at; layers there are so many.
+    PassingFaults(const CheckGrid& grid, const CheckSampling& sampling, int layer_count, double least,
+                  std::size_t most)
+        : grid_(sampling.of(grid)),
+          sampling_(sampling),
+          layer_count_(layer_count),
+          least_(least),
+          faults_(most) {}
     void add(LabelledLayer layer, int index) {
         components_.add(std::move(layer), index, {}, ended_);
         take();
@@ -94,11 +103,13 @@ class PassingFaults {
             const dvec3 size = fault.box.size();
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
-            faults_.add(std::move(fault));
+            faults_.add(sampling_.told(std::move(fault), grid_, layer_count_));
         }
         ended_.clear();
     }
-    CheckGrid grid_;
+    CheckGrid grid_;  // of what is looked at
+    CheckSampling sampling_;
+    int layer_count_;
     double least_;
     PassingComponents components_;
     std::vector<EndedComponent> ended_;
@@ -140,10 +151,13 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
 /// Thicknesses of solid or void: layers one by one in parallel, or with their neighbours in order.
 class ThicknessCheck {
   public:
-    ThicknessCheck(const CheckGrid& grid, double thickness, double thickness_up, Medium medium,
-                   std::size_t most)
-        : medium_(medium), found_(grid, thickness, most) {
-        const SampledBall ball = sampled_ball(grid.band, grid.layer_height, thickness, thickness_up);
+    ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
+                   Medium medium, std::size_t most)
+        : medium_(medium),
+          sampling_{1, layers_for(grid, thickness_up)},
+          found_(grid, sampling_, layer_count, thickness, most) {
+        const SampledBall ball =
+            sampled_ball(grid.band, sampling_.of(grid).layer_height, thickness, thickness_up);
         // A pitch besides, by which rows see late what is opened.
         measure_ = {ball.radius, slack_share * ball.radius + run_unit};
         row_pitch_ = ball.lattice.row_pitch;
@@ -162,6 +176,7 @@ class ThicknessCheck {
     }
     void add(const SpanRows& rows, const SpanRows& prepared) {
         if (!neighbours_) return found_.add(prepared, next_++);
+        if (!sampling_.samples(pushed_++)) return;
         neighbours_->push(rows);
         take();
     }
@@ -178,11 +193,19 @@ class ThicknessCheck {
     void take() {
         for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
     }
+    /// Of how many layers one is looked at. They need not lie closer than rows do.
+    static int layers_for(const CheckGrid& grid, double thickness_up) {
+        const double apart = std::min(grid.band.across_pitch, thickness_up / pitches_in_a_thickness);
+        return std::max(1, static_cast<int>(apart / grid.layer_height * (1 + 1e-9)));
+    }
+
     Medium medium_;
+    CheckSampling sampling_;
     Thinness measure_;
     double row_pitch_ = 0;
     std::optional<ThinBeyondPlaces> neighbours_;
-    int next_ = 0;  // layer to be told of
+    int pushed_ = 0;  // layers
+    int next_ = 0;    // to be told of, of those looked at
     PassingFaults found_;
 };
 
@@ -203,8 +226,9 @@ struct PrintCheck::State {
         if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
             hold.emplace(grid, limits, most);
         if (wants(Check::thickness))
-            thickness.emplace(grid, limits.thickness, limits.thickness_up, Medium::solid, most);
-        if (wants(Check::gaps)) gaps.emplace(grid, limits.gap, limits.gap_up, Medium::gaps, most);
+            thickness.emplace(grid, layer_count, limits.thickness, limits.thickness_up, Medium::solid, most);
+        if (wants(Check::gaps))
+            gaps.emplace(grid, layer_count, limits.gap, limits.gap_up, Medium::gaps, most);
         if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
         if (wants(Check::cavities) || wants(Check::cups))
             voids.emplace(grid, limits.cavity, limits.cup, most);

@@ -263,6 +263,27 @@ TEST_CASE("a floor is too thin upright only where the process asks", "[check]") 
     CHECK(fault.end_layer == 3);
 }
 
+TEST_CASE("what is thin upright is found where layers lie closer than rows", "[check]") {
+    constexpr double fine = 0.025;  // three layers, of which one is looked at, lie within a row's width
+    const FieldPtr part = with(box({0, 0, 0}, {6, 6, 4}), box({5, 1, 2}, {9, 5, 2.6}));
+    PrintCheckOptions upright = only(Check::thickness);
+    upright.limits.thickness = upright.limits.thickness_up = 1.2;
+    const CheckReport report = check(part, upright, 0, nullptr, fine);
+    REQUIRE(result(report, Check::thickness).count == 1);
+    const Fault& fault = result(report, Check::thickness).worst.front();
+    CHECK(std::abs(fault.first_layer - 80) <= 3);
+    CHECK(std::abs(fault.end_layer - 104) <= 3);
+    CHECK(fault.at.z == Approx((fault.layer + 0.5) * fine));
+    CHECK(fault.at.x > 6);
+    CHECK(fault.at.x < 9);
+    CHECK(fault.box.lo.z == Approx(2).margin(3 * fine));
+    CHECK(fault.box.hi.z == Approx(2.6).margin(3 * fine));
+    CHECK(fault.size > 1.8 * 4 * 0.6);
+    CHECK(fault.size < 3.2 * 4 * 0.7);
+    const FieldPtr stout = with(box({0, 0, 0}, {6, 6, 4}), box({5, 1, 2}, {9, 5, 3.3}));
+    CHECK(result(check(stout, upright, 0, nullptr, fine), Check::thickness).count == 0);
+}
+
 TEST_CASE("a slot that is too narrow is a gap, a wide one is not", "[check]") {
     const FieldPtr block = box({31, 10, 0}, {45, 24, 10});
     const auto slotted = [&](double width) {
