@@ -28,7 +28,10 @@ NearPlace::NearPlace(const BallLines& ball)
 }
 
 OpenRuns::OpenRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count)
-    : layer_(layer), open_(rows.runs().size(), Run{0, 0}), near_(rows.runs().size()) {
+    : layer_(layer),
+      open_(rows.runs().size(), Run{0, 0}),
+      near_(rows.runs().size()),
+      known_in_(rows.lines(), 0) {
     for (std::size_t l = first_line; l < first_line + count; ++l) {
         std::size_t number = first_run(rows, l);
         for (const Run& run : rows.line(l)) open_[number++] = run;
@@ -47,6 +50,7 @@ void OpenRuns::close_near(std::uint32_t place, const Places& places, const Numbe
     } else {
         return;
     }
+    ++known_in_[run.line];
     Link& first = near_[run.number];
     if (first.place == none) {
         first.place = place;
@@ -78,6 +82,7 @@ void OpenRuns::close_near_those_of(const OpenRuns& others, const SpanRows& other
 void OpenRuns::close_near_those_of(const OpenRuns& others, const SpanRows& other_rows, const Places& places,
                                    const SpanRows& rows, const NearPlace& near) {
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        if (!others.knows_any(l)) continue;
         const std::span<const Run> beside = other_rows.line(l);
         std::size_t number = first_run(rows, l), next = first_run(other_rows, l);
         const std::size_t end = next + beside.size();

@@ -61,7 +61,16 @@ class OpenRuns {
 
     /// What is open of the run with that number.
     const Run& of(std::size_t number) const { return open_[number]; }
+    /// Whether places are known that runs of a line are near.
+    bool knows_any(std::size_t line) const { return known_in_[line] > 0; }
     bool is_open(std::size_t number) const { return of(number).begin < of(number).end; }
+    /// Whether what lies near a place is open at an end of a run.
+    bool may_close(const Place& place, const NumberedRun& run, const NearPlace& near) const {
+        const Run closed = near.on(place, layer_, static_cast<std::int32_t>(run.line)),
+                  &open = open_[run.number];
+        return closed.begin < open.end && open.begin < closed.end &&
+               (closed.begin <= open.begin || open.end <= closed.end);
+    }
     /// What of a run lies near a place is not open any more. If what lies on both sides of it was open, all
     /// stays so.
     void close_near(std::uint32_t place, const Places& places, const NumberedRun& run, const NearPlace& near);
@@ -87,6 +96,7 @@ class OpenRuns {
     std::vector<Run> open_;   // of each run
     std::vector<Link> near_;  // of each run
     std::vector<Link> more_;
+    std::vector<std::uint32_t> known_in_;  // how many, of each line
 };
 
 /// The number of a line's first run.

@@ -1,6 +1,7 @@
-// RunPlaces: where in a layer's runs something was found, run by run.
+// RunPlaces: where in a layer's runs something was found, and which of them were searched for it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,38 +10,34 @@
 
 namespace lamella {
 
-/// For each run of a layer whether it was searched, and what was found in it: sorted stretches of it.
+/// Stretches of a layer's runs, found in one of them after another.
 class RunPlaces {
   public:
     explicit RunPlaces(const SpanRows& rows)
-        : of_runs_(rows.runs().size(), not_searched),
-          in_line_(rows.lines(), 0),
-          to_search_(rows.runs().size()) {}
+        : is_searched_(rows.runs().size(), 0), in_lines_(rows.lines()), to_search_(rows.lines()) {
+        for (std::size_t l = 0; l < rows.lines(); ++l)
+            to_search_[l] = static_cast<std::uint32_t>(rows.line(l).size());
+    }
 
-    bool all_searched() const { return to_search_ == 0; }
-    bool is_searched(std::size_t run) const { return of_runs_[run] != not_searched; }
-    /// For a run that was not searched, on that line.
+    /// Whether all runs of a line were searched.
+    bool all_searched(std::size_t line) const { return to_search_[line] == 0; }
+    bool is_searched(std::size_t run) const { return is_searched_[run] != 0; }
+    /// What was found, sorted, in a run of that line that was not searched before.
     void put(std::size_t run, std::size_t line, std::span<const Run> found) {
-        of_runs_[run] = static_cast<std::uint32_t>(ends_.size()) - 1;
-        found_.insert(found_.end(), found.begin(), found.end());
-        ends_.push_back(static_cast<std::uint32_t>(found_.size()));
-        in_line_[line] += static_cast<std::uint32_t>(found.size());
-        --to_search_;
+        is_searched_[run] = 1;
+        --to_search_[line];
+        if (found.empty()) return;
+        std::vector<Run>& all = in_lines_[line];
+        all.insert(std::ranges::lower_bound(all, found.front().begin, {}, &Run::begin), found.begin(),
+                   found.end());
     }
-    /// For one that was.
-    std::span<const Run> in(std::size_t run) const {
-        const std::uint32_t begin = ends_[of_runs_[run]], end = ends_[of_runs_[run] + 1];
-        return {found_.data() + begin, end - begin};
-    }
-    bool any_in_line(std::size_t line) const { return in_line_[line] > 0; }
+    /// All that was found in the runs of a line, sorted.
+    std::span<const Run> in_line(std::size_t line) const { return in_lines_[line]; }
 
   private:
-    static constexpr std::uint32_t not_searched = UINT32_MAX;
-    std::vector<std::uint32_t> of_runs_;  // which search it was
-    std::vector<std::uint32_t> ends_{0};  // of what each search found, in found_
-    std::vector<Run> found_;
-    std::vector<std::uint32_t> in_line_;  // how much
-    std::size_t to_search_;
+    std::vector<std::uint8_t> is_searched_;  // of each run
+    std::vector<std::vector<Run>> in_lines_;
+    std::vector<std::uint32_t> to_search_;  // how many, of each line
 };
 
 }  // namespace lamella

@@ -10,6 +10,9 @@
 namespace lamella {
 namespace {
 
+/// So many runs of a line are looked at one by one, more of them together.
+constexpr std::size_t few_runs = 1;
+
 /// Rows with `margin` empty ones on either side.
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
     SpanRows wide;
@@ -82,21 +85,36 @@ void ThinBeyondPlaces::ask(std::size_t index, const NumberedRun& run, std::size_
     Slab& here = slab(index);
     if (!here.open.is_open(run.number) || other_line >= here.of.lines() || !is_kept(other)) return;
     const Slab& there = slab(other);
+    if (!there.open.knows_any(other_line)) return;
     here.open.close_near_those_of(there.open, there.of, other_line, places_, here.of.runs()[run.number], run,
                                   near_place_);
 }
 
-/// Finds the places in a run of a layer.
-void ThinBeyondPlaces::search(std::size_t index, const NumberedRun& run) {
+/// What of a run lies near a place is not open any more.
+void ThinBeyondPlaces::close_near(const Place& place, std::size_t index, const NumberedRun& run) {
+    OpenRuns& open = slab(index).open;
+    if (open.may_close(place, run, near_place_))
+        open.close_near(places_.add(place), places_, run, near_place_);
+}
+
+/// Finds the places in a run of a layer. They are valid until the next search.
+std::span<const Run> ThinBeyondPlaces::search(std::size_t index, const NumberedRun& run) {
+    Slab& here = slab(index);
+    const Run& whole = here.of.runs()[run.number];
+    const BallReach& reach = fitting_.lines().front().reach;
+    if (whole.end - whole.begin <= reach.back + reach.ahead) {
+        here.places.put(run.number, run.line, {});
+        return {};
+    }
     beside_.clear();
     for (int k = -fitting_.layers(); k <= fitting_.layers(); ++k) {
         const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(index) + k - static_cast<std::ptrdiff_t>(first_);
         const bool is_there = i >= 0 && i < static_cast<std::ptrdiff_t>(slabs_.size());
         beside_.push_back(is_there ? &slabs_[static_cast<std::size_t>(i)].beside : nullptr);
     }
-    Slab& here = slab(index);
-    here.places.put(run.number, run.line,
-                    remainder_.of(here.of.runs()[run.number], run.line, beside_, fitting_));
+    const std::span<const Run> found = remainder_.of(whole, run.line, beside_, fitting_);
+    here.places.put(run.number, run.line, found);
+    return found;
 }
 
 /// Looks for places in those runs of a layer that lie near none of which their neighbours know.
@@ -119,12 +137,9 @@ void ThinBeyondPlaces::find_places(std::size_t index) {
     for (const NumberedRun& run : here.left) {
         ask(index, run, index, run.line - 1);
         if (!here.open.is_open(run.number)) continue;
-        search(index, run);
-        for (const Run& found : here.places.in(run.number)) {
-            here.open.close_near(
-                places_.add({static_cast<std::int32_t>(index), static_cast<std::int32_t>(run.line), found}),
-                places_, run, near_place_);
-        }
+        for (const Run& found : search(index, run))
+            close_near({static_cast<std::int32_t>(index), static_cast<std::int32_t>(run.line), found}, index,
+                       run);
     }
     ask_ahead();
     forget_closed(here);
@@ -137,27 +152,42 @@ void ThinBeyondPlaces::find_places(std::size_t index) {
     }
 }
 
-/// Takes away what of a run's stretches lies near any place, those in runs not searched so far included.
-void ThinBeyondPlaces::look_near(std::size_t index, const NumberedRun& run, LeftRuns& left) {
-    OpenRuns& open = slab(index).open;
+/// Looks for all places near the open runs of a line, those in runs not searched so far included, and takes
+/// what lies near them away from what is left.
+void ThinBeyondPlaces::look_near(std::size_t index, std::span<const NumberedRun> runs, LeftRuns& left) {
+    const std::size_t line = runs.front().line;
+    const bool are_many = runs.size() > few_runs;
     for (const BallLines::Line& on : near_.lines()) {
-        const std::size_t other = index + static_cast<std::size_t>(on.layer);
-        const std::ptrdiff_t l = static_cast<std::ptrdiff_t>(run.line) + on.row;
-        Slab& there = slab(other);
-        if (l < 0 || l >= static_cast<std::ptrdiff_t>(there.of.lines())) continue;
-        const auto line = static_cast<std::size_t>(l);
-        if (there.places.all_searched() && !there.places.any_in_line(line)) continue;
-        const Run stretch{left.all().front().begin - on.reach.ahead, left.all().back().end + on.reach.back};
-        for_runs_meeting(there.of, line, stretch, [&](std::size_t number) {
-            if (!there.places.is_searched(number)) search(other, {line, number});
-            if (left.empty()) return;
-            left.take_away(there.places.in(number), on.reach);
-            for (const Run& place : there.places.in(number))
-                open.close_near(
-                    places_.add({static_cast<std::int32_t>(other), static_cast<std::int32_t>(line), place}),
-                    places_, run, near_place_);
-        });
         if (left.empty()) return;
+        const std::size_t other = index + static_cast<std::size_t>(on.layer),
+                          row = line + static_cast<std::size_t>(on.row);
+        Slab& there = slab(other);
+        if (row >= there.of.lines()) continue;
+        if (!there.places.all_searched(row)) {
+            const auto search_in = [&](const Run& stretch) {
+                for_runs_meeting(there.of, row, stretch, [&](std::size_t number) {
+                    if (!there.places.is_searched(number)) search(other, {row, number});
+                });
+            };
+            if (are_many) {
+                search_in({-far_out - 1, far_out + 1});
+            } else {
+                for (const Run& run : left.all())
+                    search_in({run.begin - on.reach.ahead, run.end + on.reach.back});
+            }
+        }
+        const std::span<const Run> places = there.places.in_line(row);
+        if (places.empty()) continue;
+        left.take_away(places, on.reach);
+        if (are_many) continue;
+        // What the runs are near will be asked for by their neighbours.
+        for (const NumberedRun& run : runs) {
+            const Run open = slab(index).open.of(run.number);
+            const Run* place = first_ending_behind(places, open.begin - on.reach.ahead);
+            for (; place != places.data() + places.size() && place->begin < open.end + on.reach.back; ++place)
+                close_near({static_cast<std::int32_t>(other), static_cast<std::int32_t>(row), *place}, index,
+                           run);
+        }
     }
 }
 
@@ -165,13 +195,23 @@ void ThinBeyondPlaces::look_near(std::size_t index, const NumberedRun& run, Left
 void ThinBeyondPlaces::thin_of(std::size_t index, SpanRows& out) {
     Slab& here = slab(index);
     LeftRuns left;
-    for (const NumberedRun& run : here.left) {
-        for (const std::size_t line : {run.line - 1, run.line + 1}) ask(index, run, index, line);
-        for (const std::size_t other : {index - 1, index + 1}) ask(index, run, other, run.line);
-        if (!here.open.is_open(run.number)) continue;
-        left.assign({&here.open.of(run.number), 1});
-        look_near(index, run, left);
-        out.end_lines(run.line - margin_ - out.lines());
+    std::vector<NumberedRun> of_line;
+    std::vector<Run> open;
+    for (auto run = here.left.begin(); run != here.left.end();) {
+        const std::size_t line = run->line;
+        of_line.clear();
+        open.clear();
+        for (; run != here.left.end() && run->line == line; ++run) {
+            for (const std::size_t row : {line - 1, line + 1}) ask(index, *run, index, row);
+            for (const std::size_t other : {index - 1, index + 1}) ask(index, *run, other, line);
+            if (!here.open.is_open(run->number)) continue;
+            of_line.push_back(*run);
+            open.push_back(here.open.of(run->number));
+        }
+        if (of_line.empty()) continue;
+        left.assign(open);
+        look_near(index, of_line, left);
+        out.end_lines(line - margin_ - out.lines());
         for (const Run& thin : left.all()) out.push(thin.begin, thin.end);
     }
     out.end_lines(lines_ - out.lines());

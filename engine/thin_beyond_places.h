@@ -36,8 +36,9 @@ class ThinBeyondPlaces {
     void push_slab(SpanRows solid, bool is_judged);
     void find_places(std::size_t index);
     void ask(std::size_t index, const NumberedRun& run, std::size_t other, std::size_t other_line);
-    void search(std::size_t index, const NumberedRun& run);
-    void look_near(std::size_t index, const NumberedRun& run, LeftRuns& left);
+    void close_near(const Place& place, std::size_t index, const NumberedRun& run);
+    std::span<const Run> search(std::size_t index, const NumberedRun& run);
+    void look_near(std::size_t index, std::span<const NumberedRun> runs, LeftRuns& left);
     void thin_of(std::size_t index, SpanRows& out);
 
     Medium medium_;
