@@ -202,17 +202,17 @@ SpanRows HoldCheck::too_steep(const HoldingRows& layer, const CellRows& met, con
     const Below& lowest = below_[first];
     std::optional<CellRows> anew;
     if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
-    const SpanRows maybe = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
-    if (maybe.runs().empty()) return none;
-    SpanRows steep = supports_.unheld(maybe);
+    SpanRows steep = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
     const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
     };
     explain(hangs, 0);
     for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
+    if (steep.runs().empty()) return none;
     steep = beyond(large(steep), lowest.rows.part, far);
-    return large(steep);
+    // What supports hold is looked up last, being the dearest.
+    return large(supports_.unheld(large(steep)));
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
