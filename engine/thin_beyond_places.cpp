@@ -10,8 +10,8 @@
 namespace lamella {
 namespace {
 
-/// So many runs of a line are looked at one by one, more of them together.
-constexpr std::size_t few_runs = 1;
+/// Fewer than one in so many runs of a line are looked at one by one, more of them together.
+constexpr std::size_t few_share = 4;
 
 /// Rows with `margin` empty ones on either side.
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
@@ -156,7 +156,7 @@ void ThinBeyondPlaces::find_places(std::size_t index) {
 /// what lies near them away from what is left.
 void ThinBeyondPlaces::look_near(std::size_t index, std::span<const NumberedRun> runs, LeftRuns& left) {
     const std::size_t line = runs.front().line;
-    const bool are_many = runs.size() > few_runs;
+    const bool are_many = few_share * runs.size() > slab(index).of.line(line).size();
     for (const BallLines::Line& on : near_.lines()) {
         if (left.empty()) return;
         const std::size_t other = index + static_cast<std::size_t>(on.layer),

@@ -13,6 +13,7 @@
 #include "engine/primitives.h"
 #include "engine/row_sets.h"
 #include "engine/survey_rows.h"
+#include "engine/thin_beyond_places.h"
 #include "engine/void_check.h"
 #include "procedural/voronoi_foam.h"
 
@@ -107,6 +108,37 @@ void check_thickness(benchmark::State& state, Medium medium, double thickness) {
     state.counters["volume"] = grid().volume(found);
 }
 
+template <typename Thin>
+void thickness_across_layers(benchmark::State& state, Medium medium, double thickness) {
+    layers();
+    const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, thickness);
+    std::int64_t found = 0;
+    for (auto _ : state) {
+        found = 0;
+        Thin thin(ball.lattice, {ball.radius, 1.5 * ball.radius + run_unit}, medium);
+        SpanRows rows;
+        const auto take = [&] {
+            while (thin.pop(rows)) found += rows.total_length();
+        };
+        for (const SpanRows& layer : layers()) {
+            thin.push(layer);
+            take();
+        }
+        thin.finish();
+        take();
+    }
+    state.counters["volume"] = grid().volume(found);
+}
+
+void check_thickness_up(benchmark::State& state, Medium medium, double thickness) {
+    thickness_across_layers<ThinBeyondPlaces>(state, medium, thickness);
+}
+/// As necks have it, for comparison.
+void check_thickness_up_by_all(benchmark::State& state, Medium medium, double thickness) {
+    thickness_across_layers<ThinLayers>(state, medium, thickness);
+}
+
 void check_pieces(benchmark::State& state) {
     layers();
     for (auto _ : state) {
@@ -168,6 +200,10 @@ BENCHMARK(check_rows)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_cells)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(check_thickness, solid, Medium::solid, 0.4)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(check_thickness, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up, solid, Medium::solid, 0.6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up_by_all, solid, Medium::solid, 0.6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up_by_all, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_pieces)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_voids)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_hold)->Unit(benchmark::kMillisecond);
