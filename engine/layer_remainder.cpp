@@ -92,7 +92,8 @@ std::span<const Run> RunRemainder::of(const Run& run, std::size_t line, LayersAb
                                       const BallLines& ball) {
     left_.assign({&run, 1});
     for (const BallLines::Line& on : ball.lines()) {
-        const SpanRows* rows = taken[static_cast<std::size_t>(on.layer + ball.layers())];
+        const int layer = on.layer + ball.layers();
+        const SpanRows* rows = taken[static_cast<std::size_t>(layer)];
         const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(line) + on.row;
         if (rows == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(rows->lines())) continue;
         const std::span<const Run> runs = rows->line(static_cast<std::size_t>(row));

@@ -18,13 +18,10 @@ void Places::forget_below(std::int32_t layer) {
     kept_.erase(kept_.begin(), past);
 }
 
-NearPlace::NearPlace(const BallLines& ball)
-    : layers_(ball.layers()),
-      rows_(ball.rows()),
-      reaches_(static_cast<std::size_t>((2 * layers_ + 1) * (2 * rows_ + 1)), BallReach(beyond_the_ball)) {
+NearPlace::NearPlace(const BallLines& ball) : layers_(ball.layers()), rows_(ball.rows()) {
+    reaches_.assign(number(2 * layers_, 2 * rows_) + 1, BallReach(beyond_the_ball));
     for (const BallLines::Line& line : ball.lines())
-        reaches_[static_cast<std::size_t>((line.layer + layers_) * (2 * rows_ + 1) + line.row + rows_)] =
-            line.reach;
+        reaches_[number(line.layer + layers_, line.row + rows_)] = line.reach;
 }
 
 OpenRuns::OpenRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count)

@@ -38,12 +38,19 @@ class NearPlace {
     Run on(const Place& place, std::int32_t layer, std::int32_t line) const {
         const int up = layer - place.layer + layers_, across = line - place.line + rows_;
         if (up < 0 || up > 2 * layers_ || across < 0 || across > 2 * rows_) return {0, 0};
-        const BallReach& reach = reaches_[static_cast<std::size_t>(up * (2 * rows_ + 1) + across)];
+        const BallReach& reach = reaches_[number(up, across)];
         if (reach.ahead < 0) return {0, 0};
         return {place.run.begin - reach.back, place.run.end + reach.ahead};
     }
 
   private:
+    /// Of the line so many layers and rows on from the first one about the middle.
+    std::size_t number(int up, int across) const {
+        const int rows = 2 * rows_ + 1;
+        return static_cast<std::size_t>(up) * static_cast<std::size_t>(rows) +
+               static_cast<std::size_t>(across);
+    }
+
     int layers_, rows_;
     std::vector<BallReach> reaches_;  // of lines, layer by layer; negative beyond the ball
 };

@@ -2,7 +2,6 @@
 #include "engine/thin_beyond_places.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "engine/error.h"
 #include "engine/row_sets.h"
@@ -130,7 +129,8 @@ void ThinBeyondPlaces::find_places(std::size_t index) {
     };
     forget_closed(here);
     const auto ask_ahead = [&] {
-        for (const NumberedRun& run : here.left | std::views::reverse) ask(index, run, index, run.line + 1);
+        std::for_each(here.left.rbegin(), here.left.rend(),
+                      [&](const NumberedRun& run) { ask(index, run, index, run.line + 1); });
     };
     for (const NumberedRun& run : here.left) ask(index, run, index, run.line - 1);
     ask_ahead();
