@@ -30,8 +30,7 @@ class RunMap {
     std::int64_t scale_, shift_;
 };
 
-}  // namespace
-
+/// The lines that may meet a rectangle, mm.
 RowBand lines_over(const RowBand& lines, const Rect& rect) {
     const int across = lines.axis == Axis::x ? 1 : 0;
     const double a = (rect.lo[across] - lines.across_origin) / lines.across_pitch,
@@ -42,6 +41,8 @@ RowBand lines_over(const RowBand& lines, const Rect& rect) {
     over.count = static_cast<int>(std::clamp(std::ceil(std::max(a, b)), begin, end)) - over.first;
     return over;
 }
+
+}  // namespace
 
 CheckRows::CheckRows(const Job& job, double pitch) {
     const dvec3 size = job.bounds.size();
@@ -68,7 +69,7 @@ CheckRows::CheckRows(const Job& job, const RowBand& lines) : lines_(lines_over(l
 
 SpanRows CheckRows::of(const SliceField& slice, const Layer& layer, Scratch& scratch) const {
     if (!lines_) return all_rows(slice, band_, scratch);
-    const SpanRows* kept = layer.lines_kept(slice, *lines_);
+    const SpanRows* kept = layer.kept_lines(slice, *lines_);
     return moved(kept != nullptr ? *kept : all_rows(slice, *lines_, scratch));
 }
 

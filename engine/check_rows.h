@@ -7,9 +7,6 @@
 
 namespace lamella {
 
-/// The lines of `lines`, every step-th, that may meet a rectangle, mm.
-RowBand lines_over(const RowBand& lines, const Rect& rect);
-
 /// Rows of a job's layers, as far apart as their run coordinates' pixels are wide, with a row and a pixel of
 /// void all round.
 class CheckRows {

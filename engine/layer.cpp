@@ -32,15 +32,15 @@ void Layer::keep_lines(const RowBand& wanted) const {
     if (job_->supports) support_lines_.emplace_back(wanted);
 }
 
-std::span<KeptLines> Layer::kept_lines(const SliceField& slice) const {
+std::span<KeptLines> Layer::lines_to_keep(const SliceField& slice) const {
     if (part_lines_.empty()) return {};
     if (&slice == &part()) return part_lines_;
     if (&slice == supports()) return support_lines_;
     return {};
 }
 
-const SpanRows* Layer::lines_kept(const SliceField& slice, const RowBand& wanted) const {
-    for (const KeptLines& lines : kept_lines(slice)) {
+const SpanRows* Layer::kept_lines(const SliceField& slice, const RowBand& wanted) const {
+    for (const KeptLines& lines : lines_to_keep(slice)) {
         if (lines.wanted() == wanted && lines.rows() != nullptr) return lines.rows();
     }
     return nullptr;

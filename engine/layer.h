@@ -62,9 +62,9 @@ class Layer {
     /// numbers count, so that another one need not ask for them again.
     void keep_lines(const RowBand& wanted) const;
     /// What keeps lines of a slice, for whoever goes through it; empty where none are wanted.
-    std::span<KeptLines> kept_lines(const SliceField& slice) const;
+    std::span<KeptLines> lines_to_keep(const SliceField& slice) const;
     /// The lines of a slice that were kept; null where they were not.
-    const SpanRows* lines_kept(const SliceField& slice, const RowBand& wanted) const;
+    const SpanRows* kept_lines(const SliceField& slice, const RowBand& wanted) const;
 
     void spans(const RowBand& band, SpanRows& out) const { part().spans(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {

@@ -10,16 +10,6 @@ namespace lamella {
 
 namespace {
 
-/// Rows with `margin` empty ones on either side.
-SpanRows widened(const SpanRows& rows, std::size_t margin) {
-    SpanRows wide;
-    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
-    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
-    wide.append_lines(rows);
-    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
-    return wide;
-}
-
 /// From the first begin to the last end of a run of any line.
 Run extent_of(const SpanRows& rows) {
     Run extent{0, 0};
@@ -38,11 +28,6 @@ void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.clear();
     out.reserve(wide.lines(), wide.runs().size());
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
-}
-
-/// Rows beyond the given ones that decide about them.
-std::size_t margin_of(const Thinness& thinness, double row_pitch) {
-    return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
 }
 
 /// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie near
@@ -111,6 +96,19 @@ void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, 
 }
 
 }  // namespace
+
+SpanRows widened(const SpanRows& rows, std::size_t margin) {
+    SpanRows wide;
+    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
+    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
+    wide.append_lines(rows);
+    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
+    return wide;
+}
+
+std::size_t margin_of(const Thinness& thinness, double row_pitch) {
+    return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
+}
 
 double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
 

@@ -23,6 +23,11 @@ struct Thinness {
 /// What is measured: the solid, or the void between it.
 enum class Medium : unsigned char { solid, gaps };
 
+/// Rows beyond a layer's that decide about them.
+std::size_t margin_of(const Thinness& thinness, double row_pitch);
+/// Rows with `margin` empty ones on either side.
+SpanRows widened(const SpanRows& rows, std::size_t margin);
+
 /// What of a layer's rows, or of the void between them, is too thin within the layer.
 void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
                SpanRows& out);

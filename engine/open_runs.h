@@ -8,7 +8,7 @@
 
 namespace lamella {
 
-/// A stretch of a line of a stack of layers.
+/// A stretch of a line of a stack of layers; run units.
 struct Place {
     std::int32_t layer, line;
     Run run;

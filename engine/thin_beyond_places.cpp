@@ -12,21 +12,6 @@ namespace {
 /// Fewer than one in so many runs of a line are looked at one by one, more of them together.
 constexpr std::size_t few_share = 4;
 
-/// Rows with `margin` empty ones on either side.
-SpanRows widened(const SpanRows& rows, std::size_t margin) {
-    SpanRows wide;
-    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
-    wide.end_lines(margin);
-    wide.append_lines(rows);
-    wide.end_lines(margin);
-    return wide;
-}
-
-/// Rows beyond the given ones that decide about them.
-std::size_t margin_of(const Thinness& thinness, double row_pitch) {
-    return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
-}
-
 /// Calls visit(number) for the runs of a line that meet a stretch.
 template <typename Visit>
 void for_runs_meeting(const SpanRows& rows, std::size_t line, const Run& stretch, Visit visit) {

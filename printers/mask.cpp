@@ -168,7 +168,7 @@ class SolidMask {
               const ImageProfile& profile)
         : width_(layout.width()) {
         for (const SliceField* plane : planes)
-            planes_.emplace_back(*plane, layout, profile, layer.kept_lines(*plane));
+            planes_.emplace_back(*plane, layout, profile, layer.lines_to_keep(*plane));
     }
 
     bool meets(int row, int count) const {

@@ -61,18 +61,18 @@ TEST_CASE("what masks keep of their lines is what those lines give when they are
             for (const int index : {5, 25, 45}) {
                 const Layer layer(job, index);
                 layer.keep_lines(*lines);
-                CHECK(layer.lines_kept(layer.part(), *lines) == nullptr);
+                CHECK(layer.kept_lines(layer.part(), *lines) == nullptr);
                 draw(layer, profile);
                 for (const SliceField* slice : {&layer.part(), layer.supports()}) {
-                    const SpanRows* kept = layer.lines_kept(*slice, *lines);
+                    const SpanRows* kept = layer.kept_lines(*slice, *lines);
                     REQUIRE(kept != nullptr);
                     CHECK(*kept == all_rows(*slice, *lines, scratch));
                 }
-                CHECK(layer.lines_kept(layer.part(), *lines)->runs().empty() == (index == 5));
-                CHECK(layer.lines_kept(*layer.supports(), *lines)->runs().empty() == (index == 45));
+                CHECK(layer.kept_lines(layer.part(), *lines)->runs().empty() == (index == 5));
+                CHECK(layer.kept_lines(*layer.supports(), *lines)->runs().empty() == (index == 45));
                 RowBand others = *lines;
                 others.step = 4;
-                CHECK(layer.lines_kept(layer.part(), others) == nullptr);
+                CHECK(layer.kept_lines(layer.part(), others) == nullptr);
             }
         }
     }
@@ -89,7 +89,7 @@ TEST_CASE("masks that are made of more than lines keep none", "[mask]") {
         const Layer layer(job, 25);
         layer.keep_lines(lines);
         draw(layer, profile);
-        CHECK(layer.lines_kept(layer.part(), lines) == nullptr);
+        CHECK(layer.kept_lines(layer.part(), lines) == nullptr);
     }
     ImageProfile small = display();
     small.width = 300;
