@@ -122,12 +122,13 @@ SpanRows printed_rows(const Layer& layer, const RowBand& band, Scratch& scratch)
     return layer.supports() == nullptr ? part : united(part, all_rows(*layer.supports(), band, scratch));
 }
 
-void check_number(const char* name, double value, double above) {
+/// `where`: what the bound follows from.
+void check_number(const char* name, double value, double above, const std::string& where = "") {
     if (value > above && value < 1e9) return;
     const bool printable = std::abs(value) < 1e9;
     throw InputError(std::string("print check: the ") + name +
-                     (printable ? " of " + format_number(value, 9) : std::string()) +
-                     " makes no sense; accepted: numbers greater than " + format_number(above, 9) +
+                     (printable ? " of " + format_number(value, 9) : std::string()) + " makes no sense" +
+                     where + "; accepted: numbers greater than " + format_number(above, 9) +
                      " and below 1e9");
 }
 
@@ -141,9 +142,10 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     check_number("pitch", pitch, std::max(size.x, size.y) / most_rows * (1 - 1e-9));
     // A ball that fits must reach a row at least.
     const double least = 2 * pitch;
-    if (wanted(Check::thickness)) check_number("least thickness", limits.thickness, least);
-    if (wanted(Check::gaps)) check_number("least gap", limits.gap, least);
-    if (wanted(Check::necks)) check_number("least neck", limits.neck, least);
+    const std::string in_rows = " in rows " + format_number(pitch, 9) + " mm apart";
+    if (wanted(Check::thickness)) check_number("least thickness", limits.thickness, least, in_rows);
+    if (wanted(Check::gaps)) check_number("least gap", limits.gap, least, in_rows);
+    if (wanted(Check::necks)) check_number("least neck", limits.neck, least, in_rows);
     check_number("overhang", limits.overhang, 0);
     check_number("support spacing", limits.support_spacing, 0);
 }
