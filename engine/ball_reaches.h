@@ -22,6 +22,8 @@ class BallReaches {
 
     /// Whether these are the reaches of balls of that weight.
     bool are_of(double weight) const { return weight == weight_; }
+    /// Square of the balls' radius; negative where there is no table.
+    double weight() const { return weight_; }
     /// By how far ends move ahead on the lines of a block, of which the first lies so many layers above and
     /// lines behind the ball's. Layers are `stride()` apart.
     const std::int32_t* ahead(std::int32_t layers, std::int32_t lines) const {
@@ -31,6 +33,11 @@ class BallReaches {
     const std::int32_t* back(std::int32_t layers, std::int32_t lines) const {
         return back_.data() + place(layers, lines);
     }
+    /// So many lines, or as many as the table has: beyond all balls. Up to these, reaches lie one after
+    /// another.
+    std::int32_t clamped_lines(std::int32_t lines) const {
+        return std::clamp(lines, -lines_ - edge, lines_ + 1);
+    }
     /// Balls reach no line that is so many lines away.
     std::int32_t lines_away() const { return lines_ + 1; }
     std::size_t stride() const { return 2 * static_cast<std::size_t>(lines_ + edge) + 1; }
@@ -38,8 +45,8 @@ class BallReaches {
   private:
     std::size_t place(std::int32_t layers, std::int32_t lines) const {
         const std::int32_t row = std::clamp(layers, -layers_ - edge, layers_ + 1) + layers_ + edge;
-        const std::int32_t column = std::clamp(lines, -lines_ - edge, lines_ + 1) + lines_ + edge;
-        return static_cast<std::size_t>(row) * stride() + static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * stride() +
+               static_cast<std::size_t>(clamped_lines(lines) + lines_ + edge);
     }
 
     double weight_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/run_sight.h"
 #include "engine/runs.h"
 
 namespace lamella {
@@ -45,6 +46,14 @@ class BallRows {
     /// The line of each run.
     std::span<const std::int32_t> lines_of_runs() const { return lines_of_runs_; }
     double most_weight() const { return most_weight_; }
+    /// On which lines each run may matter; empty if that is unknown.
+    std::span<const RunSight> sights() const { return sights_; }
+    /// Those of a line, to be limited once they have begun.
+    std::span<RunSight> sights(std::size_t l) {
+        return std::span(sights_).subspan(starts_[l], starts_[l + 1] - starts_[l]);
+    }
+    /// Begins with unlimited ones.
+    void begin_sights() { sights_.assign(runs_.size(), RunSight()); }
     void append_line(std::span<const BallRun> runs);
 
   private:
@@ -52,6 +61,7 @@ class BallRows {
 
     std::vector<BallRun> runs_;
     std::vector<std::int32_t> lines_of_runs_;
+    std::vector<RunSight> sights_;
     std::vector<std::size_t> starts_;
     double most_weight_ = 0;
 };

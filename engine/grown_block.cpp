@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/run_components.h"
-
 namespace lamella {
 namespace {
 
@@ -22,7 +20,8 @@ double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t l
 
 }  // namespace
 
-GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent)
+GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent,
+                       std::int32_t most_layers)
     : lattice_(lattice),
       layer_square_(square(lattice.layer_pitch)),
       row_square_(square(lattice.row_pitch)),
@@ -30,61 +29,20 @@ GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, 
       levels_(1),
       union_(extent),
       table_(extent),
-      gaps_(lattice, reaches, extent) {}
+      small_(lattice, reaches, extent, std::min(most_layers, BlockUnion::edge)) {}
 
 void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
-    begin(block, layers);
-    cover_by_some(layers);
-    grow_covered(layers);
-}
-
-bool GrownBlock::grow_solid(const LineBlock& block, std::span<const BallRows* const> layers) {
-    begin(block, layers);
-    cover_by_own(layers);
-    if (covered_.empty()) return false;
-    grow_covered(layers);
-    return true;
-}
-
-void GrownBlock::begin(const LineBlock& block, std::span<const BallRows* const> layers) {
     block_ = block;
     runs_.clear();
     places_.assign(place_of(block.layers, 0), {0, 0});
     double most_weight = 0;
     for (const BallRows* layer : layers) most_weight = std::max(most_weight, layer->most_weight());
     list_farthest(most_weight);
-}
-
-/// Grows the lines from what is known to be covered.
-void GrownBlock::grow_covered(std::span<const BallRows* const> layers) {
+    cover_by_some(layers);
     table_.assign(covered_);
     gather(layers);
     if (levels_.front().lines.empty()) return place(block_, levels_.front().covered);
     refine(block_, 0);
-}
-
-/// Finds what is solid on all lines of the block.
-void GrownBlock::cover_by_own(std::span<const BallRows* const> layers) {
-    covered_.clear();
-    for (std::int32_t z = block_.layer; z < block_.layer + block_.layers; ++z) {
-        const BallRows& rows = *layers[static_cast<std::size_t>(z)];
-        for (std::int32_t l = block_.line; l < block_.line + block_.lines; ++l) {
-            const std::span<const BallRun> runs = rows.line(static_cast<std::size_t>(l));
-            if (z == block_.layer && l == block_.line) {
-                for (const BallRun& run : runs) covered_.push_back({run.begin, run.end});
-            } else {
-                common_.clear();
-                for_touching(std::span<const Run>(covered_), runs, [&](const Run& a, const BallRun& b) {
-                    common_.push_back({std::max(a.begin, b.begin), std::min(a.end, b.end)});
-                });
-                covered_.swap(common_);
-            }
-            if (covered_.empty()) return;
-        }
-    }
-    for (const Run& run : covered_) union_.add(run.begin, run.end);
-    covered_.clear();
-    union_.take(covered_);
 }
 
 /// Finds what some of the lines about the block cover there: it leaves few runs to be looked at closely.
@@ -121,7 +79,8 @@ void GrownBlock::cover_by_some(std::span<const BallRows* const> layers) {
     union_.take(covered_);
 }
 
-/// Takes the runs of all lines that may reach the block, but for those that only reach what is covered.
+/// Takes the runs of all lines that may reach the block, but for those that only reach what is covered, or
+/// what runs beside them cover.
 void GrownBlock::gather(std::span<const BallRows* const> layers) {
     Level& all = levels_.front();
     all.covered = covered_;
@@ -155,6 +114,16 @@ void GrownBlock::gather_layer(std::int32_t layer, const BallRows& rows) {
         *kept = static_cast<std::uint32_t>(i);
         kept += !table_.surely_covers(table_.clip({runs[i].begin - most, runs[i].end + most}));
     }
+    if (!rows.sights().empty()) {
+        const LinesAside up = LinesAside(Beside::layer_above, below) | LinesAside(Beside::layer_below, above);
+        const LinesAside* const aside = aside_.data() + (aside_.size() - farthest.size()) / 2;
+        const std::span<const std::uint32_t> uncovered(uncovered_.data(), kept);
+        kept = uncovered_.data();
+        for (const std::uint32_t i : uncovered) {
+            *kept = i;
+            kept += rows.sights()[i].reaches(aside[static_cast<std::size_t>(lines[i] - before)] | up);
+        }
+    }
     Level& all = levels_.front();
     for (const std::uint32_t* i = uncovered_.data(); i != kept; ++i) {
         if (all.lines.empty() || all.lines.back().line != lines[*i] || all.lines.back().layer != layer)
@@ -183,11 +152,17 @@ void GrownBlock::list_farthest(double most_weight) {
                                1);
         }
     }
+    aside_.clear();
+    const auto beside = (static_cast<std::int32_t>(farthest_.front().size()) - block_.lines) / 2;
+    for (std::int32_t l = -beside; l < block_.lines + beside; ++l) {
+        aside_.push_back(LinesAside(Beside::line_behind, -l) |
+                         LinesAside(Beside::line_before, l - block_.lines + 1));
+    }
 }
 
 /// Level `depth` holds what the block above left.
 void GrownBlock::refine(const LineBlock& block, std::size_t depth) {
-    if (block.layers <= GapLimits::edge && block.lines <= GapLimits::edge) {
+    if (block.layers <= BlockUnion::edge && block.lines <= BlockUnion::edge) {
         finish_lines(block, levels_[depth]);
         return;
     }
@@ -229,7 +204,6 @@ void GrownBlock::cover(const LineBlock& block, const Level& above, std::vector<R
 void GrownBlock::see(const Level& above, std::span<const Run> covered) {
     table_.assign(covered);
     visible_.clear();
-    below_ = above_ = 0;
     champions_.assign(covered.size(), {{nullptr, nullptr}, {nullptr, nullptr}, far_out, -far_out});
     auto reaches = reaches_.begin();
     for (const SourceLine& line : above.lines) {
@@ -285,7 +259,7 @@ void GrownBlock::see(Source source, const Reaches& reaches, std::span<const Run>
 }
 
 /// Whether others reach at least as far into gaps, on all lines of the block.
-bool GrownBlock::is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered) {
+bool GrownBlock::is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered) const {
     const Visible& seen = visible_[k];
     bool left = true, right = true;
     if (seen.meets != nullptr) {
@@ -298,21 +272,7 @@ bool GrownBlock::is_outdone(const LineBlock& block, std::size_t k, std::span<con
         return other < visible_.size() && visible_[other].meets == seen.meets &&
                outdoes(block, visible_[other].source, seen, left, right);
     };
-    if (by(k - 1) || by(k + 1)) return true;
-    below_ = find_beside(below_, seen.source, -1);
-    if (by(below_)) return true;
-    above_ = find_beside(above_, seen.source, 1);
-    return by(above_);
-}
-
-/// The first that lies on the same line of another layer, or behind it.
-std::size_t GrownBlock::find_beside(std::size_t from, const Source& source, std::int32_t up) const {
-    const std::int32_t layer = source.line->layer + up, line = source.line->line;
-    for (; from < visible_.size(); ++from) {
-        const SourceLine& at = *visible_[from].source.line;
-        if (at.layer > layer || (at.layer == layer && at.line >= line)) break;
-    }
-    return from;
+    return by(k - 1) || by(k + 1);
 }
 
 /// Forgets runs that give no line of the block anything that others do not.
@@ -340,19 +300,16 @@ void GrownBlock::keep_visible(const LineBlock& block, std::size_t depth) {
 }
 
 void GrownBlock::finish_lines(const LineBlock& block, const Level& level) {
-    cover(block, level, covered_);
-    gaps_.begin(block, covered_);
-    auto reaches = reaches_.begin();
-    for (const SourceLine& line : level.lines) {
-        for (const BallRun& run : line.runs) gaps_.add(run, line.layer, line.line, *reaches++);
-    }
-    gaps_.grow();
+    small_.begin(block);
+    small_.add_covered(level.covered);
+    small_.add(level.lines);
+    small_.unite();
     for (std::int32_t z = 0; z < block.layers; ++z) {
         for (std::int32_t l = 0; l < block.lines; ++l) {
-            const std::size_t from = runs_.size();
-            gaps_.append_line(z, l, runs_);
-            places_[place_of(block.layer - block_.layer + z, block.line - block_.line + l)] = {
-                from, runs_.size() - from};
+            const std::span<const Run> runs = small_.line(z, l);
+            places_[place_of(block.layer - block_.layer + z, block.line - block_.line + l)] = {runs_.size(),
+                                                                                               runs.size()};
+            runs_.insert(runs_.end(), runs.begin(), runs.end());
         }
     }
 }

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/block_gaps.h"
-#include "engine/run_union.h"
+#include "engine/block_union.h"
 
 namespace lamella {
 
@@ -17,17 +16,15 @@ namespace lamella {
 /// Gaps that the former leave contain the gaps of each of the lines. Before a block is halved, runs are
 /// forgotten that do not even by the latter reach into a gap, and those that nowhere reach as far into it as
 /// another one does: of two points, which one is nearer changes at a plane (power diagrams; Chen, Panozzo
-/// and Dumas 2018). Small blocks are not halved any more but grown line by line, by SIMD (BlockGaps).
+/// and Dumas 2018). Those that cannot be seen from a block do not come that far (RunSight). Small blocks are
+/// not halved any more: what is left is united on all lines (BlockUnion).
 class GrownBlock {
   public:
     /// What is covered is clipped to `extent`. `reaches` are those of most runs, and outlive this.
-    GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent);
+    GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers);
 
     /// Grows the lines of a block of a stack of layers.
     void grow(const LineBlock& block, std::span<const BallRows* const> layers);
-    /// The same of a block that is solid somewhere on all of its lines, before these are grown. Returns false
-    /// for others, which small balls do not make any more so.
-    bool grow_solid(const LineBlock& block, std::span<const BallRows* const> layers);
     /// A grown line of the block, counted from its first.
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
         const Place& at = places_[place_of(layer, line)];
@@ -35,10 +32,6 @@ class GrownBlock {
     }
 
   private:
-    struct SourceLine {
-        std::int32_t layer, line;
-        std::span<const BallRun> runs;
-    };
     /// What may reach into the gaps of a block.
     struct Level {
         std::vector<SourceLine> lines;
@@ -68,9 +61,6 @@ class GrownBlock {
         return static_cast<std::size_t>(layer) * static_cast<std::size_t>(block_.lines) +
                static_cast<std::size_t>(line);
     }
-    void begin(const LineBlock& block, std::span<const BallRows* const> layers);
-    void grow_covered(std::span<const BallRows* const> layers);
-    void cover_by_own(std::span<const BallRows* const> layers);
     void cover_by_some(std::span<const BallRows* const> layers);
     void gather(std::span<const BallRows* const> layers);
     void gather_layer(std::int32_t layer, const BallRows& rows);
@@ -79,8 +69,7 @@ class GrownBlock {
     void cover(const LineBlock& block, const Level& above, std::vector<Run>& covered);
     void see(const Level& above, std::span<const Run> covered);
     void see(Source source, const Reaches& reaches, std::span<const Run> covered);
-    bool is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered);
-    std::size_t find_beside(std::size_t from, const Source& source, std::int32_t up) const;
+    bool is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered) const;
     bool outdoes(const LineBlock& block, Source other, const Visible& seen, bool left, bool right) const;
     void keep_visible(const LineBlock& block, std::size_t depth);
     void finish_lines(const LineBlock& block, const Level& level);
@@ -93,16 +82,16 @@ class GrownBlock {
     std::vector<Level> levels_;  // by how often a block was halved
     RunUnion union_;
     CoverTable table_;
-    BlockGaps gaps_;
-    std::vector<Run> covered_, common_;
+    BlockUnion small_;  // blocks that are not halved
+    std::vector<Run> covered_;
     std::vector<Reaches> reaches_;
     std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
+    std::vector<LinesAside> aside_;                    // the block, from lines about it
     double farthest_weight_ = -1;                      // for which they were listed
     std::int32_t farthest_lines_ = 0;
     std::vector<std::uint32_t> uncovered_;
     std::vector<Visible> visible_;
     std::vector<Champions> champions_;
-    std::size_t below_ = 0, above_ = 0;  // in visible_, about where a layer below or above is looked at
     std::vector<Run> runs_;
     std::vector<Place> places_;
 };

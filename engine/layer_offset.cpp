@@ -1,4 +1,4 @@
-// Lines or blocks of them, strip by strip; the void in place of the solid.
+// Blocks of lines, strip by strip; the void in place of the solid.
 #include "engine/layer_offset.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -9,7 +9,7 @@
 
 #include "engine/error.h"
 #include "engine/grown_block.h"
-#include "engine/grown_line.h"
+#include "engine/grown_lines.h"
 #include "engine/parallel_strips.h"
 #include "engine/row_sets.h"
 
@@ -18,11 +18,9 @@ namespace {
 
 constexpr std::size_t least_block = 16;  // layers that are finished together
 
-/// Where a ball reaches so few lines, each of them is looked at for every line that is grown: about where
-/// foams and single beams were measured to take as long in blocks. Balls of six lines and a half.
-constexpr std::size_t most_lines_by_line = 140;
-/// Down to here, which are balls of three lines, blocks are faster inside of solids.
-constexpr std::size_t least_lines_in_solids = 30;
+/// Where a ball reaches so few lines, all runs on them are looked at (GrownLines): about where foams and
+/// capsules were measured to take as long in larger blocks. Balls of eleven lines.
+constexpr std::size_t most_lines_by_all = 400;
 
 using LayerStack = std::vector<const BallRows*>;
 
@@ -46,11 +44,11 @@ Run extent_of(const LayerStack& stack) {
 }
 
 /// Lines along the edge of blocks that are best grown together, as measured on foams, gyroids and capsules:
-/// those of BlockGaps as long as all of their lines have something in common; larger ones, which are halved
-/// first, where the search for what is near outweighs the rest.
+/// those of BlockUnion as long as the search for what is near does not outweigh the rest, then larger ones,
+/// which are halved.
 std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
     const std::size_t lines = lattice.lines_within(reach);
-    if (lines < 32) return std::clamp<std::size_t>(std::bit_floor(lines), 1, GapLimits::edge);
+    if (lines < 32) return std::clamp<std::size_t>(std::bit_floor(lines), 1, BlockUnion::edge);
     return lines < 48 ? 16 : 32;
 }
 
@@ -59,11 +57,17 @@ std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_
     const double reach = std::sqrt(weight);
     const std::size_t up_to = std::min(lattice.layers_within(reach), layers - 1);
     std::size_t lines = 2 * lattice.lines_within(reach) + 1;
-    for (std::size_t k = 1; k <= up_to && lines <= most_lines_by_line; ++k) {
+    for (std::size_t k = 1; k <= up_to && lines <= most_lines_by_all; ++k) {
         const double up = static_cast<double>(k) * lattice.layer_pitch;
         lines += 2 * (2 * lattice.lines_within(std::sqrt(std::max(weight - up * up, 0.0))) + 1);
     }
     return lines;
+}
+
+/// Whether all runs that so large a ball reaches in a stack of so many layers had better be looked at.
+bool looks_at_all(const LayerLattice& lattice, const BallReaches& reaches, double weight,
+                  std::size_t layers) {
+    return reaches.weight() >= 0 && lines_reached(lattice, weight, layers) <= most_lines_by_all;
 }
 
 /// Appends a grown line; what goes on without an end reaches the ends of the extent.
@@ -73,6 +77,20 @@ void append_line(std::span<const Run> grown, Run extent, SpanRows& out) {
     }
     out.end_line();
 }
+
+/// The lines of a block one after another.
+template <typename Grower>
+void append_block(const Grower& grown, const LineBlock& block, Run extent, std::span<SpanRows> layers) {
+    for (std::int32_t z = 0; z < block.layers; ++z) {
+        for (std::int32_t l = 0; l < block.lines; ++l)
+            append_line(grown.line(z, l), extent, layers[static_cast<std::size_t>(z)]);
+    }
+}
+
+/// Lines that are worked on by one thread at once.
+constexpr std::size_t strip_lines = 32;
+
+std::size_t strips_of(const LayerLattice& lattice) { return (lattice.lines + strip_lines - 1) / strip_lines; }
 
 using Strips = std::vector<std::vector<SpanRows>>;  // layer by layer
 
@@ -84,81 +102,30 @@ std::vector<SpanRows> side_by_side(const Strips& strips, std::size_t layer_count
     return layers;
 }
 
-/// Lines that are worked on by one thread at once.
-constexpr std::size_t strip_lines = 32;
-
-/// Cuts layers [from, from + count) into blocks of `edge` lines and calls grow(block, layers) for each: it
-/// appends the block's lines to those of `layers`.
-template <typename Grow>
-void for_blocks(std::size_t strip, const LayerLattice& lattice, std::size_t edge, std::size_t from,
-                std::size_t count, std::vector<SpanRows>& layers, Grow grow) {
-    layers.resize(count);
-    const std::size_t first = strip * strip_lines, last = std::min(first + strip_lines, lattice.lines);
-    for (std::size_t z = 0; z < count; z += edge) {
-        const std::size_t end = std::min(z + edge, count);
-        for (std::size_t l = first; l < last; l += edge) {
-            const LineBlock block{static_cast<std::int32_t>(from + z), static_cast<std::int32_t>(l),
-                                  static_cast<std::int32_t>(end - z),
-                                  static_cast<std::int32_t>(std::min(edge, last - l))};
-            grow(block, std::span<SpanRows>(layers).subspan(z, end - z));
-        }
-    }
-}
-
-/// The lines of a block one after another.
-void append_block(const GrownBlock& grown, const LineBlock& block, Run extent, std::span<SpanRows> layers) {
-    for (std::int32_t z = 0; z < block.layers; ++z) {
-        for (std::int32_t l = 0; l < block.lines; ++l)
-            append_line(grown.line(z, l), extent, layers[static_cast<std::size_t>(z)]);
-    }
-}
-
-/// Grows layers [from, from + count) of a stack line by line, but for blocks inside of solids if these are
-/// to be looked for.
-std::vector<SpanRows> grow_lines(const LayerStack& stack, const LayerLattice& lattice,
-                                 const BallReaches& reaches, double most_weight, bool in_solids,
-                                 std::size_t from, std::size_t count) {
-    const Run extent = extent_of(stack);
-    Strips strips((lattice.lines + strip_lines - 1) / strip_lines);
-    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
-    oneapi::tbb::enumerable_thread_specific<GrownLine> lines(lattice, most_weight, extent);
-    for_all_strips(strips.size(), [&](std::size_t s) {
-        GrownBlock* const solid = in_solids ? &blocks.local() : nullptr;
-        GrownLine& line = lines.local();
-        std::vector<Run> runs;
-        const auto grow = [&](const LineBlock& block, std::span<SpanRows> layers) {
-            if (solid != nullptr && solid->grow_solid(block, stack))
-                return append_block(*solid, block, extent, layers);
-            const auto first_layer = static_cast<std::size_t>(block.layer),
-                       first_line = static_cast<std::size_t>(block.line),
-                       last_line = first_line + static_cast<std::size_t>(block.lines);
-            for (std::size_t z = 0; z < layers.size(); ++z) {
-                for (std::size_t l = first_line; l < last_line; ++l) {
-                    runs.clear();
-                    line.grow(stack, first_layer + z, l, runs);
-                    append_line(runs, extent, layers[z]);
-                }
-            }
-        };
-        for_blocks(s, lattice, GapLimits::edge, from, count, strips[s], grow);
-    });
-    return side_by_side(strips, count);
-}
-
-/// The same in blocks `edge` lines wide.
+/// Grows layers [from, from + count) of a stack, by blocks of `high` layers of `wide` lines.
+template <typename Grower>
 std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
-                                  const BallReaches& reaches, std::size_t edge, std::size_t from,
-                                  std::size_t count) {
+                                  const BallReaches& reaches, std::size_t high, std::size_t wide,
+                                  std::size_t from, std::size_t count) {
     const Run extent = extent_of(stack);
-    Strips strips((lattice.lines + strip_lines - 1) / strip_lines);
-    oneapi::tbb::enumerable_thread_specific<GrownBlock> blocks(lattice, std::cref(reaches), extent);
+    Strips strips(strips_of(lattice));
+    oneapi::tbb::enumerable_thread_specific<Grower> growers(lattice, std::cref(reaches), extent,
+                                                            static_cast<std::int32_t>(std::min(high, count)));
     for_all_strips(strips.size(), [&](std::size_t s) {
-        GrownBlock& grown = blocks.local();
-        for_blocks(s, lattice, edge, from, count, strips[s],
-                   [&](const LineBlock& block, std::span<SpanRows> layers) {
-                       grown.grow(block, stack);
-                       append_block(grown, block, extent, layers);
-                   });
+        Grower& grower = growers.local();
+        std::vector<SpanRows>& layers = strips[s];
+        layers.resize(count);
+        const std::size_t first = s * strip_lines, last = std::min(first + strip_lines, lattice.lines);
+        for (std::size_t z = 0; z < count; z += high) {
+            const std::size_t end = std::min(z + high, count);
+            for (std::size_t l = first; l < last; l += wide) {
+                const LineBlock block{static_cast<std::int32_t>(from + z), static_cast<std::int32_t>(l),
+                                      static_cast<std::int32_t>(end - z),
+                                      static_cast<std::int32_t>(std::min(wide, last - l))};
+                grower.grow(block, stack);
+                append_block(grower, block, extent, std::span<SpanRows>(layers).subspan(z, end - z));
+            }
+        }
     });
     return side_by_side(strips, count);
 }
@@ -168,10 +135,11 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
                                   const BallReaches& reaches, std::size_t from, std::size_t count) {
     double most_weight = 0;
     for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
-    const std::size_t lines = lines_reached(lattice, most_weight, stack.size());
-    if (lines <= most_lines_by_line)
-        return grow_lines(stack, lattice, reaches, most_weight, lines >= least_lines_in_solids, from, count);
-    return grow_blocks(stack, lattice, reaches, edge_of_blocks(lattice, std::sqrt(most_weight)), from, count);
+    if (looks_at_all(lattice, reaches, most_weight, stack.size()))
+        return grow_blocks<GrownLines>(stack, lattice, reaches, GrownLines::block_layers,
+                                       GrownLines::block_lines, from, count);
+    const std::size_t edge = edge_of_blocks(lattice, std::sqrt(most_weight));
+    return grow_blocks<GrownBlock>(stack, lattice, reaches, edge, edge, from, count);
 }
 
 /// The void of a line between far left and far right.
@@ -226,12 +194,15 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
 
 GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
     : lattice_(lattice),
-      ball_(lattice, most_reach * most_reach),
+      most_weight_(most_reach * most_reach),
+      ball_(lattice, most_weight_),
       reach_(lattice.layers_within(most_reach)),
-      block_(std::max(edge_of_blocks(lattice, most_reach), least_block)) {}
+      block_(std::max(edge_of_blocks(lattice, most_reach), least_block)),
+      sight_limits_(lattice, most_weight_) {}
 
 void GrowingLayers::push(BallRows layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
+    if (layer.most_weight() > most_weight_) throw FaultError("a ball is larger than the greatest one");
     layers_.push_back(std::move(layer));
 }
 
@@ -244,16 +215,38 @@ bool GrowingLayers::pop(SpanRows& out) {
     return true;
 }
 
+void GrowingLayers::limit_sights() {
+    for_all_strips(layers_.size() - limited_, [&](std::size_t i) {
+        BallRows& layer = layers_[limited_ + i];
+        layer.begin_sights();
+        sight_limits_.limit(layer);
+    });
+    for_all_strips(strips_of(lattice_), [&](std::size_t s) {
+        const std::size_t first = s * strip_lines, end = std::min(first + strip_lines, lattice_.lines);
+        for (std::size_t z = std::max<std::size_t>(limited_, 1); z < layers_.size(); ++z)
+            sight_limits_.limit(layers_[z - 1], layers_[z], first, end);
+    });
+    limited_ = layers_.size();
+}
+
 void GrowingLayers::finish_block() {
     const std::size_t count = std::min(block_, layers_.size() - past_);
     const std::size_t window = std::min(past_ + count + reach_, layers_.size());
+    if (!few_ends_left_ && !looks_at_all(lattice_, ball_, most_weight_, window)) limit_sights();
     LayerStack stack;
     for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
-    for (SpanRows& layer : grow_within(stack, lattice_, ball_, past_, count))
+    std::size_t runs = 0, grown_runs = 0;
+    for (SpanRows& layer : grow_within(stack, lattice_, ball_, past_, count)) {
+        grown_runs += layer.runs().size();
         done_.push_back(std::move(layer));
+    }
+    for (std::size_t z = past_; z < past_ + count; ++z) runs += layers_[z].runs().size();
+    constexpr std::size_t few = 3;
+    few_ends_left_ = few * grown_runs < runs;
     const std::size_t forgotten = past_ + count - std::min(past_ + count, reach_);
     layers_.erase(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(forgotten));
     past_ += count - forgotten;
+    limited_ -= std::min(limited_, forgotten);
 }
 
 ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)

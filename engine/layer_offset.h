@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/ball_reaches.h"
+#include "engine/sight_limits.h"
 
 namespace lamella {
 
@@ -15,16 +16,16 @@ void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out);
 /// What is left when a disc about each point of the void is taken away; beyond the lines all is void.
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out);
 
-/// Grows layers by a ball about each of their points, exactly (thesis 3.2; Chen, Panozzo and Dumas 2018),
-/// in blocks of lines (GrownBlock), or line by line where balls are small (GrownLine). Layers come out in the
-/// order in which they went in, once all are known that reach them: what is held depends on the ball's height
-/// alone. Independent blocks are worked on in parallel.
+/// Grows layers by a ball about each of their points, exactly (thesis 3.2; Chen, Panozzo and Dumas 2018), in
+/// blocks of lines: by all runs about them where balls are small (GrownLines), else by those that can make a
+/// difference (GrownBlock). Layers come out in the order in which they went in, once all are known that reach
+/// them: what is held depends on the ball's height alone. Independent blocks are worked on in parallel.
 class GrowingLayers {
   public:
     /// `most_reach` bounds the radius of all runs, run units.
     GrowingLayers(const LayerLattice& lattice, double most_reach);
 
-    /// Adds the next layer, which has as many lines as the lattice says.
+    /// Adds the next layer. Throws FaultError where it has other lines than the lattice, or a larger ball.
     void push(BallRows layer);
     /// No more layers will come.
     void finish() { finished_ = true; }
@@ -33,14 +34,19 @@ class GrowingLayers {
 
   private:
     void finish_block();
+    void limit_sights();
 
     LayerLattice lattice_;
-    BallReaches ball_;   // of most_reach
-    std::size_t reach_;  // layers that a ball reaches up
-    std::size_t block_;  // layers that are finished together
+    double most_weight_;  // of a run
+    BallReaches ball_;    // of most_reach
+    std::size_t reach_;   // layers that a ball reaches up
+    std::size_t block_;   // layers that are finished together
     bool finished_ = false;
     std::deque<BallRows> layers_;  // those that may still be reached from or are to be finished
     std::size_t past_ = 0;         // how many of them are finished
+    SightLimits sight_limits_;
+    std::size_t limited_ = 0;     // how many of the layers have limited each other's sights
+    bool few_ends_left_ = false;  // by growing, the last time: then it is not worth the while
     std::deque<SpanRows> done_;
 };
 

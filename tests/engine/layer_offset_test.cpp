@@ -213,8 +213,9 @@ TEST_CASE("balls on either side of the size from which blocks are faster grow th
     std::mt19937 random(8);
     constexpr int size = 40;
     for (int round = 0; round < 12; ++round) {
-        // 50 to 320 lines in reach; ends that fall on a line or a layer, and that do not.
-        const double radius = (5 + round / 2) * run_unit * (round % 2 == 0 ? 1 : 0.77);
+        // 150 to 620 lines in reach; ends that fall on a line or a layer, and that do not.
+        const int in_lines = 9 + round / 2;
+        const double radius = in_lines * run_unit * (round % 2 == 0 ? 1 : 0.77);
         const LayerLattice lattice{256, round % 3 == 0 ? 256 : 320.5, size};
         const Stack stack = random_stack(random, size, size, [&](double unit) {
             return round % 4 < 2 || unit < 0.5 ? radius : unit * radius;

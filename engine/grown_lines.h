@@ -1,0 +1,40 @@
+// GrownLines: a few neighbouring lines of a stack of layers grown by balls, by looking at every run about
+// them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/block_union.h"
+
+namespace lamella {
+
+/// Grows small blocks of lines by brute force: the cost is that of all runs that a ball reaches. For small
+/// balls that is less than it takes to find out which of them make no difference (GrownBlock).
+class GrownLines {
+  public:
+    /// What blocks had best be like.
+    static constexpr std::int32_t block_layers = 4, block_lines = BlockUnion::edge;
+
+    /// For blocks of so many layers, at most. What is grown is clipped to `extent`. `reaches` are those of
+    /// most runs, and outlive this.
+    GrownLines(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers)
+        : lattice_(lattice), union_(lattice, reaches, extent, most_layers) {}
+
+    /// Grows the lines of a block of a stack of layers.
+    void grow(const LineBlock& block, std::span<const BallRows* const> layers);
+    /// A grown line of the block, counted from its first.
+    std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
+        return union_.line(layer, line);
+    }
+
+  private:
+    void list_beside(double most_weight);
+
+    LayerLattice lattice_;
+    double listed_weight_ = -1;
+    std::vector<std::size_t> beside_;  // how many lines are reached to either side, by layers away
+    BlockUnion union_;
+};
+
+}  // namespace lamella
