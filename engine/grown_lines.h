@@ -13,11 +13,8 @@ namespace lamella {
 /// balls that is less than it takes to find out which of them make no difference (GrownBlock).
 class GrownLines {
   public:
-    /// What blocks had best be like.
-    static constexpr std::int32_t block_layers = 4, block_lines = BlockUnion::edge;
-
-    /// For blocks of so many layers, at most. What is grown is clipped to `extent`. `reaches` are those of
-    /// most runs, and outlive this.
+    /// For blocks of so many layers, at most, of BlockUnion::edge lines. What is grown is clipped to
+    /// `extent`. `reaches` are those of most runs, and outlive this.
     GrownLines(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers)
         : lattice_(lattice), union_(lattice, reaches, extent, most_layers) {}
 

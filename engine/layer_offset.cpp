@@ -135,10 +135,13 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
                                   const BallReaches& reaches, std::size_t from, std::size_t count) {
     double most_weight = 0;
     for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
-    if (looks_at_all(lattice, reaches, most_weight, stack.size()))
-        return grow_blocks<GrownLines>(stack, lattice, reaches, GrownLines::block_layers,
-                                       GrownLines::block_lines, from, count);
-    const std::size_t edge = edge_of_blocks(lattice, std::sqrt(most_weight));
+    const double reach = std::sqrt(most_weight);
+    if (looks_at_all(lattice, reaches, most_weight, stack.size())) {
+        // Large balls reach most of the layers of higher blocks from everywhere.
+        const std::size_t high = lattice.layers_within(reach) <= BlockUnion::edge ? 4 : BlockUnion::edge;
+        return grow_blocks<GrownLines>(stack, lattice, reaches, high, BlockUnion::edge, from, count);
+    }
+    const std::size_t edge = edge_of_blocks(lattice, reach);
     return grow_blocks<GrownBlock>(stack, lattice, reaches, edge, edge, from, count);
 }
 
