@@ -1,11 +1,12 @@
 // Offsets of dexel solids against brute force: every line grown by what every line in reach gives it.
 #include "engine/layer_offset.h"
-#include "engine/layer_remainder.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "engine/error.h"
+#include "engine/layer_remainder.h"
 #include "tests/engine/through_layers.h"
 
 using namespace lamella;
@@ -349,4 +350,22 @@ TEST_CASE("a point grows into a ball, and a ball shrinks to a point", "[morpholo
     for (const SpanRows& rows : through(GrowingLayers(lattice, radius), stack, as_rows))
         volume += static_cast<double>(rows.total_length());
     CHECK(volume / run_unit == Approx(4.0 / 3 * 3.14159265 * 1000).epsilon(0.01));
+}
+
+TEST_CASE("a layer that does not fit what was said of the stack is refused", "[morphology]") {
+    const LayerLattice lattice{run_unit, run_unit, 2};
+    GrowingLayers growing(lattice, 3 * run_unit);
+    BallRows short_of_a_line, too_large;
+    const BallRun fits{0, 700, 9.0 * run_unit * run_unit}, larger{0, 700, 9.1 * run_unit * run_unit};
+    short_of_a_line.append_line(std::span(&fits, 1));
+    too_large.append_line(std::span(&fits, 1));
+    too_large.append_line(std::span(&larger, 1));
+    CHECK_THROWS_AS(growing.push(short_of_a_line), FaultError);
+    CHECK_THROWS_AS(growing.push(too_large), FaultError);
+    short_of_a_line.append_line({});
+    growing.push(short_of_a_line);
+    growing.finish();
+    SpanRows out;
+    REQUIRE(growing.pop(out));
+    CHECK(out.line(1).size() == 1);
 }
