@@ -30,22 +30,6 @@ DiscWidths disc_widths(double radius, double row_pitch, Width width) {
     }
 }
 
-/// Adds the cells [first, end) of a line to a set.
-void mark(std::int32_t first, std::int32_t end, std::size_t line, CellRows& cells) {
-    if (first >= end) return;
-    const auto low = static_cast<std::size_t>(first / word_cells),
-               high = static_cast<std::size_t>((end - 1) / word_cells);
-    const std::uint64_t from = ~std::uint64_t{0} << (first % word_cells),
-                        to = ~std::uint64_t{0} >> (word_cells - 1 - (end - 1) % word_cells);
-    if (low == high) {
-        cells.column(low)[line] |= from & to;
-        return;
-    }
-    cells.column(low)[line] |= from;
-    for (std::size_t i = low + 1; i < high; ++i) cells.column(i)[line] = ~std::uint64_t{0};
-    cells.column(high)[line] |= to;
-}
-
 /// Whether any of the words of a few lines has a bit.
 bool any_bit(const std::uint64_t* words) {
     std::uint64_t all = 0;
@@ -85,10 +69,25 @@ LayerCells::LayerCells(const SpanRows& rows, const CellLattice& lattice) : fille
         const std::size_t line = l + lattice.margin_lines;
         for (const Run& run : rows.line(l)) {
             const std::int32_t begin = run.begin - lattice.first, end = run.end - lattice.first;
-            mark(cells_up(begin), cells_down(end), line, filled);
-            mark(cells_down(begin), cells_up(end), line, met);
+            filled.mark(cells_up(begin), cells_down(end), line);
+            met.mark(cells_down(begin), cells_up(end), line);
         }
     }
+}
+
+void CellRows::mark(std::int32_t first, std::int32_t end, std::size_t line) {
+    if (first >= end) return;
+    const auto low = static_cast<std::size_t>(first / word_cells),
+               high = static_cast<std::size_t>((end - 1) / word_cells);
+    const std::uint64_t from = ~std::uint64_t{0} << (first % word_cells),
+                        to = ~std::uint64_t{0} >> (word_cells - 1 - (end - 1) % word_cells);
+    if (low == high) {
+        column(low)[line] |= from & to;
+        return;
+    }
+    column(low)[line] |= from;
+    for (std::size_t i = low + 1; i < high; ++i) column(i)[line] = ~std::uint64_t{0};
+    column(high)[line] |= to;
 }
 
 void CellRows::invert() {

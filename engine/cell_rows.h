@@ -45,6 +45,8 @@ class CellRows {
     std::uint64_t* column(std::size_t word) { return words_.data() + place(word); }
     const std::uint64_t* column(std::size_t word) const { return words_.data() + place(word); }
 
+    /// Adds the cells [first, end) of a line, if there are any.
+    void mark(std::int32_t first, std::int32_t end, std::size_t line);
     /// Turns into all other cells of the lattice.
     void invert();
     /// These and all cells within a disc of them.

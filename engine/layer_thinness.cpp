@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/coarse_cells.h"
 #include "engine/error.h"
 #include "engine/row_sets.h"
 
@@ -10,17 +11,8 @@ namespace lamella {
 
 namespace {
 
-/// From the first begin to the last end of a run of any line.
-Run extent_of(const SpanRows& rows) {
-    Run extent{0, 0};
-    for (std::size_t l = 0; l < rows.lines(); ++l) {
-        if (rows.line(l).empty()) continue;
-        const std::int32_t begin = rows.line(l).front().begin, end = rows.line(l).back().end;
-        extent = extent.begin == extent.end ? Run{begin, end}
-                                            : Run{std::min(extent.begin, begin), std::max(extent.end, end)};
-    }
-    return extent;
-}
+/// How far from a point lies what decides whether it is too thin.
+double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
 
 SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_out); }
 
@@ -30,12 +22,17 @@ void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
 }
 
-/// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie near
-/// enough to cells that discs do not reach from what is `beside` it.
-CellRows suspects(CellRows touched, const CellRows& beside, const Thinness& thinness, double row_pitch) {
-    const CellRows core = beside.beyond(cells_met(thinness.radius, row_pitch));
-    touched.subtract_grown(core, cells_covered(thinness.radius + thinness.slack, row_pitch));
+/// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie within
+/// `reach` of cells that discs of `radius` do not reach from what is `beside` it.
+CellRows suspects(CellRows touched, const CellRows& beside, double radius, double reach, double row_pitch) {
+    touched.subtract_grown(beside.beyond(cells_met(radius, row_pitch)), cells_covered(reach, row_pitch));
     return touched;
+}
+
+/// How many rows wide cells are that tell well enough what may be too thin.
+std::int32_t cell_scale(const Thinness& thinness) {
+    constexpr std::int32_t cells_in_radius = 4;
+    return std::max(static_cast<std::int32_t>(thinness.radius / (cells_in_radius * run_unit)), 1);
 }
 
 /// What lies in `where`, whose rows have a margin, of the solid or of the void.
@@ -72,27 +69,62 @@ SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
     return all;
 }
 
-/// The points of a medium that are too thin, out of the suspected cells. They are looked at run by run.
-void thin_among(const CellRows& suspected, const SpanRows& rows, Medium medium, const Thinness& thinness,
-                double row_pitch, SpanRows& out) {
+/// Where something may be too thin, and where it matters whether balls fit: no further from there than they
+/// reach. Rows with a margin.
+struct Suspicion {
+    SpanRows at, near;
+    std::size_t margin;
+};
+
+Suspicion suspicion_of(const LayerCells& cells, std::size_t row_count, Medium medium,
+                       const Thinness& thinness, double row_pitch) {
+    CellRows void_met = cells.filled;
+    void_met.invert();
     const double reach = thinness.radius + thinness.slack;
-    const std::size_t margin = suspected.lattice().margin_lines, lines = rows.lines() + 2 * margin;
-    const SpanRows at = suspected.runs(0, lines);
-    if (at.runs().empty()) {
+    const CellRows suspected = medium == Medium::solid
+                                   ? suspects(cells.met, void_met, thinness.radius, reach, row_pitch)
+                                   : suspects(void_met, cells.met, thinness.radius, reach, row_pitch);
+    const std::size_t margin = cells.met.lattice().margin_lines, lines = row_count + 2 * margin;
+    Suspicion found{suspected.runs(0, lines), {}, margin};
+    if (!found.at.runs().empty()) found.near = suspected.grown(cells_met(reach, row_pitch)).runs(0, lines);
+    return found;
+}
+
+/// The same by cells of several rows.
+Suspicion coarse_suspicion_of(const SpanRows& rows, Medium medium, const Thinness& thinness,
+                              double row_pitch) {
+    // Rows of two cells lie up to a row of cells nearer or farther; and more than rounding makes.
+    const double surely = row_pitch + 1;
+    const std::int32_t scale = cell_scale(thinness);
+    const CoarseCells cells(rows, scale, thinness_reach(thinness), row_pitch);
+    const double radius = thinness.radius / scale, reach = (thinness.radius + thinness.slack) / scale;
+    const bool of_solid = medium == Medium::solid;
+    const CellRows suspected =
+        suspects(of_solid ? cells.solid() : cells.voids(), of_solid ? cells.voids() : cells.solid(),
+                 radius + surely, reach - surely, row_pitch);
+    Suspicion found{cells.rows_of(suspected), {}, cells.margin()};
+    if (!found.at.runs().empty())
+        found.near = cells.rows_of(suspected.grown(cells_met(reach + surely, row_pitch)));
+    return found;
+}
+
+/// The points of a medium that are too thin, out of the suspected ones. They are looked at run by run.
+void thin_among(const Suspicion& suspicion, const SpanRows& rows, Medium medium, const Thinness& thinness,
+                double row_pitch, SpanRows& out) {
+    if (suspicion.at.runs().empty()) {
         out = empty_rows(rows.lines());
         return;
     }
-    // Where balls fit matters no further from there than they reach.
-    const SpanRows near = suspected.grown(cells_met(reach, row_pitch)).runs(0, lines),
-                   about = extents_about(near, thinness.radius, row_pitch);
+    const double reach = thinness.radius + thinness.slack;
+    const SpanRows about = extents_about(suspicion.near, thinness.radius, row_pitch);
     const Medium other = medium == Medium::solid ? Medium::gaps : Medium::solid;
     const auto within = [&](const SpanRows& where, Medium in) {
-        return medium_within(where, rows, margin, in);
+        return medium_within(where, rows, suspicion.margin, in);
     };
     SpanRows core, thin;
-    subtract_grown(within(near, medium), within(about, other), thinness.radius, row_pitch, core);
-    subtract_grown(within(at, medium), core, reach, row_pitch, thin);
-    without_margin(thin, margin, out);
+    subtract_grown(within(suspicion.near, medium), within(about, other), thinness.radius, row_pitch, core);
+    subtract_grown(within(suspicion.at, medium), core, reach, row_pitch, thin);
+    without_margin(thin, suspicion.margin, out);
 }
 
 }  // namespace
@@ -110,20 +142,20 @@ std::size_t margin_of(const Thinness& thinness, double row_pitch) {
     return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
 }
 
-double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
+double reach_of_cells(const Thinness& thinness) {
+    return cell_scale(thinness) > 1 ? 0 : thinness_reach(thinness);
+}
 
 void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
                SpanRows& out) {
-    const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
+    const LayerCells cells(rows, {extent_of(rows), rows.lines(), reach_of_cells(thinness), row_pitch});
     thin_rows(rows, cells, medium, thinness, row_pitch, out);
 }
 
 void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
                double row_pitch, SpanRows& out) {
-    CellRows void_met = cells.filled;
-    void_met.invert();
-    thin_among(medium == Medium::solid ? suspects(cells.met, void_met, thinness, row_pitch)
-                                       : suspects(void_met, cells.met, thinness, row_pitch),
+    thin_among(cell_scale(thinness) > 1 ? coarse_suspicion_of(rows, medium, thinness, row_pitch)
+                                        : suspicion_of(cells, rows.lines(), medium, thinness, row_pitch),
                rows, medium, thinness, row_pitch, out);
 }
 

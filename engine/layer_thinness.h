@@ -31,8 +31,9 @@ SpanRows widened(const SpanRows& rows, std::size_t margin);
 /// What of a layer's rows, or of the void between them, is too thin within the layer.
 void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
                SpanRows& out);
-/// How far cells must be known beside a layer's rows, run units, to tell what is too thin.
-double thinness_reach(const Thinness& thinness);
+/// How far cells must be known beside a layer's rows, run units, to tell what is too thin: not at all where
+/// larger cells, made for it alone, tell as well.
+double reach_of_cells(const Thinness& thinness);
 /// The same where the rows' cells are known so far.
 void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
                double row_pitch, SpanRows& out);

@@ -168,7 +168,7 @@ class ThicknessCheck {
     }
 
     /// What the lattice of cells has to reach.
-    double reach() const { return neighbours_ ? 0 : thinness_reach(measure_); }
+    double reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
     /// What of a layer can be told without its neighbours. Pure.
     SpanRows prepare(const SpanRows& rows, const LayerCells& cells) const {
         SpanRows found;

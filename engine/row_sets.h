@@ -1,6 +1,8 @@
 // Set operations on the rows of a layer that return their result, for where no buffer is at hand.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/runs.h"
 
 namespace lamella {
@@ -40,6 +42,17 @@ inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_
         out.end_line();
     }
     return out;
+}
+/// From the first begin to the last end of a run of any line.
+inline Run extent_of(const SpanRows& rows) {
+    Run extent{0, 0};
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        if (rows.line(l).empty()) continue;
+        const std::int32_t begin = rows.line(l).front().begin, end = rows.line(l).back().end;
+        extent = extent.begin == extent.end ? Run{begin, end}
+                                            : Run{std::min(extent.begin, begin), std::max(extent.end, end)};
+    }
+    return extent;
 }
 /// Rows without a run.
 inline SpanRows empty_rows(std::size_t lines) {

@@ -94,7 +94,7 @@ void check_thickness(benchmark::State& state, Medium medium, double thickness) {
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, 0);
     const Thinness measure{ball.radius, 1.5 * ball.radius + run_unit};
     std::vector<LayerCells> all_cells;
-    for (const SpanRows& rows : layers()) all_cells.emplace_back(rows, lattice(thinness_reach(measure)));
+    for (const SpanRows& rows : layers()) all_cells.emplace_back(rows, lattice(reach_of_cells(measure)));
     std::int64_t found = 0;
     for (auto _ : state) {
         found = 0;

@@ -127,6 +127,51 @@ TEST_CASE("layers one by one are what a ball without height makes of them", "[mo
     CHECK(found > 0);
 }
 
+TEST_CASE("what is thin beside many rows is what a ball without height finds", "[morphology]") {
+    // Discs and bars of all sizes; from eight rows on suspects are found by cells of several.
+    constexpr int rows_across = 150;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (const double radius : {6.3, 8.0, 9.7, 13.1, 21.5}) {
+        struct Disc {
+            double y, u, r, lean;
+        };
+        std::vector<Disc> discs(30);
+        for (Disc& disc : discs)
+            disc = {150 * unit(random), 150 * unit(random), 2 + 30 * unit(random), unit(random)};
+        SpanRows rows;
+        for (int y = 0; y < rows_across; ++y) {
+            SpanRows line, one, both;
+            line.end_line();
+            for (const Disc& disc : discs) {
+                const double away = std::abs(y - disc.y) / (disc.lean < 0.5 ? 1 : 3);
+                if (away >= disc.r) continue;
+                const double half = std::sqrt(disc.r * disc.r - away * away) / (disc.lean < 0.5 ? 1 : 3);
+                one.clear();
+                one.push(static_cast<int>((disc.u - half) * run_unit),
+                         static_cast<int>((disc.u + half) * run_unit) + 1);
+                one.end_line();
+                unite(line, one, both);
+                std::swap(line, both);
+            }
+            rows.append_lines(line);
+        }
+        for (const double slack : {0.0, 0.5, 1.5}) {
+            for (const double pitch : {1.0, 0.8}) {
+                CAPTURE(radius, slack, pitch);
+                const Thinness thinness{radius * run_unit, slack * radius * run_unit};
+                const LayerLattice flat{pitch * run_unit, 1000.0 * run_unit, rows_across};
+                SpanRows found;
+                for (const Medium medium : {Medium::solid, Medium::gaps}) {
+                    thin_rows(rows, medium, thinness, flat.row_pitch, found);
+                    CHECK(found == through(ThinLayers(flat, thinness, medium), Stack{rows}).front());
+                    if (slack == 0) CHECK(found.total_length() > 0);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("what is narrow in a solid is what is thin in its void", "[morphology]") {
     // A solid all about, with a void in the middle: far from the border both are the same.
     const Stack voids = random_stack(4);
