@@ -21,10 +21,11 @@ double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t l
 }  // namespace
 
 GrownBlock::GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent,
-                       std::int32_t most_layers)
+                       std::int32_t most_layers, double most_weight)
     : lattice_(lattice),
       layer_square_(square(lattice.layer_pitch)),
       row_square_(square(lattice.row_pitch)),
+      most_weight_(most_weight),
       ball_(reaches),
       levels_(1),
       union_(extent),
@@ -35,9 +36,7 @@ void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> l
     block_ = block;
     runs_.clear();
     places_.assign(place_of(block.layers, 0), {0, 0});
-    double most_weight = 0;
-    for (const BallRows* layer : layers) most_weight = std::max(most_weight, layer->most_weight());
-    list_farthest(most_weight);
+    list_farthest();
     cover_by_some(layers);
     table_.assign(covered_);
     gather(layers);
@@ -49,7 +48,7 @@ void GrownBlock::grow(const LineBlock& block, std::span<const BallRows* const> l
 void GrownBlock::cover_by_some(std::span<const BallRows* const> layers) {
     constexpr double share = 0.75;        // of the reach: lines farther away cover little
     constexpr double lines_in_reach = 5;  // of those that are looked at
-    const double reach = std::sqrt(farthest_weight_);
+    const double reach = std::sqrt(most_weight_);
     const auto stride = [&](double pitch) {
         return std::max(static_cast<std::int32_t>(reach / pitch / lines_in_reach), 2);
     };
@@ -135,14 +134,13 @@ void GrownBlock::gather_layer(std::int32_t layer, const BallRows& rows) {
 }
 
 /// Lists how far a run may reach from lines about a block.
-void GrownBlock::list_farthest(double most_weight) {
-    if (most_weight == farthest_weight_ && block_.lines == farthest_lines_) return;
-    farthest_weight_ = most_weight;
+void GrownBlock::list_farthest() {
+    if (block_.lines == farthest_lines_) return;
     farthest_lines_ = block_.lines;
     farthest_.clear();
     for (std::size_t layers = 0;; ++layers) {
         const double up = static_cast<double>(layers) * lattice_.layer_pitch;
-        const double left = most_weight + surely - square(up);
+        const double left = most_weight_ + surely - square(up);
         if (left < 0) break;
         const auto beside = static_cast<std::int32_t>(lattice_.lines_within(std::sqrt(left)));
         std::vector<std::int32_t>& farthest = farthest_.emplace_back();

@@ -20,8 +20,10 @@ namespace lamella {
 /// not halved any more: what is left is united on all lines (BlockUnion).
 class GrownBlock {
   public:
-    /// What is covered is clipped to `extent`. `reaches` are those of most runs, and outlive this.
-    GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers);
+    /// For blocks of so many layers, at most. What is covered is clipped to `extent`. `reaches` are those of
+    /// most runs, and outlive this; `most_weight` bounds the weights of all.
+    GrownBlock(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers,
+               double most_weight);
 
     /// Grows the lines of a block of a stack of layers.
     void grow(const LineBlock& block, std::span<const BallRows* const> layers);
@@ -64,7 +66,7 @@ class GrownBlock {
     void cover_by_some(std::span<const BallRows* const> layers);
     void gather(std::span<const BallRows* const> layers);
     void gather_layer(std::int32_t layer, const BallRows& rows);
-    void list_farthest(double most_weight);
+    void list_farthest();
     void refine(const LineBlock& block, std::size_t depth);
     void cover(const LineBlock& block, const Level& above, std::vector<Run>& covered);
     void see(const Level& above, std::span<const Run> covered);
@@ -77,6 +79,7 @@ class GrownBlock {
 
     LayerLattice lattice_;
     double layer_square_, row_square_;  // of its pitches
+    double most_weight_;
     const BallReaches& ball_;
     LineBlock block_{};
     std::vector<Level> levels_;  // by how often a block was halved
@@ -87,8 +90,7 @@ class GrownBlock {
     std::vector<Reaches> reaches_;
     std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
     std::vector<LinesAside> aside_;                    // the block, from lines about it
-    double farthest_weight_ = -1;                      // for which they were listed
-    std::int32_t farthest_lines_ = 0;
+    std::int32_t farthest_lines_ = 0;                  // of the block for which they were listed
     std::vector<std::uint32_t> uncovered_;
     std::vector<Visible> visible_;
     std::vector<Champions> champions_;

@@ -6,28 +6,24 @@
 
 namespace lamella {
 
-void GrownLines::list_beside(double most_weight) {
-    if (most_weight == listed_weight_) return;
-    listed_weight_ = most_weight;
-    beside_.clear();
+GrownLines::GrownLines(const LayerLattice& lattice, const BallReaches& reaches, Run extent,
+                       std::int32_t most_layers, double most_weight)
+    : union_(lattice, reaches, extent, most_layers) {
     const auto square = [](std::size_t count, double pitch) {
         if (count == 0) return 0.0;  // pitches may be infinite
         const double distance = static_cast<double>(count) * pitch;
         return distance * distance;
     };
     for (std::size_t up = 0;; ++up) {
-        const double left = most_weight - square(up, lattice_.layer_pitch);
+        const double left = most_weight - square(up, lattice.layer_pitch);
         if (left < 0) break;
-        std::size_t lines = lattice_.lines_within(std::sqrt(left));
-        if (left >= square(lines + 1, lattice_.row_pitch)) ++lines;  // it was rounded down
+        std::size_t lines = lattice.lines_within(std::sqrt(left));
+        if (left >= square(lines + 1, lattice.row_pitch)) ++lines;  // it was rounded down
         beside_.push_back(lines);
     }
 }
 
 void GrownLines::grow(const LineBlock& block, std::span<const BallRows* const> layers) {
-    double most_weight = 0;
-    for (const BallRows* rows : layers) most_weight = std::max(most_weight, rows->most_weight());
-    list_beside(most_weight);
     union_.begin(block);
     const auto reach = static_cast<std::int32_t>(beside_.size()) - 1;
     const std::int32_t first_layer = std::max(block.layer - reach, 0),

@@ -14,9 +14,9 @@ namespace lamella {
 class GrownLines {
   public:
     /// For blocks of so many layers, at most, of BlockUnion::edge lines. What is grown is clipped to
-    /// `extent`. `reaches` are those of most runs, and outlive this.
-    GrownLines(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers)
-        : lattice_(lattice), union_(lattice, reaches, extent, most_layers) {}
+    /// `extent`. `reaches` are those of most runs, and outlive this; `most_weight` bounds the weights of all.
+    GrownLines(const LayerLattice& lattice, const BallReaches& reaches, Run extent, std::int32_t most_layers,
+               double most_weight);
 
     /// Grows the lines of a block of a stack of layers.
     void grow(const LineBlock& block, std::span<const BallRows* const> layers);
@@ -26,10 +26,6 @@ class GrownLines {
     }
 
   private:
-    void list_beside(double most_weight);
-
-    LayerLattice lattice_;
-    double listed_weight_ = -1;
     std::vector<std::size_t> beside_;  // how many lines are reached to either side, by layers away
     BlockUnion union_;
 };

@@ -24,10 +24,15 @@ constexpr std::size_t most_lines_by_all = 400;
 
 using LayerStack = std::vector<const BallRows*>;
 
+double most_weight_of(const LayerStack& stack) {
+    double most = 0;
+    for (const BallRows* layer : stack) most = std::max(most, layer->most_weight());
+    return most;
+}
+
 /// Where what is grown from these layers can begin and end, runs without an end apart.
 Run extent_of(const LayerStack& stack) {
     Run extent{far_out, -far_out};
-    double most = 0;
     for (const BallRows* layer : stack) {
         for (const BallRun& run : layer->runs()) {
             for (const std::int32_t end : {run.begin, run.end}) {
@@ -36,10 +41,9 @@ Run extent_of(const LayerStack& stack) {
                 extent.end = std::max(extent.end, end);
             }
         }
-        most = std::max(most, layer->most_weight());
     }
     if (extent.begin > extent.end) return {0, run_unit};
-    const auto reach = static_cast<std::int32_t>(std::sqrt(most)) + 2;
+    const auto reach = static_cast<std::int32_t>(std::sqrt(most_weight_of(stack))) + 2;
     return {extent.begin - reach, extent.end + reach};
 }
 
@@ -110,7 +114,8 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
     const Run extent = extent_of(stack);
     Strips strips(strips_of(lattice));
     oneapi::tbb::enumerable_thread_specific<Grower> growers(lattice, std::cref(reaches), extent,
-                                                            static_cast<std::int32_t>(std::min(high, count)));
+                                                            static_cast<std::int32_t>(std::min(high, count)),
+                                                            most_weight_of(stack));
     for_all_strips(strips.size(), [&](std::size_t s) {
         Grower& grower = growers.local();
         std::vector<SpanRows>& layers = strips[s];
@@ -133,8 +138,7 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
 /// The same in whichever way is faster.
 std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
                                   const BallReaches& reaches, std::size_t from, std::size_t count) {
-    double most_weight = 0;
-    for (const BallRows* layer : stack) most_weight = std::max(most_weight, layer->most_weight());
+    const double most_weight = most_weight_of(stack);
     const double reach = std::sqrt(most_weight);
     if (looks_at_all(lattice, reaches, most_weight, stack.size())) {
         // Large balls reach most of the layers of higher blocks from everywhere.
