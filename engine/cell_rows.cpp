@@ -13,7 +13,7 @@
 namespace lamella {
 namespace {
 
-constexpr std::int32_t word_cells = 64;
+constexpr std::int32_t word_cells = CellLattice::word_cells;
 constexpr std::int32_t word_units = word_cells * CellLattice::cell;
 
 /// Rounded down, whatever the sign.

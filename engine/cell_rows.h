@@ -13,10 +13,11 @@ namespace lamella {
 /// Where the cells of a layer lie. A cell is as long as a row is wide.
 struct CellLattice {
     static constexpr std::int32_t cell = run_unit;   ///< length along the lines, run units
+    static constexpr std::int32_t word_cells = 64;   ///< in a word
     static constexpr std::size_t lines_at_once = 8;  ///< there is a multiple of it
 
     std::int32_t first = 0;        ///< where the first cell of each line begins, run units
-    std::size_t words = 0;         ///< of a line, 64 cells each
+    std::size_t words = 0;         ///< of a line
     std::size_t lines = 0;         ///< the margin's included
     std::size_t margin_lines = 0;  ///< before the layer's first line, and as many at least behind its last
 

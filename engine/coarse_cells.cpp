@@ -23,7 +23,7 @@ CoarseCells::CoarseCells(const SpanRows& rows, std::int32_t scale, double reach,
       solid_(coarse_lattice(rows, scale, reach, row_pitch)),
       void_(solid_.lattice()) {
     const CellLattice& lattice = solid_.lattice();
-    const auto row_cells = static_cast<std::int32_t>(lattice.words) * 64;
+    const auto row_cells = static_cast<std::int32_t>(lattice.words) * CellLattice::word_cells;
     const std::int32_t first = lattice.first * scale, end = first + row_cells * scale * CellLattice::cell;
     for (std::size_t line = 0; line < lattice.lines; ++line) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(scale); ++i) {

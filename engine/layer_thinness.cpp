@@ -127,6 +127,12 @@ void thin_among(const Suspicion& suspicion, const SpanRows& rows, Medium medium,
     without_margin(thin, suspicion.margin, out);
 }
 
+void thin_rows_by_coarse_cells(const SpanRows& rows, Medium medium, const Thinness& thinness,
+                               double row_pitch, SpanRows& out) {
+    thin_among(coarse_suspicion_of(rows, medium, thinness, row_pitch), rows, medium, thinness, row_pitch,
+               out);
+}
+
 }  // namespace
 
 SpanRows widened(const SpanRows& rows, std::size_t margin) {
@@ -148,15 +154,16 @@ double reach_of_cells(const Thinness& thinness) {
 
 void thin_rows(const SpanRows& rows, Medium medium, const Thinness& thinness, double row_pitch,
                SpanRows& out) {
-    const LayerCells cells(rows, {extent_of(rows), rows.lines(), reach_of_cells(thinness), row_pitch});
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
+    const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
     thin_rows(rows, cells, medium, thinness, row_pitch, out);
 }
 
 void thin_rows(const SpanRows& rows, const LayerCells& cells, Medium medium, const Thinness& thinness,
                double row_pitch, SpanRows& out) {
-    thin_among(cell_scale(thinness) > 1 ? coarse_suspicion_of(rows, medium, thinness, row_pitch)
-                                        : suspicion_of(cells, rows.lines(), medium, thinness, row_pitch),
-               rows, medium, thinness, row_pitch, out);
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
+    thin_among(suspicion_of(cells, rows.lines(), medium, thinness, row_pitch), rows, medium, thinness,
+               row_pitch, out);
 }
 
 ThinLayers::ThinLayers(const LayerLattice& lattice, const Thinness& thinness, Medium medium)
