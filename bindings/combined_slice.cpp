@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/slice_context.h"
+#include "engine/field/slice_context.h"
 
 namespace lamella {
 

@@ -1,7 +1,7 @@
 // Two slices of one plane as one.
 #pragma once
 
-#include "engine/field.h"
+#include "engine/field/field.h"
 
 namespace lamella {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "bindings/lamella.h"
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 struct lamella_context {
     std::int32_t status = LAMELLA_OK;

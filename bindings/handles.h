@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bindings/context.h"
-#include "engine/contours.h"
-#include "engine/layer_stream.h"
-#include "recipe/build_job.h"
+#include "engine/contours/contours.h"
+#include "engine/layers/layer_stream.h"
+#include "recipe/build/build_job.h"
 #include "recipe/machine_profiles.h"
 #include "recipe/recipe_draft.h"
 

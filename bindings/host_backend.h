@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bindings/lamella.h"
-#include "engine/backend.h"
+#include "engine/layers/backend.h"
 
 namespace lamella {
 

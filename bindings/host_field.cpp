@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "bindings/context.h"
-#include "engine/mesh_field.h"
-#include "engine/mesh_repair.h"
-#include "engine/range_about.h"
+#include "engine/field/range_about.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/mesh/mesh_repair.h"
 #include "recipe/identity.h"
 
 namespace lamella {

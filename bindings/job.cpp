@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "bindings/handles.h"
-#include "engine/plate.h"
-#include "recipe/finish_job.h"
-#include "recipe/job_picture.h"
+#include "engine/layers/plate.h"
+#include "recipe/build/finish_job.h"
+#include "recipe/output/job_picture.h"
 #include "recipe/printer_choice.h"
 
 namespace lamella {

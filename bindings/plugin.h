@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "engine/backend.h"
-#include "recipe/outputs.h"
+#include "engine/layers/backend.h"
+#include "recipe/output/outputs.h"
 
 namespace lamella {
 

@@ -3,7 +3,7 @@
 
 #include "bindings/handles.h"
 #include "bindings/host_backend.h"
-#include "recipe/outputs.h"
+#include "recipe/output/outputs.h"
 
 using namespace lamella;
 

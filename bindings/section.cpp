@@ -6,8 +6,8 @@
 
 #include "bindings/combined_slice.h"
 #include "bindings/handles.h"
-#include "engine/coverage.h"
-#include "engine/polygon_slice.h"
+#include "engine/contours/coverage.h"
+#include "engine/solids/polygon_slice.h"
 
 using namespace lamella;
 

@@ -12,7 +12,7 @@ foreach(file IN LISTS files)
     string(APPEND rows "    ProfileText{\"${name}\", R\"toml(${text})toml\"},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// The machine profiles of printers/profiles.
-#include \"printers/profile_texts.h\"
+#include \"printers/common/profile_texts.h\"
 
 #include <array>
 

@@ -6,19 +6,19 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/error.h"
-#include "printers/cli.h"
-#include "printers/dxf.h"
-#include "printers/ember.h"
-#include "printers/gcode.h"
-#include "printers/goo.h"
-#include "printers/image3d.h"
-#include "printers/mask.h"
-#include "printers/nanodlp.h"
-#include "printers/png_stack.h"
-#include "printers/sl1.h"
-#include "printers/slice_3mf.h"
-#include "printers/svg.h"
+#include "engine/base/error.h"
+#include "printers/gcode/gcode.h"
+#include "printers/masks/ember.h"
+#include "printers/masks/goo.h"
+#include "printers/masks/image3d.h"
+#include "printers/masks/mask.h"
+#include "printers/masks/nanodlp.h"
+#include "printers/masks/png_stack.h"
+#include "printers/masks/sl1.h"
+#include "printers/vector/cli.h"
+#include "printers/vector/dxf.h"
+#include "printers/vector/slice_3mf.h"
+#include "printers/vector/svg.h"
 
 namespace lamella {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/backend.h"
-#include "printers/profile.h"
+#include "engine/layers/backend.h"
+#include "printers/common/profile.h"
 
 namespace lamella {
 

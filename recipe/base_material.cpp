@@ -6,9 +6,9 @@
 #include <toml++/toml.h>
 #include <algorithm>
 
-#include "engine/error.h"
-#include "engine/whole_file.h"
-#include "procedural/foam_law.h"
+#include "engine/base/error.h"
+#include "engine/base/whole_file.h"
+#include "procedural/elasticity/foam_law.h"
 #include "recipe/settings.h"
 #include "recipe/shipped_texts.h"
 

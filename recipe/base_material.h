@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "procedural/elastic_tensor.h"
+#include "procedural/elasticity/elastic_tensor.h"
 #include "recipe/recipe.h"
 
 namespace lamella {

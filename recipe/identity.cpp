@@ -10,8 +10,8 @@
 #include <fstream>
 #include <vector>
 
-#include "engine/error.h"
-#include "procedural/nrrd_header.h"
+#include "engine/base/error.h"
+#include "procedural/volume/nrrd_header.h"
 #include "recipe/settings.h"
 
 namespace lamella {

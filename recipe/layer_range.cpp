@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 namespace lamella {
 

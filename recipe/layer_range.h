@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/backend.h"
+#include "engine/layers/backend.h"
 
 namespace lamella {
 

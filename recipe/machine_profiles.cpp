@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "engine/error.h"
-#include "printers/profile_texts.h"
+#include "engine/base/error.h"
+#include "printers/common/profile_texts.h"
 #include "printers/registry.h"
 #include "recipe/printer_choice.h"
 #include "recipe/recipe_draft.h"

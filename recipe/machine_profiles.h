@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "printers/profile.h"
+#include "printers/common/profile.h"
 
 namespace lamella {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/registry.h"
 #include "recipe/settings.h"
 
@@ -56,7 +56,7 @@ std::string profile_line(const MachineProfiles& profiles, const std::string& nam
     }
 }
 
-std::string quoted(const std::string& text) {
+std::string toml_quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -70,7 +70,7 @@ std::string quoted_lines(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
-        out += (at > 0 ? ", " : "") + quoted(std::string(text.substr(at, end - at)));
+        out += (at > 0 ? ", " : "") + toml_quoted(std::string(text.substr(at, end - at)));
         at = end + 1;
     }
     return "[" + out + "]";
@@ -91,7 +91,7 @@ std::string setting_line(const Setting& setting, const Recipe& recipe) {
     // An empty text or table is no value: the key is there to be filled in.
     const bool is_empty = text.empty() || text == "[]";
     const std::string literal = setting.type == ValueType::lines && !is_empty ? quoted_lines(text)
-                                : is_text                                     ? quoted(text)
+                                : is_text                                     ? toml_quoted(text)
                                                                               : text;
     const std::string assignment = fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, literal);
     return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
@@ -165,7 +165,7 @@ std::string profile_as_toml(const MachineProfile& profile) {
     Recipe recipe;
     recipe.printer = profile.printer;
     std::string text;
-    if (!profile.description.empty()) text = "description = " + quoted(profile.description) + "\n";
+    if (!profile.description.empty()) text = "description = " + toml_quoted(profile.description) + "\n";
     for (const char* section : profile_sections) {
         text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
         for (const Setting& setting : settings()) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/geometry.h"
+#include "engine/base/geometry.h"
 #include "recipe/machine_profiles.h"
 
 namespace lamella {

@@ -9,11 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "engine/field.h"
-#include "engine/grading.h"
-#include "engine/shell.h"
-#include "printers/profile.h"
-#include "procedural/attractors.h"
+#include "engine/field/field.h"
+#include "engine/field/grading.h"
+#include "engine/solids/shell.h"
+#include "printers/common/profile.h"
+#include "procedural/grading/attractors.h"
 
 namespace lamella {
 

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <set>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
+#include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_formulas.h"
 #include "recipe/recipe_regions.h"
-#include "recipe/settings_rows.h"
 
 namespace lamella {
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
-#include "engine/error.h"
-#include "engine/formula_functions.h"
-#include "engine/formula_parser.h"
+#include "engine/base/error.h"
+#include "engine/formula/formula_functions.h"
+#include "engine/formula/formula_parser.h"
 #include "recipe/recipe_regions.h"
 #include "recipe/settings.h"
 

@@ -1,10 +1,10 @@
 // The list of kinds: the shapes stand here, the others where they are built.
 #include "recipe/recipe_kinds.h"
 
-#include "recipe/build_fields.h"
-#include "recipe/build_foam.h"
-#include "recipe/build_gradings.h"
-#include "recipe/build_skin.h"
+#include "recipe/build/build_fields.h"
+#include "recipe/build/build_foam.h"
+#include "recipe/build/build_gradings.h"
+#include "recipe/build/build_skin.h"
 
 namespace lamella {
 

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "printers/cut_sheets.h"
-#include "printers/gcode_script.h"
-#include "procedural/nearest_foam.h"
-#include "procedural/tpms.h"
+#include "printers/gcode/gcode_script.h"
+#include "printers/vector/cut_sheets.h"
+#include "procedural/foam/nearest_foam.h"
+#include "procedural/lattice/tpms.h"
 #include "recipe/base_material.h"
-#include "recipe/build_foam.h"
+#include "recipe/build/build_foam.h"
+#include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_draft.h"
-#include "recipe/settings_rows.h"
 
 namespace lamella {
 

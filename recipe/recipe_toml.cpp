@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "recipe/recipe_draft.h"
 
 namespace lamella {

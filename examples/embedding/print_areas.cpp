@@ -1,9 +1,9 @@
 // Embedding Lamella: a ball of foam with a skin, asked layer by layer for its contours.
-#include <lamella/engine/csg.h>
-#include <lamella/engine/layer.h>
-#include <lamella/engine/primitives.h>
-#include <lamella/engine/shell.h>
-#include <lamella/procedural/voronoi_foam.h>
+#include <lamella/engine/layers/layer.h>
+#include <lamella/engine/solids/csg.h>
+#include <lamella/engine/solids/primitives.h>
+#include <lamella/engine/solids/shell.h>
+#include <lamella/procedural/foam/voronoi_foam.h>
 
 #include <cstdio>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"
 #include "printers/serial/serial_output.h"

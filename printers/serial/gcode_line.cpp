@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 namespace lamella {
 namespace {
@@ -71,7 +71,7 @@ std::string tidy_words(std::string_view text) {
     return result;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trim_spaces(std::string_view text) {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     return text;
@@ -96,7 +96,7 @@ std::string command_word(std::string_view command) {
 }
 
 std::string clean_command(std::string_view line, std::size_t longest) {
-    const std::string_view bare = trimmed(without_number(trimmed(line)));
+    const std::string_view bare = trim_spaces(without_number(trim_spaces(line)));
     std::string start;
     for (const char c : bare.substr(0, 6)) start += upper(c);
     const std::string word = command_word(start);
@@ -104,7 +104,8 @@ std::string clean_command(std::string_view line, std::size_t longest) {
     if (shows_text(word) || names_file(word)) {
         for (const char c : bare.substr(0, bare.find(';'))) command += ' ' <= c && c <= '~' ? c : '?';
         for (std::size_t i = 0; i < word.size(); ++i) command[i] = upper(command[i]);
-        command = trimmed(std::string_view(command).substr(0, shows_text(word) ? longest : command.size()));
+        command =
+            trim_spaces(std::string_view(command).substr(0, shows_text(word) ? longest : command.size()));
     } else {
         command = tidy_words(without_comments(bare));
     }

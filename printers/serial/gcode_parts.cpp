@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/serial/serial_output.h"
 
 namespace lamella {

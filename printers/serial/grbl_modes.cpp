@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "engine/number_format.h"
+#include "engine/base/number_format.h"
 
 namespace lamella {
 namespace {

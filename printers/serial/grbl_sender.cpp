@@ -8,8 +8,8 @@
 namespace lamella {
 namespace {
 
-constexpr double status_interval = 0.2;  // s; more often costs the reply line
-constexpr double ask_patience = 2;       // s
+constexpr double grbl_status_interval = 0.2;  // s; more often costs the reply line
+constexpr double ask_patience = 2;            // s
 constexpr int most_tries = 10;
 constexpr double idle_patience = 3;  // s that GRBL is idle although lines are unanswered
 constexpr double hold_interval = 0.1;
@@ -75,7 +75,7 @@ void GrblSender::check_time(double now) {
     if (state_ == State::running) {
         if (now >= next_status_) {
             transmit_raw("?", false);
-            next_status_ = now + status_interval;
+            next_status_ = now + grbl_status_interval;
         }
         if (idle_since_ >= 0 && bytes_ > 0 && now - idle_since_ > idle_patience) {
             stop(StopKind::lost_count, "GRBL is idle but has not answered line \"" + sent_.front().command +

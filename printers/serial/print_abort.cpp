@@ -1,5 +1,5 @@
 // Ending a print before its end.
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/serial/print_link.h"
 
 namespace lamella {

@@ -1,8 +1,8 @@
 // The thread that writes the journal.
 #include "printers/serial/print_journal.h"
 
-#include "engine/error.h"
-#include "printers/output_file.h"
+#include "engine/base/error.h"
+#include "printers/archive/output_file.h"
 
 namespace lamella {
 

@@ -13,8 +13,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "engine/error.h"
-#include "engine/number_format.h"
+#include "engine/base/error.h"
+#include "engine/base/number_format.h"
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "engine/layer_stream.h"
+#include "engine/layers/layer_stream.h"
 #include "printers/serial/line_sender.h"
 #include "printers/serial/print_journal.h"
 #include "printers/serial/serial_port.h"

@@ -17,7 +17,7 @@ std::string lowered(std::string_view text) {
     return result;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trim_blanks(std::string_view text) {
     const auto first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -70,7 +70,7 @@ void read_advanced(std::string_view words, Reply& reply) {
     Reply found;
     while (!words.empty()) {
         const std::string_view word = words.substr(0, words.find(' '));
-        words = trimmed(words.substr(word.size()));
+        words = trim_blanks(words.substr(word.size()));
         const auto value = whole_number<std::int64_t>(word.substr(1));
         if (!value || *value > 1'000'000'000) return;
         if (word[0] == 'N') found.number = *value;
@@ -85,7 +85,7 @@ void read_advanced(std::string_view words, Reply& reply) {
 
 Reply read_ok(std::string_view line) {
     Reply reply{ReplyKind::ok};
-    const std::string_view rest = trimmed(line.substr(2));
+    const std::string_view rest = trim_blanks(line.substr(2));
     reply.temperatures = read_temperatures(rest);
     if (!reply.temperatures) read_advanced(rest, reply);
     return reply;
@@ -125,7 +125,7 @@ ReplyKind error_kind(const std::string& text) {
 /// What Marlin says when its board begins anew, behind an optional "echo:".
 bool tells_reset(const std::string& text) {
     std::string_view words = text;
-    if (words.starts_with("echo:")) words = trimmed(words.substr(5));
+    if (words.starts_with("echo:")) words = trim_blanks(words.substr(5));
     constexpr std::array<const char*, 6> causes{"start",           "powerup",        "external reset",
                                                 "brown out reset", "watchdog reset", "software reset"};
     return std::any_of(causes.begin(), causes.end(), [&](const char* cause) { return words == cause; });
@@ -160,7 +160,7 @@ Reply parse_reply(std::string_view line) {
     if (const auto number = read_resend(line)) return {ReplyKind::resend, number};
     const std::string text = lowered(line);
     Reply reply = read_grbl(line);
-    reply.text = reply.kind == ReplyKind::grbl_status ? reply.text : std::string(trimmed(line));
+    reply.text = reply.kind == ReplyKind::grbl_status ? reply.text : std::string(trim_blanks(line));
     if (reply.kind != ReplyKind::other) return reply;
     if (text.starts_with("error:") || text.find("kill() called") != std::string::npos) {
         reply.kind = error_kind(text);
@@ -170,16 +170,16 @@ Reply parse_reply(std::string_view line) {
         reply.kind = ReplyKind::busy;
     } else if (text.starts_with("//action:") || text.starts_with("// action:")) {
         reply.kind = ReplyKind::action;
-        reply.text = trimmed(line.substr(line.find(':') + 1));
+        reply.text = trim_blanks(line.substr(line.find(':') + 1));
     } else if (text.starts_with("cap:")) {
         reply.kind = ReplyKind::capability;
         reply.text = line.substr(4);
     } else if (const auto at = text.find("firmware_name:"); at != std::string::npos) {
         reply.kind = ReplyKind::firmware;
-        reply.text = trimmed(line.substr(at + 14));
+        reply.text = trim_blanks(line.substr(at + 14));
     } else if (tells_reset(text)) {
         reply.kind = ReplyKind::reset;
-    } else if (const std::string_view words = trimmed(line);
+    } else if (const std::string_view words = trim_blanks(line);
                words.starts_with("T:") || words.starts_with("T0:") || words.starts_with("B:")) {
         reply.temperatures = read_temperatures(words);
         if (reply.temperatures) {

@@ -5,9 +5,9 @@
 
 #include <fstream>
 
-#include "engine/error.h"
-#include "engine/number_format.h"
-#include "printers/output_file.h"
+#include "engine/base/error.h"
+#include "engine/base/number_format.h"
+#include "printers/archive/output_file.h"
 
 namespace lamella {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "printers/gcode_output.h"
+#include "printers/gcode/gcode_output.h"
 #include "printers/serial/print_chunk.h"
 #include "printers/serial/print_link.h"
 

@@ -19,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 namespace lamella {
 namespace fs = std::filesystem;

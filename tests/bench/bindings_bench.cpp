@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bindings/lamella.h"
-#include "engine/contours.h"
-#include "engine/coverage.h"
-#include "engine/slice_context.h"
-#include "recipe/build_job.h"
+#include "engine/contours/contours.h"
+#include "engine/contours/coverage.h"
+#include "engine/field/slice_context.h"
+#include "recipe/build/build_job.h"
 #include "recipe/recipe_draft.h"
 
 namespace lamella {

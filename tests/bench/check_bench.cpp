@@ -5,17 +5,17 @@
 #include <deque>
 #include <limits>
 
-#include "engine/csg.h"
-#include "engine/hold_check.h"
-#include "engine/layer_opening.h"
-#include "engine/layer_thinness.h"
-#include "engine/neck_check.h"
-#include "engine/primitives.h"
-#include "engine/row_sets.h"
-#include "engine/survey_rows.h"
-#include "engine/thin_beyond_places.h"
-#include "engine/void_check.h"
-#include "procedural/voronoi_foam.h"
+#include "engine/checks/hold_check.h"
+#include "engine/checks/neck_check.h"
+#include "engine/checks/void_check.h"
+#include "engine/layers/survey_rows.h"
+#include "engine/morphology/layer_opening.h"
+#include "engine/morphology/layer_thinness.h"
+#include "engine/morphology/thin_beyond_places.h"
+#include "engine/runs/row_sets.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "procedural/foam/voronoi_foam.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // A layer of foam at 8K: runs, coverage, contours, and the first layer from nothing.
 #include <benchmark/benchmark.h>
 
-#include "engine/contours.h"
-#include "engine/coverage.h"
-#include "engine/slice_context.h"
-#include "printers/png_writer.h"
+#include "engine/contours/contours.h"
+#include "engine/contours/coverage.h"
+#include "engine/field/slice_context.h"
+#include "printers/masks/png_writer.h"
 #include "tests/bench/plate.h"
 
 namespace {

@@ -2,12 +2,12 @@
 // and a gyroid.
 #include <benchmark/benchmark.h>
 
-#include "engine/formula_batch.h"
-#include "engine/formula_field.h"
-#include "engine/formula_parser.h"
-#include "engine/formula_vm.h"
-#include "engine/slice_context.h"
-#include "procedural/counter_hash.h"
+#include "engine/field/slice_context.h"
+#include "engine/formula/formula_batch.h"
+#include "engine/formula/formula_field.h"
+#include "engine/formula/formula_parser.h"
+#include "engine/formula/formula_vm.h"
+#include "procedural/voronoi/counter_hash.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Foams in a frame at 8K: runs of a layer, and what making the frame costs.
 #include <benchmark/benchmark.h>
 
-#include "engine/mesh_field.h"
-#include "engine/slice_context.h"
+#include "engine/field/slice_context.h"
+#include "engine/mesh/mesh_field.h"
 #include "tests/bench/plate.h"
 #include "tests/bench/wavy_ball.h"
 

@@ -1,9 +1,9 @@
 // Graded foam at 8K: cells from 2 to 8 mm over the plate, runs warm, and cells amortised over layers.
 #include <benchmark/benchmark.h>
 
-#include "engine/slice_context.h"
+#include "engine/field/slice_context.h"
 #include "tests/bench/plate.h"
-#include "tests/engine/gradings.h"
+#include "tests/engine/field/gradings.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // The stiffness of a foam of 64 cells, at growing resolution.
 #include <benchmark/benchmark.h>
 
-#include "procedural/field_sample.h"
-#include "procedural/homogenization.h"
-#include "procedural/voronoi_foam.h"
+#include "procedural/elasticity/field_sample.h"
+#include "procedural/elasticity/homogenization.h"
+#include "procedural/foam/voronoi_foam.h"
 
 using namespace lamella;
 

@@ -2,13 +2,13 @@
 // islands.
 #include <benchmark/benchmark.h>
 
-#include "engine/box_solid.h"
-#include "engine/csg.h"
-#include "engine/island_survey.h"
-#include "engine/mesh_field.h"
-#include "engine/mesh_reader.h"
-#include "engine/mesh_repair.h"
-#include "procedural/voronoi_foam.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/mesh/mesh_repair.h"
+#include "engine/solids/box_solid.h"
+#include "engine/solids/csg.h"
+#include "engine/surveys/island_survey.h"
+#include "procedural/foam/voronoi_foam.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
 // Meshes at 8K: sections and skins of a wavy ball of many triangles.
 #include <benchmark/benchmark.h>
 
-#include "engine/csg.h"
-#include "engine/mesh_field.h"
-#include "engine/shell.h"
-#include "engine/slice_context.h"
-#include "procedural/image_windows.h"
-#include "procedural/surface_windows.h"
+#include "engine/field/slice_context.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/shell.h"
+#include "procedural/skin/image_windows.h"
+#include "procedural/skin/surface_windows.h"
 #include "tests/bench/plate.h"
 #include "tests/bench/wavy_ball.h"
 

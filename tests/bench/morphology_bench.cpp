@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/csg.h"
-#include "engine/layer.h"
-#include "engine/layer_offset.h"
-#include "engine/primitives.h"
-#include "procedural/tpms.h"
-#include "procedural/voronoi_foam.h"
+#include "engine/layers/layer.h"
+#include "engine/morphology/layer_offset.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "procedural/foam/voronoi_foam.h"
+#include "procedural/lattice/tpms.h"
 
 namespace {
 

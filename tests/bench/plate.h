@@ -1,10 +1,10 @@
 // The plate that the benchmarks share: an 8K display full of foam.
 #pragma once
 
-#include "engine/coverage.h"
-#include "engine/runs.h"
-#include "engine/slice_context.h"
-#include "procedural/voronoi_foam.h"
+#include "engine/contours/coverage.h"
+#include "engine/field/slice_context.h"
+#include "engine/runs/runs.h"
+#include "procedural/foam/voronoi_foam.h"
 
 namespace lamella::bench {
 

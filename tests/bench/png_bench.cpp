@@ -3,8 +3,8 @@
 #include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
 
-#include "engine/slice_context.h"
-#include "printers/png_writer.h"
+#include "engine/field/slice_context.h"
+#include "printers/masks/png_writer.h"
 #include "tests/bench/plate.h"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "procedural/scaffold_synthesis.h"
+#include "procedural/scaffold/scaffold_synthesis.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "engine/layer_stream.h"
+#include "engine/layers/layer_stream.h"
 #include "printers/registry.h"
 #include "tests/bench/plate.h"
 

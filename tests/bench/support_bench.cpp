@@ -1,11 +1,11 @@
 // The overhang survey next to slicing the part once, as a G-code back-end does before its toolpaths.
 #include <benchmark/benchmark.h>
 
-#include "engine/csg.h"
-#include "engine/mesh_field.h"
-#include "engine/mesh_reader.h"
-#include "engine/mesh_repair.h"
-#include "engine/overhang_survey.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/mesh/mesh_repair.h"
+#include "engine/solids/csg.h"
+#include "engine/surveys/overhang_survey.h"
 #include "tests/bench/wavy_ball.h"
 
 namespace {

@@ -1,11 +1,11 @@
 // A layer of periodic surfaces and of strut lattices, 2048 x 2048 pixels on one core.
 #include <benchmark/benchmark.h>
 
-#include "engine/csg.h"
-#include "engine/primitives.h"
-#include "engine/slice_context.h"
-#include "procedural/strut_lattice.h"
-#include "procedural/tpms.h"
+#include "engine/field/slice_context.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "procedural/lattice/strut_lattice.h"
+#include "procedural/lattice/tpms.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // Exact Voronoi cells a second, beams of a plate opened cold, and warm distances.
 #include <benchmark/benchmark.h>
 
-#include "procedural/cell_search.h"
-#include "procedural/counter_hash.h"
-#include "procedural/graded_density.h"
-#include "procedural/voronoi_foam.h"
+#include "procedural/foam/voronoi_foam.h"
+#include "procedural/voronoi/cell_search.h"
+#include "procedural/voronoi/counter_hash.h"
+#include "procedural/voronoi/graded_density.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Foams with walls: planes of the plate opened cold and warm, their runs, and distances.
 #include <benchmark/benchmark.h>
 
-#include "engine/slice_context.h"
-#include "procedural/closed_foam.h"
-#include "procedural/counter_hash.h"
+#include "engine/field/slice_context.h"
+#include "procedural/foam/closed_foam.h"
+#include "procedural/voronoi/counter_hash.h"
 #include "tests/bench/plate.h"
 
 namespace {

@@ -3,14 +3,13 @@
 
 #include <cmath>
 
-#include "engine/mesh.h"
+#include "engine/mesh/mesh.h"
 
 namespace lamella::bench {
 
 /// A ball of 50 mm radius with waves of 1 mm, made of about `triangles` triangles over latitude and
 /// longitude.
 inline SolidMesh wavy_ball(double triangles) {
-    constexpr double pi = 3.14159265358979323846;
     const int rings = static_cast<int>(std::sqrt(triangles / 4)), sectors = 2 * rings;
     SolidMesh solid;
     auto& mesh = solid.mesh;

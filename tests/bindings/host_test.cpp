@@ -6,15 +6,13 @@
 #include <numeric>
 #include <vector>
 
-#include "tests/app/command_run.h"
-#include "tests/app/folder.h"
+#include "tests/app/commands/command_run.h"
+#include "tests/app/commands/folder.h"
 #include "tests/bindings/handles_by_call.h"
 
 using namespace lamella;
 
 namespace {
-
-constexpr double pi = 3.14159265358979;
 
 std::int32_t ball(void* user, const double* points, std::size_t count, double* values) {
     const double radius = *static_cast<const double*>(user);

@@ -3,17 +3,15 @@
 #include <random>
 #include <thread>
 
-#include "engine/coverage.h"
-#include "engine/slice_context.h"
-#include "recipe/build_job.h"
+#include "engine/contours/coverage.h"
+#include "engine/field/slice_context.h"
+#include "recipe/build/build_job.h"
 #include "recipe/recipe_draft.h"
 #include "tests/bindings/handles_by_call.h"
 
 using namespace lamella;
 
 namespace {
-
-constexpr double pi = 3.14159265358979;
 
 const std::string foam_ball =
     "[part]\nshape = \"sphere\"\nradius = 6\n[foam]\ncell = 2\nbeam = 0.25\n[skin]\nthickness = 0.5\n";

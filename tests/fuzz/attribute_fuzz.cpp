@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "engine/error.h"
-#include "procedural/attribute_grading.h"
+#include "engine/base/error.h"
+#include "procedural/grading/attribute_grading.h"
 
 using namespace lamella;
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "engine/error.h"
-#include "engine/formula_parser.h"
-#include "engine/formula_vm.h"
+#include "engine/base/error.h"
+#include "engine/formula/formula_parser.h"
+#include "engine/formula/formula_vm.h"
 
 using namespace lamella;
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "engine/error.h"
-#include "engine/mesh_reader.h"
-#include "engine/mesh_repair.h"
+#include "engine/base/error.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/mesh/mesh_repair.h"
 #include "tests/fuzz/packed_model.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/error.h"
-#include "procedural/volume_grading.h"
+#include "engine/base/error.h"
+#include "procedural/volume/volume_grading.h"
 
 using namespace lamella;
 

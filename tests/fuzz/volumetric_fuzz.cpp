@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "engine/error.h"
-#include "engine/formula_grading.h"
-#include "procedural/volumetric_model.h"
+#include "engine/base/error.h"
+#include "engine/formula/formula_grading.h"
+#include "procedural/volume/volumetric_model.h"
 #include "tests/fuzz/packed_model.h"
 
 namespace {

@@ -4,22 +4,22 @@
 #include <cstring>
 #include <map>
 
-#include "engine/coverage.h"
-#include "engine/csg.h"
-#include "engine/formula_field.h"
-#include "engine/formula_grading.h"
-#include "engine/formula_parser.h"
-#include "engine/layer.h"
-#include "engine/mesh_field.h"
-#include "engine/mesh_reader.h"
-#include "engine/primitives.h"
-#include "engine/shell.h"
-#include "engine/simd_target.h"
-#include "procedural/closed_foam.h"
-#include "procedural/nearest_foam.h"
-#include "procedural/strut_lattice.h"
-#include "procedural/tpms.h"
-#include "procedural/voronoi_foam.h"
+#include "engine/base/simd_target.h"
+#include "engine/contours/coverage.h"
+#include "engine/formula/formula_field.h"
+#include "engine/formula/formula_grading.h"
+#include "engine/formula/formula_parser.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/layers/layer.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "engine/solids/shell.h"
+#include "procedural/foam/closed_foam.h"
+#include "procedural/foam/nearest_foam.h"
+#include "procedural/foam/voronoi_foam.h"
+#include "procedural/lattice/strut_lattice.h"
+#include "procedural/lattice/tpms.h"
 
 using namespace lamella;
 

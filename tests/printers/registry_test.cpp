@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/error.h"
-#include "tests/printers/plane_solids.h"
+#include "engine/base/error.h"
+#include "tests/printers/common/plane_solids.h"
 
 using namespace lamella;
 using namespace lamella::test;

@@ -8,15 +8,15 @@
 #include <set>
 #include <sstream>
 
-#include "engine/error.h"
-#include "printers/profile_texts.h"
+#include "engine/base/error.h"
+#include "printers/common/profile_texts.h"
 #include "printers/registry.h"
 #include "recipe/identity.h"
 #include "recipe/printer_choice.h"
 #include "recipe/recipe_draft.h"
-#include "tests/app/command_run.h"
-#include "tests/app/folder.h"
-#include "tests/app/recipes.h"
+#include "tests/app/commands/command_run.h"
+#include "tests/app/commands/folder.h"
+#include "tests/app/commands/recipes.h"
 
 using namespace lamella;
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "recipe/recipe_draft.h"
 
 using namespace lamella;

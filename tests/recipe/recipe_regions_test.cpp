@@ -5,7 +5,7 @@
 
 #include "recipe/identity.h"
 #include "recipe/recipe_formulas.h"
-#include "tests/app/recipes.h"
+#include "tests/app/commands/recipes.h"
 
 using namespace lamella;
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <sstream>
 
-#include "engine/error.h"
-#include "procedural/tpms.h"
+#include "engine/base/error.h"
+#include "procedural/lattice/tpms.h"
 #include "recipe/identity.h"
 #include "recipe/recipe_draft.h"
 #include "recipe/settings.h"

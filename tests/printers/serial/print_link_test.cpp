@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/serial/serial_output.h"
 #include "tests/printers/serial/pty_machine.h"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "printers/serial/gcode_line.h"
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"

@@ -1,0 +1,125 @@
+// `lamella dump`: the foam itself, seeds or beams in a box, as lines of numbers.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/commands/recipe_options.h"
+#include "app/console/text_output.h"
+#include "engine/base/error.h"
+#include "recipe/build/build_job.h"
+#include "recipe/output/beam_output.h"
+#include "recipe/settings.h"
+
+namespace lamella {
+
+namespace {
+
+struct DumpOptions {
+    RecipeOptions recipe;
+    std::string what;
+    std::string box;
+    std::string format = "csv";
+    std::string output;
+    bool header = false;
+};
+
+Box parse_box(const std::string& text) {
+    const auto numbers = parse_numbers(text, 6);
+    const auto refuse = [&](const std::string& wrong) {
+        throw InputError("--box: " + wrong +
+                         "; accepted: x0,y0,z0,x1,y1,z1 in mm, finite, each lower corner below the upper");
+    };
+    if (!numbers) refuse("\"" + text.substr(0, 96) + "\" is not six numbers");
+    for (const double v : *numbers) {
+        if (!std::isfinite(v)) refuse(fmt::format("{} is not a finite number", v));
+    }
+    const auto& n = *numbers;
+    const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    if (box.empty()) refuse("a lower corner lies above the upper one");
+    return box;
+}
+
+void write_seeds(const BuiltFoam& foam, const Box& box, TextOutput& out) {
+    for (const Seed& s : foam.seeds_in(box)) {
+        out.write(fmt::format("{},{},{}\n", s.position.x, s.position.y, s.position.z));
+    }
+}
+
+void write_beams(const BuiltFoam& foam, const Box& box, TextOutput& out) {
+    for (const Beam& b : foam.beams_touching(box)) {
+        out.write(
+            fmt::format("{},{},{},{},{},{},{},{}\n", b.a.x, b.a.y, b.a.z, b.ra, b.b.x, b.b.y, b.b.z, b.rb));
+    }
+}
+
+void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& options,
+                   const std::string& name) {
+    if (options.what != "beams") throw InputError("--format: 3mf holds beams; accepted: dump beams, or csv");
+    if (options.output.empty() || options.output == "-") {
+        throw InputError("--output: missing; accepted: the file that 3mf is written to");
+    }
+    const BeamLatticeReport report = write_beam_lattice(options.output, foam.beams_touching(box), name);
+    std::fputs((lattice_text(options.output, report) + "\n").c_str(), stderr);
+}
+
+void run(const DumpOptions& options) {
+    const Recipe recipe = options.recipe.read(false);
+    note_unused(options.recipe, recipe);
+    if (!recipe.foam)
+        throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
+    const bool has_body =
+        !recipe.part.mesh.empty() || !recipe.part.field.empty() || recipe.part.shape != Shape::none;
+    if (options.box.empty() && !has_body)
+        throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
+    std::optional<Box> box;
+    if (!options.box.empty()) box = parse_box(options.box);
+    BuiltFoam foam;
+    if (has_body) {
+        BuiltJob built = build_job(recipe);
+        foam = std::move(*built.foam);
+        if (!box) box = built.designed.bounds;
+    } else {
+        foam = build_foam_alone(recipe, *box);
+    }
+    const bool seeds = options.what == "seeds";
+    if (seeds ? !foam.seeds_in : !foam.beams_touching) {
+        throw InputError(fmt::format("foam.kind: {} has no {}; accepted: another kind of foam",
+                                     recipe.foam->kind, options.what));
+    }
+    if (options.format == "3mf") return write_lattice(foam, *box, options, recipe.part.name);
+    TextOutput out(options.output);
+    if (options.header) out.write(seeds ? "x,y,z\n" : "x0,y0,z0,r0,x1,y1,z1,r1\n");
+    seeds ? write_seeds(foam, *box, out) : write_beams(foam, *box, out);
+    out.close();
+}
+
+}  // namespace
+
+void add_dump_command(CLI::App& root) {
+    auto options = std::make_shared<DumpOptions>();
+    CLI::App& command = *root.add_subcommand("dump", "Write the foam's seeds or beams that touch a box");
+    command.add_option("WHAT", options->what, "seeds (x,y,z) or beams (x0,y0,z0,r0,x1,y1,z1,r1), mm")
+        ->required()
+        ->check(CLI::IsMember({"seeds", "beams"}))
+        ->type_name("");
+    options->recipe.add_to(command);
+    command.add_option("--box", options->box, "Corners in mm, part coordinates; default: the part's bounds")
+        ->type_name("x0,y0,z0,x1,y1,z1");
+    command
+        .add_option("--format", options->format,
+                    "csv: numbers that read back exactly, a line each; 3mf: beams as a beam lattice")
+        ->check(CLI::IsMember({"csv", "3mf"}))
+        ->type_name("WORD");
+    command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
+    command.add_flag("--header", options->header, "Names of the columns in the first line");
+    finish_command(command,
+                   "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
+                   "  lamella dump beams insole.toml --format 3mf -o foam.3mf\n"
+                   "  lamella dump seeds insole.toml --header -o seeds.csv");
+    command.callback([options] { run(*options); });
+}
+
+}  // namespace lamella

@@ -1,0 +1,210 @@
+// `lamella homogenize`: how stiff the foam of a recipe is.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/commands/recipe_options.h"
+#include "app/console/interrupt.h"
+#include "app/console/progress.h"
+#include "app/console/text_output.h"
+#include "app/ranks/run_on_ranks.h"
+#include "app/ranks/spread_solves.h"
+#include "app/reports/stiffness_plot.h"
+#include "app/reports/stiffness_report.h"
+#include "engine/base/error.h"
+#include "recipe/base_material.h"
+#include "recipe/build/foam_modulus.h"
+#include "recipe/settings.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int samples_of_a_law = 4;
+
+struct HomogenizeCommand {
+    RecipeOptions recipe;
+    std::string output;
+    std::string ratios;
+    std::string plot;
+    StiffnessOptions options;
+    bool table = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// From beams that hardly print to those that leave little void.
+const std::vector<double> usual_ratios{0.03, 0.04, 0.055, 0.075, 0.1, 0.14, 0.19, 0.26};
+
+std::vector<double> ratios_of(const std::string& text) {
+    if (text.empty()) return usual_ratios;
+    const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
+    const auto ratios = parse_numbers(text, count);
+    if (!ratios || !std::ranges::is_sorted(*ratios, std::ranges::less_equal{}) || ratios->front() < 1e-3 ||
+        ratios->back() > 1)
+        throw InputError("--ratios: \"" + text.substr(0, 64) +
+                         "\"; accepted: rising numbers from 0.001 to 1, with commas between them");
+    return *ratios;
+}
+
+void draw(const HomogenizeCommand& command, const StiffnessPlot& plot) {
+    if (command.plot.empty()) return;
+    TextOutput out(command.plot);
+    out.write(stiffness_svg(plot));
+    out.close();
+}
+
+/// What a command comes to: the solves for one result, or for each point of a law.
+struct Homogenizing {
+    Recipe recipe;
+    StiffnessOptions options;
+    std::vector<double> ratios;  ///< of a law's points
+    std::vector<StiffnessSolve> solves;
+};
+
+/// What cannot be made is found out before anything is computed.
+Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel) {
+    Homogenizing plan{command.recipe.read(false), command.options, {}, {}};
+    const Recipe& recipe = plan.recipe;
+    StiffnessOptions& options = plan.options;
+    if (!recipe.foam)
+        throw InputError(
+            "[foam] is missing: there is nothing to homogenise; accepted: a recipe with one, or --cell and "
+            "--beam");
+    options.cancel = &cancel;
+    if (recipe.material) {
+        options.material = base_material(*recipe.material).elastic;
+        if (!(options.material.young > 0)) options.material.young = 1;  // results are shares of it
+    }
+    if (options.samples == 0) options.samples = command.table ? samples_of_a_law : 1;
+    check_uniform(*recipe.foam);
+    if (!command.table) {
+        plan.solves = foam_solves(recipe, options);
+        return plan;
+    }
+    plan.ratios = ratios_of(command.ratios);
+    for (const double ratio : plan.ratios) {
+        check_law_point(recipe, ratio);
+        std::ranges::copy(law_solves(recipe, ratio, options), std::back_inserter(plan.solves));
+    }
+    return plan;
+}
+
+/// Writes a law, each point as soon as it is known.
+void write_table(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+                 TextOutput& out) {
+    const std::string name = law_name(*plan.recipe.foam);
+    const std::vector<double>& ratios = plan.ratios;
+    const std::size_t each = plan.solves.size() / ratios.size();
+    out.write(law_heading());
+    StiffnessPlot plot{name, {}, plan.options.material, {}};
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        ProgressDisplay display(command.quiet,
+                                fmt::format("ratio {:.4g}, {} of {}: ", ratios[i], i + 1, ratios.size()));
+        const auto solved = solves.next(each, [&](double share) { display.show(share); });
+        plot.law.push_back(law_point(ratios[i], solved));
+        out.write(law_row(name, plot.law.back()));
+    }
+    draw(command, plot);
+}
+
+void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+                     TextOutput& out) {
+    const FoamRecipe& foam = *plan.recipe.foam;
+    const IsotropicMaterial& material = plan.options.material;
+    ProgressDisplay display(command.quiet);
+    const FoamStiffness found =
+        foam_stiffness(solves.next(plan.solves.size(), [&](double share) { display.show(share); }));
+    display.finish();
+    if (!command.plot.empty()) {
+        const ElasticTensor stiffness = found.stiffness();
+        const StiffnessPlot::Sample sample{found.mean(density_of), closest_isotropic(stiffness).young,
+                                           stiffness};
+        const auto law = known_law(foam);
+        draw(command, {fmt::format("{} foam, {:.3g} mm a sample", law_name(foam), found.period),
+                       law ? law->points : std::vector<FoamLawPoint>(), material, sample});
+    }
+    out.write(command.json ? stiffness_json(foam, material, found).dump(2) + "\n"
+                           : stiffness_text(foam, material, found));
+}
+
+/// `ranks`: the processes that share the solves; null where there is this one alone.
+void run(const HomogenizeCommand& command, Ranks* ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Homogenizing plan = planned(command, cancel);
+    TextOutput out(command.output);
+    SpreadSolves solves(ranks, plan.recipe, plan.solves, plan.options);
+    (command.table ? write_table : write_stiffness)(command, plan, solves, out);
+    solves.finish();
+    out.close();
+}
+
+/// What a process does that is not the first of several.
+void help(const HomogenizeCommand& command, Ranks& ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Homogenizing plan = planned(command, cancel);
+    help_with_solves(ranks, plan.recipe, plan.solves, plan.options);
+}
+
+}  // namespace
+
+void add_homogenize_command(CLI::App& root) {
+    auto options = std::make_shared<HomogenizeCommand>();
+    options->options.samples = 0;
+    CLI::App& command =
+        *root.add_subcommand("homogenize", "Compute how stiff the foam of a recipe is, to all sides");
+    options->recipe.add_to(command);
+    command
+        .add_option("--rve", options->options.elements,
+                    "Elements along a side of the sample, best a multiple of 16; 0: four a beam's radius, "
+                    "as far as a million solid ones suffice")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--samples", options->options.samples,
+                    "Samples of a random foam, of 64 cells or more each: their mean and how far single ones "
+                    "are from it; default 1, for a table 4")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    command.add_flag("--table", options->table,
+                     "The foam's law as a file for foam.law: its stiffness with members of many sizes");
+    command
+        .add_option("--ratios", options->ratios,
+                    "Radii of beams (thicknesses of walls) over cells in the table; default 0.03 to 0.26")
+        ->type_name("A,B,...");
+    command
+        .add_option(
+            "--plot", options->plot,
+            "Drawing (SVG) of the modulus over the density, beside bounds and the foam's law, and of the "
+            "modulus to all sides")
+        ->type_name("FILE");
+    command.add_option("--threads", options->options.threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
+    command.add_option("-o,--output", options->output, "File to write; default: standard output")
+        ->type_name("FILE");
+    command.add_flag("--json", options->json, "All of it for programs");
+    command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error but faults");
+    finish_command(
+        command,
+        "  lamella homogenize --cell 2 --beam 0.2 --young 2300 --poisson 0.35\n"
+        "  lamella homogenize insole.toml --samples 4 --json -o stiffness.json\n"
+        "  lamella homogenize gyroid.toml --rve 128 --plot gyroid.svg\n"
+        "  lamella homogenize mine.toml --table -o mine.csv\n"
+        "  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\n"
+        "A sample is one period of the foam's, a cube; a random foam is made to repeat for it. Sizes do\n"
+        "not matter, their ratio does: cells and beams twice as large are as stiff.\n"
+        "mpirun shares out whole samples, of a table those of all ratios: a single one keeps one process "
+        "busy.");
+    command.callback([options] {
+        const auto lead = [&](Ranks* ranks) { return run(*options, ranks), std::string(); };
+        run_on_ranks(lead, [&](Ranks& ranks) { help(*options, ranks); });
+    });
+}
+
+}  // namespace lamella

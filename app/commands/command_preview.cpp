@@ -1,0 +1,125 @@
+// `lamella preview`: a picture of the part, whole or cut open.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/commands/recipe_options.h"
+#include "app/console/text_output.h"
+#include "app/reports/modulus_paint.h"
+#include "engine/base/error.h"
+#include "engine/io/image_file.h"
+#include "recipe/build/build_process.h"
+#include "recipe/build/finish_job.h"
+#include "recipe/output/job_picture.h"
+
+namespace lamella {
+
+namespace {
+
+struct PreviewCommand {
+    RecipeOptions recipe;
+    PreviewOptions picture;
+    std::string output;
+    std::string cut = "x";
+    std::string paint = "none";
+    int size = 1024;
+    bool quiet = false;
+};
+
+/// Writes under a name of its own first, so that the picture appears complete. The ending tells
+/// the format and therefore stays last.
+void save(const Picture& image, const std::string& path) {
+    const std::filesystem::path final_path(path);
+    const std::filesystem::path unfinished =
+        final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
+    if (!is_image_name(path)) {
+        throw InputError("--output: " + path +
+                         " names no image format; accepted: a file ending in .png, .jpg, .tif, ...");
+    }
+    try {
+        write_image(unfinished.string(), {image.width, image.height, 3, image.rgb});
+    } catch (const FaultError&) {
+        std::error_code ignored;
+        std::filesystem::remove(unfinished, ignored);
+        throw;
+    }
+    std::error_code error;
+    std::filesystem::rename(unfinished, final_path, error);
+    if (error) throw FaultError(path + ": cannot be given its name: " + error.message());
+}
+
+void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
+    if (!built.modulus) {
+        throw InputError(
+            "--paint modulus: how stiff the foam gets is not known; accepted: [material] with the foam, and "
+            "foam.law where none ships");
+    }
+    options.picture.paint = modulus_paint(*built.foam->modulus, *built.modulus);
+    if (!options.quiet) std::fputs((modulus_legend(*built.modulus) + "\n").c_str(), stderr);
+}
+
+void run(PreviewCommand& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const Recipe recipe = options.recipe.read();
+    if (!options.quiet) note_unused(options.recipe, recipe);
+    BuiltJob built = build_job(recipe);
+    const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
+    options.picture.width = options.picture.height = options.size;
+    options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
+    if (options.paint == "modulus") paint_modulus(built, options);
+    const Surroundings around = finish_job(recipe, built, {});
+    save(render_job(recipe, built, around.supports, options.picture), path);
+    if (options.quiet) return;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::fputs(
+        fmt::format("{}: {} x {} pixels in {:.1f} s\n", path, options.size, options.size, seconds.count())
+            .c_str(),
+        stderr);
+}
+
+}  // namespace
+
+void add_preview_command(CLI::App& root) {
+    auto options = std::make_shared<PreviewCommand>();
+    CLI::App& command =
+        *root.add_subcommand("preview", "Make a shaded picture of the part, whole or cut open");
+    options->recipe.add_to(command);
+    command.add_option("-o,--output", options->output, "Picture file; default: the part's name and .png")
+        ->type_name("FILE");
+    command.add_option("--size", options->size, "Edge of the picture, px")
+        ->check(CLI::Range(16, 8192))
+        ->type_name("N");
+    command
+        .add_option("--cut", options->cut, "Axis along which the nearer part is cut away: x, y, z, or none")
+        ->check(CLI::IsMember({"x", "y", "z", "none"}))
+        ->type_name("WORD");
+    command
+        .add_option("--paint", options->paint,
+                    "modulus: colours for how stiff the foam gets, and for where it is not as asked")
+        ->check(CLI::IsMember({"none", "modulus"}))
+        ->type_name("WORD");
+    command.add_option("--cut-at", options->picture.cut_at, "Where it is cut, as a share of the part")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("X");
+    command.add_option("--azimuth", options->picture.azimuth, "Degrees that the eye walks round the part")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->type_name("DEG");
+    command
+        .add_option("--elevation", options->picture.elevation, "Degrees that the eye stands over the horizon")
+        ->check(CLI::Range(-89.0, 89.0))
+        ->type_name("DEG");
+    command.add_option("--threads", options->picture.threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
+    command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error");
+    finish_command(
+        command,
+        "  lamella preview insole.toml -o insole.png\n"
+        "  lamella preview model.stl --cell 3 --beam 0.5 --cut z --cut-at 0.7 --size 2048 -o open.png");
+    command.callback([options] { run(*options); });
+}
+
+}  // namespace lamella

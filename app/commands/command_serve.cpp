@@ -1,0 +1,79 @@
+// `lamella serve`: sections for other programs, through a pipe.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/commands/recipe_options.h"
+#include "app/console/text_output.h"
+#include "app/reports/section_server.h"
+#include "engine/base/error.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t longest_request = std::size_t{64} << 20;
+
+/// The next length on standard input, 4 bytes, the lowest first; nothing where it ends between requests.
+std::optional<std::size_t> read_length() {
+    std::array<unsigned char, 4> bytes{};
+    const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), stdin);
+    if (got == 0) return std::nullopt;
+    if (got < bytes.size()) throw InputError("standard input ends within the length of a request");
+    return bytes[0] | std::size_t{bytes[1]} << 8 | std::size_t{bytes[2]} << 16 | std::size_t{bytes[3]} << 24;
+}
+
+std::optional<std::string> read_request() {
+    const std::optional<std::size_t> length = read_length();
+    if (!length) return std::nullopt;
+    if (*length > longest_request) {
+        throw InputError(
+            fmt::format("a request of {} bytes; accepted: up to {}, each behind its length in 4 bytes, "
+                        "the lowest first",
+                        *length, longest_request));
+    }
+    std::string text(*length, '\0');
+    if (std::fread(text.data(), 1, text.size(), stdin) < text.size())
+        throw InputError("standard input ends within a request");
+    return text;
+}
+
+void write_reply(TextOutput& out, const ServerReply& reply) {
+    const std::string head = reply.head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string length;
+    for (int shift = 0; shift < 32; shift += 8) length += static_cast<char>(head.size() >> shift & 0xff);
+    out.write(length + head + reply.body);
+    out.flush();
+}
+
+void run() {
+    SectionServer server;
+    TextOutput out("");
+    while (!server.has_ended()) {
+        const std::optional<std::string> request = read_request();
+        if (!request) break;
+        write_reply(out, server.answer(*request));
+    }
+    out.close();
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& root) {
+    CLI::App& command =
+        *root.add_subcommand("serve", "Answer another program's requests for sections, through a pipe");
+    auto stdio = std::make_shared<bool>(false);
+    command.add_flag("--stdio", *stdio, "Requests on standard input, replies on standard output")->required();
+    finish_command(
+        command,
+        "  lamella serve --stdio\n"
+        "A request is its length (4 bytes, the lowest first) and so many bytes of JSON; a reply the "
+        "same, with\nas many bytes of numbers behind it as its `bytes` says. The README lists the "
+        "methods.");
+    command.callback([] { run(); });
+}
+
+}  // namespace lamella

@@ -1,0 +1,307 @@
+// `lamella slice`: streams the layers of a recipe or a model to a printer's back-end.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
+#include "app/console/interrupt.h"
+#include "app/console/progress.h"
+#include "app/console/text_output.h"
+#include "app/ranks/run_on_ranks.h"
+#include "app/ranks/spread_layers.h"
+#include "app/reports/check_outputs.h"
+#include "app/reports/island_report.h"
+#include "app/reports/job_report.h"
+#include "bindings/plugin.h"
+#include "engine/base/error.h"
+#include "engine/layers/layer_stream.h"
+#include "printers/archive/shard_file.h"
+#include "printers/registry.h"
+#include "recipe/base_material.h"
+#include "recipe/build/repair_job.h"
+#include "recipe/output/beam_output.h"
+#include "recipe/output/outputs.h"
+#include "recipe/output/render_alone.h"
+
+namespace lamella {
+
+namespace {
+
+struct SliceOptions : JobOptions {
+    std::vector<std::string> output;
+    std::vector<std::string> plugins;
+    std::string shard;
+    bool force = false;
+    bool json = false;
+    bool check = false;
+    std::string repeat;  ///< the command line that continues this run
+};
+
+std::int64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// What a run made and what is to be said of it.
+struct Written {
+    std::optional<BeamLatticeReport> beams;
+    std::vector<std::string> notes;
+    std::vector<CheckOutcome> checks;  ///< by output; empty where none was asked for
+};
+
+/// Of a part's volume (mm^3), g; 0 where the material's density is not known.
+double mass_of(const Recipe& recipe, double volume) {
+    constexpr double mm3_per_cm3 = 1000;
+    return recipe.material ? base_material(*recipe.material).density * volume / mm3_per_cm3 : 0;
+}
+
+void summarise(const SliceOptions& options, const std::vector<Output>& outputs, const BuiltJob& built,
+               const StreamReport& report, const ProgressDisplay& display, const Written& written,
+               const Recipe& recipe) {
+    const std::optional<BeamLatticeReport>& beams = written.beams;
+    const double seconds = display.seconds();
+    if (options.json) {
+        nlohmann::ordered_json summary{
+            {"output", options.shard.empty() ? outputs.front().path : options.shard},
+            {"identity", built.job.identity},
+            {"layers", report.layers_written},
+            {"layers_kept", report.layers_kept},
+            {"seconds", seconds},
+            {"first_layer_seconds", display.first_layer_seconds()},
+            {"peak_memory_bytes", peak_memory_bytes()},
+            {"volume_mm3", report.volume}};
+        for (std::size_t i = 1; i < outputs.size(); ++i) summary["more_outputs"].push_back(outputs[i].path);
+        if (const double mass = mass_of(recipe, report.volume); mass > 0) summary["mass_g"] = mass;
+        if (!built.job.notes.empty()) summary["job_notes"] = built.job.notes;
+        if (built.job.supports) summary["support_volume_mm3"] = report.support_volume;
+        if (built.drains) summary["drains"] = drains_json(*built.drains);
+        if (built.cavities) summary["cavities"] = cavities_json(*built.cavities);
+        if (built.dowels) summary["dowels"] = dowels_json(*built.dowels);
+        if (built.islands) summary["islands"] = islands_json(*built.islands);
+        if (built.repairs) summary["repairs"] = repairs_json(*built.repairs);
+        if (beams) {
+            summary["beams"] = {{"output", recipe.output.beams},
+                                {"beams", beams->beams},
+                                {"nodes", beams->vertices},
+                                {"too_short", beams->dropped}};
+        }
+        if (!written.notes.empty()) summary["notes"] = written.notes;
+        for (const CheckOutcome& checked : written.checks)
+            summary["checks"].push_back(check_json(checked, built.job));
+        TextOutput out("");
+        out.write(summary.dump(2) + "\n");
+        out.close();
+    }
+    if (options.quiet) return;
+    for (const std::string& note : written.notes) std::fputs(("note: " + note + "\n").c_str(), stderr);
+    const std::string kept = report.layers_kept > 0 ? fmt::format(" ({} kept)", report.layers_kept) : "";
+    const std::string supports =
+        built.job.supports ? fmt::format(" and {:.1f} mm3 of supports", report.support_volume) : "";
+    const double grams = mass_of(recipe, report.volume);
+    const std::string mass = grams > 0 ? fmt::format(", {:.3g} g", grams) : "";
+    std::string paths;
+    if (!options.shard.empty()) paths = options.shard;
+    for (const Output& output : options.shard.empty() ? outputs : std::vector<Output>())
+        paths += (paths.empty() ? "" : ", ") + (output.path == "-" ? "standard output" : output.path);
+    std::fputs(fmt::format("{}: {} layers{} in {:.2f} s, {:.1f} mm3 of material{}{}, {} MiB at most\n", paths,
+                           report.layers_written, kept, seconds, report.volume, mass, supports,
+                           peak_memory_bytes() >> 20)
+                   .c_str(),
+               stderr);
+    for (const Output& output : outputs) {
+        if (output.open) continue;
+        if (const char* warning = find_backend(output.printer.backend).warning)
+            std::fputs(fmt::format("{}: {}\n", output.path, warning).c_str(), stderr);
+    }
+    if (beams) std::fputs((lattice_text(recipe.output.beams, *beams) + "\n").c_str(), stderr);
+    for (const CheckOutcome& checked : written.checks)
+        std::fputs(("\n" + check_text(checked)).c_str(), stderr);
+}
+
+/// What a check of the machines fails for; empty when nothing. What to do about it is the user's to say.
+std::string failures_text(const std::vector<CheckOutcome>& checks) {
+    std::string text;
+    for (const CheckOutcome& checked : checks) {
+        if (!checked.report.passed()) text += failure_text(checked) + "\n";
+    }
+    return text.empty() ? text : text + "all layers have been written all the same";
+}
+
+std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
+    std::vector<OutsideBackend> plugins;
+    plugins.reserve(options.plugins.size());
+    for (const std::string& path : options.plugins) plugins.push_back(load_plugin(path));
+    std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles(), plugins);
+    const auto is_outside = [](const Output& output) { return static_cast<bool>(output.open); };
+    if (!plugins.empty() && std::ranges::none_of(outputs, is_outside)) {
+        throw InputError(fmt::format(
+            "--plugin {}: no output is for it; accepted: -o PATH@{}{}", options.plugins.front(),
+            plugins.front().name,
+            plugins.front().ending.empty() ? "" : ", or a path that ends in " + plugins.front().ending));
+    }
+    return outputs;
+}
+
+/// Standard output takes the layers and nothing else.
+void check_standard_output(const SliceOptions& options) {
+    if (options.json) {
+        throw InputError(
+            "--json: its summary goes to standard output, which -o - fills with the layers; name a "
+            "file with -o, or leave --json out");
+    }
+    if (options.resume)
+        throw InputError("--resume: standard output cannot be continued; name a file with -o");
+}
+
+/// What cannot be shared among processes.
+void check_sharing(const SliceOptions& options, const Ranks* ranks) {
+    if (!options.shard.empty() && options.check)
+        throw InputError(
+            "--check: it looks at all layers, of which a shard has some; accepted: one of the two");
+    if (ranks == nullptr) return;
+    if (!options.shard.empty())
+        throw InputError("--shard: mpirun joins by itself what its processes make; accepted: one of the two");
+    if (!options.plugins.empty())
+        throw InputError(
+            "--plugin: what a plugin makes of a layer stays in its process; accepted: one process, or "
+            "lamella's own printers");
+}
+
+/// Where the layers go: the outputs, or a shard of what they would get.
+std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vector<Output>& outputs,
+                                   const Job& job) {
+    if (options.shard.empty()) return make_outputs(outputs, options.force);
+    return make_shard_writer(make_renderer(outputs, {0, job.layer_count}), options.shard,
+                             settings_of(outputs), options.force);
+}
+
+/// The outputs with the checks beside them that were asked for.
+std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& checking,
+                                     const SliceOptions& options, const Recipe& recipe,
+                                     const std::vector<Output>& outputs, const Job& job) {
+    if (!options.check) return to;
+    const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
+    return checking.beside(std::move(to), outputs, recipe.part.name, job, parts);
+}
+
+/// `ranks`: the processes that share the layers; null where there is this one alone.
+std::string run(const SliceOptions& options, Ranks* ranks) {
+    check_sharing(options, ranks);
+    const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
+    if (to_pipe) check_standard_output(options);
+    ProgressDisplay display(options.quiet);
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = options.recipe.read();
+    const std::vector<Output> outputs = outputs_of(options, recipe);
+    if (options.check && !options.layers.empty()) {
+        throw InputError(
+            "--check: it looks at all layers, which --layers leaves out; accepted: one of the two");
+    }
+    const PreparedJob prepared = prepare_job(options, recipe, cancel);
+    const BuiltJob& built = prepared.built;
+    StreamOptions stream = prepared.stream;
+    // Of several runs for ranges of layers, the first writes the beams.
+    const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
+    if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
+    stream.on_progress = [&](const Progress& progress) { display.show(progress); };
+    StreamReport report;
+    std::vector<std::string> notes;
+    std::vector<CheckOutcome> checks;
+    try {
+        OutputChecks checking;
+        auto backend = with_checks(layers_to(options, outputs, built.job), checking, options, recipe, outputs,
+                                   built.job);
+        report = ranks ? spread_layers(*ranks, built.job, backend, stream)
+                       : stream_layers(built.job, *backend, stream);
+        notes = backend->notes();
+        checks = checking.outcomes();
+    } catch (const Interrupted&) {
+        display.finish();
+        if (to_pipe) throw Interrupted("interrupted; standard output holds a part of the layers");
+        throw Interrupted("interrupted; what is finished is kept. To go on: " + options.repeat);
+    }
+    display.finish();
+    std::optional<BeamLatticeReport> beams;
+    if (with_beams) beams = write_beam_output(recipe, built);
+    summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
+    return failures_text(checks);
+}
+
+/// What a process does that is not the first of several. What is wrong, the first one finds out as well.
+void help(const SliceOptions& given, Ranks& ranks) {
+    SliceOptions options = given;
+    options.quiet = true;
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = options.recipe.read();
+    const std::vector<Output> outputs = outputs_of(options, recipe);
+    const PreparedJob prepared = prepare_job(options, recipe, cancel);
+    const Job& job = prepared.built.job;
+    OutputChecks checking;
+    auto renderer =
+        with_checks(make_renderer(outputs, prepared.stream.range), checking, options, recipe, outputs, job);
+    render_blocks(ranks, job, std::move(renderer), prepared.stream);
+}
+
+}  // namespace
+
+void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments) {
+    auto options = std::make_shared<SliceOptions>();
+    options->repeat = resuming(arguments);
+    CLI::App& command = *root.add_subcommand("slice", "Turn a recipe or a model into printable layers");
+    options->recipe.add_to(command);
+    command
+        .add_option("-o,--output", options->output,
+                    "File or folder to make, \"-\" for standard output; default: the part's name. Several, "
+                    "each with -o, are made in one "
+                    "run; the ending chooses the format, @PROFILE another machine")
+        ->type_name("PATH[@PROFILE]")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--plugin", options->plugins,
+            "A shared library with a printer of its own, for an output that ends as its files do or has "
+            "@ and its name; several, each with --plugin")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--shard", options->shard,
+            "Pack the layers of --layers into this file instead, for `lamella join` to make the outputs of")
+        ->type_name("FILE");
+    add_job_options(command, *options);
+    command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
+    command.add_flag("--force", options->force, "Replace an output that exists");
+    command.add_flag("--check", options->check,
+                     "See on the way whether the part can be printed, as `lamella check` does; exit code 1 "
+                     "when it cannot, with all layers written");
+    command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
+    command.add_flag("--json", options->json, "A summary of the run on standard output");
+    finish_command(
+        command,
+        "  lamella slice insole.toml -o insole/\n"
+        "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --layer-height 0.05 --printer png -o out/\n"
+        "  lamella slice --shape sphere --shape-radius 10 --printer svg -o sphere.svg\n"
+        "  lamella slice insole.toml -o insole.sl1@prusa-sl1s -o insole.gcode@marlin\n"
+        "  lamella slice insole.toml --layers 100:200 --json\n"
+        "  lamella slice insole.toml --check -o insole.sl1\n"
+        "  lamella slice insole.toml --printer ember -o - | ssh printer 'cat > insole.tar.gz'\n"
+        "  lamella slice insole.toml -o insole.sl1 --layers 0:400 --shard first.shard\n"
+        "  mpirun -n 4 lamella slice insole.toml -o insole.sl1\n"
+        "Ctrl-C stops cleanly; the same command with --resume goes on.");
+    command.callback([options] {
+        run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
+                     [&](Ranks& ranks) { help(*options, ranks); });
+    });
+}
+
+}  // namespace lamella

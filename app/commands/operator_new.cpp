@@ -1,0 +1,37 @@
+// The command's own operator new: large blocks from pages of their own, the rest from the C library's heap.
+#include <cstdlib>
+#include <new>
+
+#include "app/console/large_blocks.h"
+
+namespace {
+
+// Addresses only; a process has 2^47.
+constexpr std::size_t room = std::size_t{1} << 40;
+
+// Never destroyed: blocks are freed until the process ends.
+lamella::LargeBlocks& large_blocks() {
+    alignas(lamella::LargeBlocks) static std::byte storage[sizeof(lamella::LargeBlocks)];
+    static auto* const blocks = new (storage) lamella::LargeBlocks(room);
+    return *blocks;
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+    if (bytes >= lamella::LargeBlocks::least_bytes) {
+        if (void* block = large_blocks().allocate(bytes)) return block;
+    }
+    if (void* block = std::malloc(bytes == 0 ? 1 : bytes)) return block;
+    throw std::bad_alloc();
+}
+
+void operator delete(void* block) noexcept {
+    if (large_blocks().owns(block)) {
+        large_blocks().free(block);
+    } else {
+        std::free(block);
+    }
+}
+
+void operator delete(void* block, std::size_t) noexcept { operator delete(block); }

@@ -1,0 +1,153 @@
+// Surveys, supports and plates before the first layer.
+#include "app/commands/prepare_job.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/console/progress.h"
+#include "app/reports/grading_report.h"
+#include "app/reports/island_report.h"
+#include "app/reports/job_report.h"
+#include "engine/layers/plate.h"
+#include "recipe/build/repair_job.h"
+#include "recipe/layer_range.h"
+#include "recipe/output/job_picture.h"
+#include "recipe/printer_choice.h"
+#include "recipe/read_recipe.h"
+
+namespace lamella {
+
+namespace {
+
+std::string shell_quoted(const std::string& argument) {
+    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./:,@%";
+    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
+    std::string text = "'";
+    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+/// The recipes of what stands beside the part, with its machine, layers and supports.
+std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) {
+    std::vector<Recipe> recipes;
+    for (const std::string& input : options.beside) {
+        Recipe recipe = read_recipe(input, options.recipe.profiles());
+        recipe.printer = first.printer;
+        recipe.layer_height = first.layer_height;
+        recipe.support = first.support;
+        recipes.push_back(std::move(recipe));
+    }
+    return recipes;
+}
+
+/// Makes the job one of all parts and their copies.
+void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
+                const JobOptions& options, const CancelToken& cancel) {
+    std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
+    for (const Recipe& other : others) {
+        BuiltJob beside = build_job(other);
+        finish_with_progress(other, beside, options, cancel);
+        items.push_back({beside.job, other.plate.copies});
+    }
+    built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
+}
+
+}  // namespace
+
+Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
+                                  const CancelToken& cancel) {
+    std::optional<ProgressDisplay> display;
+    std::string shown;
+    const auto show = [&](const std::string& what, const Progress& progress) {
+        if (what != shown) display.emplace(options.quiet, "survey for " + what + ": ");
+        shown = what;
+        display->show(progress);
+    };
+    Surroundings around = finish_job(recipe, built, {options.plans, options.threads, show, &cancel});
+    display.reset();
+    if (options.quiet) return around;
+    if (built.islands && recipe.foam && recipe.foam->drop_islands)
+        std::fputs(("islands: " + islands_text(*built.islands) + "\n").c_str(), stderr);
+    if (built.repairs) std::fputs(("repairs:\n" + repairs_text(*built.repairs)).c_str(), stderr);
+    if (around.supports) std::fputs(("supports: " + supports_text(*around.supports)).c_str(), stderr);
+    if (around.shield) std::fputs(("shield: " + shield_text(*around.shield) + "\n").c_str(), stderr);
+    return around;
+}
+
+std::string resuming(const std::vector<std::string>& arguments) {
+    std::string line = "lamella";
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        if (arguments[i] != "--resume" && arguments[i] != "--force") line += " " + shell_quoted(arguments[i]);
+    }
+    return line + " --resume";
+}
+
+PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel) {
+    BuiltJob built = build_job(recipe);
+    if (!options.quiet) note_unused(options.recipe, recipe);
+    if (built.mesh && !options.quiet) {
+        for (const std::string& note : built.mesh->notes) {
+            std::fputs((built.mesh->path + ": " + note + "\n").c_str(), stderr);
+        }
+    }
+    if (!options.quiet) {
+        for (const GradingReport& graded : grading_reports(built)) {
+            for (const std::string& line : warnings(graded)) std::fputs((line + "\n").c_str(), stderr);
+        }
+    }
+    if (!options.quiet) {
+        for (const std::string& line : built.job.notes) std::fputs((line + "\n").c_str(), stderr);
+    }
+    if (!options.quiet) {
+        for (const std::string& line : built.regions.warnings) std::fputs((line + "\n").c_str(), stderr);
+    }
+    if (built.drains && !options.quiet)
+        std::fputs(("drains: " + drains_text(*built.drains) + "\n").c_str(), stderr);
+    if (built.cavities && !options.quiet)
+        std::fputs(("cavities: " + cavities_text(*built.cavities) + "\n").c_str(), stderr);
+    if (built.dowels && !options.quiet)
+        std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
+    std::vector<Recipe> others = read_beside(options, recipe);
+    // Surveys take time: what is wrong should be known before them.
+    parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
+    const Surroundings around = finish_with_progress(recipe, built, options, cancel);
+    add_picture(recipe, built, around.supports, options.threads);
+    if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
+    StreamOptions stream;
+    stream.range = parse_layers(options.layers, built.job.layer_count);
+    stream.threads = options.threads;
+    stream.look_ahead = options.look_ahead;
+    stream.resume = options.resume;
+    stream.cancel = &cancel;
+    return {std::move(built), stream};
+}
+
+void add_job_options(CLI::App& command, JobOptions& options) {
+    command
+        .add_option("--layers", options.layers,
+                    "Layers A up to, not including, B, counted from 0; default: all")
+        ->type_name("A:B");
+    command
+        .add_option(
+            "--beside", options.beside,
+            "Another recipe or model on the same plate; with several, --beside stands before each. It "
+            "is cut and supported as the first one says")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--look-ahead", options.look_ahead, "Layers in flight at most; 0: two a thread")
+        ->check(CLI::Range(0, 4096));
+    add_survey_options(command, options);
+}
+
+void add_survey_options(CLI::App& command, JobOptions& options) {
+    command.add_option("--threads", options.threads, "Threads to use; 0: one a core")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--plans", options.plans,
+                    "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "
+                    "default: lamella/plans in the user's cache")
+        ->type_name("DIR");
+}
+
+}  // namespace lamella

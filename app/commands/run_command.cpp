@@ -1,0 +1,83 @@
+// Parsing the command line, and running what it asks for.
+#include "app/commands/run_command.h"
+
+#include "app/commands/commands.h"
+#include "app/commands/recipe_options.h"
+#include "app/console/complaint.h"
+#include "app/console/text_output.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int bad_input = 2;
+
+/// The deepest subcommand that was named: its help is the one asked for.
+const CLI::App& chosen(const CLI::App& root) {
+    const auto named = root.get_subcommands();
+    return named.empty() ? root : chosen(*named.front());
+}
+
+int print(const std::string& text) {
+    TextOutput output("");
+    output.write(text);
+    output.close();
+    return 0;
+}
+
+int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend() - 1);
+    try {
+        root.parse(reversed);
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        return print(chosen(root).help());
+    } catch (const CLI::CallForVersion&) {
+        return print("lamella " LAMELLA_VERSION "\n");
+    } catch (const CLI::ParseError& error) {
+        const CLI::App& command = chosen(root);
+        const std::string name = &command == &root ? "lamella" : "lamella " + command.get_name();
+        return complain(std::string(error.what()) + "; `" + name + " --help` shows what is accepted",
+                        bad_input);
+    }
+}
+
+}  // namespace
+
+int run_command(const std::vector<std::string>& arguments) {
+    try {
+        CLI::App root(
+            "Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
+            "lamella");
+        root.require_subcommand(1);
+        finish_command(
+            root,
+            "  lamella slice insole.toml -o insole/\n"
+            "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
+            "  lamella slice --help      all options of one command\n"
+            "  lamella keys              all keys of a recipe\n"
+            "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
+            "130 interrupted.");
+        add_slice_command(root, arguments);
+        add_join_command(root, arguments);
+        add_print_command(root, arguments);
+        add_ports_command(root);
+        add_preview_command(root);
+        add_info_command(root);
+        add_extract_command(root);
+        add_section_command(root);
+        add_dump_command(root);
+        add_supports_command(root);
+        add_check_command(root);
+        add_serve_command(root);
+        add_homogenize_command(root);
+        add_printers_command(root);
+        add_materials_command(root);
+        add_keys_command(root);
+        return parse_and_run(root, arguments);
+    } catch (...) {
+        return complain_of_exception();
+    }
+}
+
+}  // namespace lamella

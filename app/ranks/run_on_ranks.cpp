@@ -1,0 +1,31 @@
+// The first rank leads.
+#include "app/ranks/run_on_ranks.h"
+
+#include "app/console/complaint.h"
+#include "app/ranks/rank_failure.h"
+#include "engine/base/error.h"
+
+namespace lamella {
+
+void run_on_ranks(const LeadRanks& lead, const HelpRank& help) {
+    const std::unique_ptr<Ranks> ranks = started_ranks();
+    std::string violated;
+    if (!ranks) {
+        violated = lead(nullptr);
+    } else if (ranks->rank() > 0) {
+        try {
+            tell_failures(*ranks, [&] { help(*ranks); });
+        } catch (const Interrupted&) {
+            return;  // as the first rank will say
+        }
+    } else {
+        try {
+            violated = lead(ranks.get());
+        } catch (...) {
+            ranks->abort(complain_of_exception());
+        }
+    }
+    if (!violated.empty()) throw ConstraintError(violated);
+}
+
+}  // namespace lamella

@@ -1,0 +1,22 @@
+// Waiting for other processes.
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+#include "engine/base/cancel_token.h"
+
+namespace lamella {
+
+/// Asks until there is an answer, now and then, so that no processor is kept busy by waiting. Throws
+/// Interrupted when cancelled.
+template <typename Ask>
+auto wait_for(const Ask& ask, const CancelToken* cancel) {
+    for (;;) {
+        if (auto found = ask()) return found;
+        stop_if_cancelled(cancel);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+}
+
+}  // namespace lamella

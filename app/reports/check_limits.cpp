@@ -1,0 +1,81 @@
+// The machine's limits, the job's layers, and what changes verdicts.
+#include "app/reports/check_limits.h"
+
+#include <cmath>
+
+#include "printers/masks/mask.h"
+#include "printers/registry.h"
+#include "recipe/build/build_supports.h"
+
+namespace lamella {
+namespace {
+
+Verdict& verdict_of(PrintLimits& limits, Check check) {
+    return limits.verdicts[static_cast<std::size_t>(check)];
+}
+
+/// Parts side by side are no fault of any of them.
+void allow_several(CheckPlan& plan, int parts) {
+    if (parts < 2) return;
+    bool asked = false;
+    for (const Check check : {Check::connectivity, Check::sheets}) {
+        Verdict& verdict = verdict_of(plan.options.limits, check);
+        asked = asked || verdict != Verdict::off;
+        verdict = Verdict::off;
+    }
+    if (asked) {
+        plan.notes.push_back(
+            "Several parts stand on the plate: whether each of them is one piece is not "
+            "looked at; `lamella check` looks at the part alone.");
+    }
+}
+
+/// Faults that the output mends by itself, or that its back-end refuses anyhow.
+void note_ties(CheckPlan& plan, const PrinterProfile& printer) {
+    if (plan.process != Process::cutting || printer.cutting.ties != Ties::join) return;
+    if (plan.options.limits.verdict(Check::sheets) == Verdict::off) return;
+    plan.notes.push_back("Ties join the loose pieces of a sheet (printer.ties).");
+}
+
+void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
+    if (printer.cutting.sheet.empty() || plan.process != Process::cutting) return;
+    plan.notes.push_back("Whether each layer fits a sheet is seen when the layers are laid out.");
+}
+
+/// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of
+/// them serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
+void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
+    constexpr double least_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
+    if (find_backend(printer.backend).medium != Medium::pixels) return;
+    std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
+    if (!lines) return;
+    const double pitch = std::abs(lines->line_pitch());
+    lines->step = static_cast<int>(options.pitch / pitch * (1 + 1e-9));
+    const double found = lines->step * pitch;
+    if (found < least_share * options.pitch) return;
+    options.lines = lines;
+    options.pitch = found;
+}
+
+}  // namespace
+
+CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts) {
+    CheckPlan plan;
+    plan.process = process_of(printer);
+    PrintLimits& limits = plan.options.limits;
+    limits = process_limits(printer);
+    limits.overhang = printable_overhang(printer, job.layer_height);
+    limits.build_volume = build_room(printer, job.layer_height);
+    if (limits.build_volume == dvec3(infinity)) verdict_of(limits, Check::build_volume) = Verdict::off;
+    plan.options.most_places = static_cast<std::size_t>(printer.check.places);
+    allow_several(plan, parts);
+    note_ties(plan, printer);
+    note_sheets(plan, printer);
+    plan.options.pitch = printer.check.pitch;
+    if (plan.options.pitch > 0) return plan;
+    plan.options.pitch = check_pitch(job, limits);
+    lie_on_masks(plan.options, printer, job);
+    return plan;
+}
+
+}  // namespace lamella

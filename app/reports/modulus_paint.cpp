@@ -1,0 +1,51 @@
+// Five colours and what lies between them.
+#include "app/reports/modulus_paint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lamella {
+
+namespace {
+
+/// Dark blue over green to yellow, evenly brighter, also for those who do not tell red from green.
+constexpr std::array<dvec3, 5> scale{dvec3{0.058, 0.001, 0.089},
+                                     {0.043, 0.084, 0.258},
+                                     {0.015, 0.278, 0.262},
+                                     {0.107, 0.584, 0.122},
+                                     {0.984, 0.800, 0.019}};
+constexpr dvec3 softer{0.85, 0.03, 0.03}, stiffer{0.9, 0.9, 0.9};
+
+dvec3 on_scale(double share) {
+    const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(scale.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(place), scale.size() - 2);
+    const double t = place - static_cast<double>(i);
+    return scale[i] * (1 - t) + scale[i + 1] * t;
+}
+
+}  // namespace
+
+std::function<dvec3(dvec3)> modulus_paint(const BuiltModulus& modulus, const ModulusReport& report) {
+    const double low = std::log(report.predicted.lo), width = std::log(report.predicted.hi) - low;
+    return [modulus, low, width](dvec3 p) {
+        const double made = modulus.made->at(p);
+        if (modulus.asked) {
+            const double asked = modulus.asked->asked->at(p);
+            if (made < asked * (1 - modulus_tolerance)) return softer;
+            if (made > asked * (1 + modulus_tolerance)) return stiffer;
+        }
+        return on_scale(width > 0 ? (std::log(made) - low) / width : 0.5);
+    };
+}
+
+std::string modulus_legend(const ModulusReport& report) {
+    std::string text = fmt::format("colours: {:.3g} MPa dark blue to {:.3g} MPa yellow", report.predicted.lo,
+                                   report.predicted.hi);
+    if (report.is_asked) text += "; red where the foam gets softer than asked, white where stiffer";
+    return text;
+}
+
+}  // namespace lamella

@@ -1,0 +1,77 @@
+// A summary with bounds and tensor; all of it as JSON.
+#include "app/reports/stiffness_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+
+namespace lamella {
+
+std::string stiffness_text(const FoamRecipe& foam, const IsotropicMaterial& material,
+                           const FoamStiffness& found) {
+    const ElasticTensor c = found.stiffness();
+    const double density = found.mean(density_of), solid = material.young;
+    const IsotropicMaterial closest = closest_isotropic(c), bound = hashin_shtrikman(material, density);
+    const auto line = [&](const char* name, double value, double spread, const char* more) {
+        const std::string about = found.samples.size() > 1 ? fmt::format(" +- {:.2g}", spread) : "";
+        return fmt::format("{:<18}{:.5g}{}{}\n", name, value, about, more);
+    };
+    const bool one = found.samples.size() == 1;
+    std::string text = fmt::format(
+        "{} foam: {} of {:.4g} mm, {} elements along a side, of a material with E = {:.6g} "
+        "and nu = {:.4g}\n\n",
+        foam.kind, one ? "a sample" : fmt::format("{} samples", found.samples.size()), found.period,
+        found.elements, solid, material.poisson);
+    text += line("density", density, found.spread(density_of), " of the solid");
+    text += line("E", closest.young, found.spread(young_of),
+                 fmt::format(", {:.4g} % of the material's", 100 * closest.young / solid).c_str());
+    text += line("nu", closest.poisson, found.spread(poisson_of), "");
+    text += line("G", closest.shear(), found.spread(shear_of), "");
+    text += line("K", closest.bulk(), found.spread(bulk_of), "");
+    text += fmt::format("{:<18}{:.2f} % from isotropic", "anisotropy", 100 * anisotropy(c));
+    const Interval e = directional_moduli(compliance_of(c));
+    text += fmt::format(", E from {:.5g} to {:.5g} by direction\n", e.lo, e.hi);
+    text += fmt::format("{:<18}E at most {:.5g} (Voigt), isotropic {:.5g} (Hashin and Shtrikman)\n\n",
+                        "bounds", density * solid, bound.young);
+    text += "stiffness          xx          yy          zz          xy          yz          zx\n";
+    const std::array<const char*, 6> names{"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (std::size_t i = 0; i < 6; ++i) {
+        text += fmt::format("{:>9}", names[i]);
+        for (const double v : c[i]) text += fmt::format("{:>12.5g}", v);
+        text += "\n";
+    }
+    return text;
+}
+
+nlohmann::ordered_json stiffness_json(const FoamRecipe& foam, const IsotropicMaterial& material,
+                                      const FoamStiffness& found) {
+    const ElasticTensor c = found.stiffness();
+    const IsotropicMaterial closest = closest_isotropic(c);
+    auto samples = nlohmann::ordered_json::array();
+    for (const Homogenized& sample : found.samples) {
+        samples.push_back({{"density", sample.density},
+                           {"iterations", sample.iterations},
+                           {"E", young_of(sample)},
+                           {"nu", poisson_of(sample)},
+                           {"stiffness", sample.stiffness}});
+    }
+    const Interval e = directional_moduli(compliance_of(c));
+    return {{"foam", foam.kind},
+            {"period_mm", found.period},
+            {"elements", found.elements},
+            {"material", {{"E", material.young}, {"nu", material.poisson}}},
+            {"density", found.mean(density_of)},
+            {"E", closest.young},
+            {"nu", closest.poisson},
+            {"G", closest.shear()},
+            {"K", closest.bulk()},
+            {"anisotropy", anisotropy(c)},
+            {"E_least", e.lo},
+            {"E_greatest", e.hi},
+            {"E_hashin_shtrikman", hashin_shtrikman(material, found.mean(density_of)).young},
+            {"stiffness", c},
+            {"samples", std::move(samples)}};
+}
+
+}  // namespace lamella

@@ -1,0 +1,16 @@
+// What homogenisation found, for people and for programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "recipe/build/foam_stiffness.h"
+
+namespace lamella {
+
+std::string stiffness_text(const FoamRecipe& foam, const IsotropicMaterial& material,
+                           const FoamStiffness& found);
+nlohmann::ordered_json stiffness_json(const FoamRecipe& foam, const IsotropicMaterial& material,
+                                      const FoamStiffness& found);
+
+}  // namespace lamella

@@ -1,0 +1,59 @@
+#include "engine/checks/thickness_check.h"
+
+#include <algorithm>
+
+#include "engine/morphology/layer_opening.h"
+
+namespace lamella {
+namespace {
+
+constexpr double check_slack_share = 1.5;  // of a ball's radius; see Thinness
+
+/// Of how many layers one is looked at. They need not lie closer than rows do.
+int layers_for(const CheckGrid& grid, double thickness_up) {
+    const double apart = std::min(grid.band.across_pitch, thickness_up / pitches_in_a_thickness);
+    return std::max(1, static_cast<int>(apart / grid.layer_height * (1 + 1e-9)));
+}
+
+}  // namespace
+
+ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
+                               Medium medium, std::size_t most)
+    : medium_(medium),
+      sampling_{1, layers_for(grid, thickness_up)},
+      found_(grid, sampling_, layer_count, thickness, most) {
+    const SampledBall ball = sampled_ball(grid.band, sampling_.of(grid).layer_height, thickness, thickness_up);
+    // A pitch besides, by which rows see late what is opened.
+    measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
+    row_pitch_ = ball.lattice.row_pitch;
+    if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)
+        neighbours_.emplace(ball.lattice, measure_, medium);
+}
+
+SpanRows ThicknessCheck::prepare(const SpanRows& rows, const LayerCells& cells) const {
+    SpanRows found;
+    if (neighbours_) return found;
+    thin_rows(rows, cells, medium_, measure_, row_pitch_, found);
+    return found;
+}
+
+void ThicknessCheck::add(const SpanRows& rows, const SpanRows& prepared) {
+    if (!neighbours_) return found_.add(prepared, next_++);
+    if (!sampling_.samples(pushed_++)) return;
+    neighbours_->push(rows);
+    take();
+}
+
+void ThicknessCheck::finish() {
+    if (neighbours_) {
+        neighbours_->finish();
+        take();
+    }
+    found_.finish();
+}
+
+void ThicknessCheck::take() {
+    for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
+}
+
+}  // namespace lamella

@@ -1,0 +1,47 @@
+// The void of each layer joined to that of the one before.
+#include "engine/checks/void_check.h"
+
+#include "engine/runs/row_sets.h"
+
+namespace lamella {
+namespace {
+
+constexpr std::uint32_t joined_outside = 1, on_bed = 2;
+
+}  // namespace
+
+LabelledLayer VoidCheck::label(const SpanRows& solid, const CheckGrid& grid, int layer) {
+    const SpanRows voids = complement(solid, 0, grid.band.hi * run_unit);
+    return label_layer(voids, layer, Growth{});
+}
+
+void VoidCheck::add(LabelledLayer voids, int layer) {
+    ComponentTags tags;
+    tags.flags.assign(voids.components.size(), layer == 0 ? on_bed : 0);
+    tags.flags[voids.row(0).front().component] |= joined_outside;
+    ended_.clear();
+    voids_.add(std::move(voids), layer, tags, ended_);
+    for (const EndedComponent& ended : ended_) judge(ended, false);
+}
+
+void VoidCheck::finish() {
+    ended_.clear();
+    voids_.finish(ended_);
+    for (const EndedComponent& ended : ended_) judge(ended, true);
+}
+
+void VoidCheck::judge(const EndedComponent& ended, bool at_the_top) {
+    const PassingComponent& component = ended.component;
+    if ((component.flags & joined_outside) != 0) return;
+    if (ended.joined && (ended.joined_flags & joined_outside) == 0) return;
+    const bool closed = !ended.joined && !at_the_top && (component.flags & on_bed) == 0;
+    Fault fault = grid_.fault(component);
+    fault.size = grid_.volume(component.extent.length);
+    if (closed) {
+        if (fault.size >= least_cavity_) cavities_.add(std::move(fault));
+    } else if (fault.size >= least_cup_) {
+        cups_.add(std::move(fault));
+    }
+}
+
+}  // namespace lamella

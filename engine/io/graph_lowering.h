@@ -1,0 +1,71 @@
+// Implicit functions as formulas: every call is written out, every value taken apart into numbers.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/field/grading.h"
+#include "engine/io/graph_check.h"
+
+namespace lamella {
+
+/// A function whose graph has been checked.
+struct CheckedFunction {
+    GraphFunction function;
+    CheckedGraph graph;  ///< of an ImplicitGraph
+    std::string where;   ///< for messages: "part.3mf: function 5 \"sphere\""
+};
+
+/// What functions take from outside of themselves. The gradings are asked in the coordinates of the caller:
+/// those of the model for meshes, uvw for images.
+struct GraphResources {
+    /// The function of that number; null when there is none.
+    std::function<const CheckedFunction*(std::int64_t id)> function;
+    /// The signed distance to a mesh, or the one without a sign. Throws InputError that says what is wrong.
+    std::function<GradingPtr(std::int64_t object, bool with_sign)> mesh;
+    /// A channel, 0 to 3 for red to alpha, of the image: 0 to 1, before scale and offset. Tiles `none` clamp.
+    std::function<GradingPtr(const ImageFunction& image, int channel)> image;
+};
+
+/// Lowers functions into one builder. What is no formula becomes a further input of it: `others` grows by a
+/// grading that is asked at the builder's inputs 0 to 2.
+class GraphLowering {
+  public:
+    using Values = std::map<std::string, GraphValue, std::less<>>;
+
+    GraphLowering(FormulaBuilder& builder, std::vector<GradingPtr>& others, const GraphResources& resources)
+        : builder_(builder), others_(others), resources_(resources) {}
+
+    /// The wanted outputs of a function, at most all. Throws InputError for arguments that are missing,
+    /// surplus or of the wrong type, outputs and resources that do not exist, functions that call themselves,
+    /// and for what is larger or nested deeper than is sensible.
+    Values call(const CheckedFunction& function, const Values& arguments,
+                std::span<const std::string> wanted);
+
+  private:
+    Values call_graph(const CheckedFunction& function, const Values& arguments,
+                      std::span<const std::string> wanted);
+    Values call_image(const ImageFunction& image, const GraphValue& place,
+                      std::span<const std::string> wanted);
+    std::vector<GraphValue> evaluate(const CheckedFunction& in, std::uint32_t node,
+                                     std::span<const GraphValue> inputs);
+    std::vector<GraphValue> call_node(const CheckedFunction& in, const GraphNode& node,
+                                      std::span<const GraphValue> inputs);
+    FormulaBuilder::Node sample(const std::string& name, const std::function<GradingPtr()>& make,
+                                const GraphValue& place);
+
+    FormulaBuilder& builder_;
+    std::vector<GradingPtr>& others_;
+    const GraphResources& resources_;
+    std::set<std::int64_t> open_;  ///< functions that are being called
+    std::size_t evaluated_ = 0;    ///< nodes, in all calls
+    std::map<std::string, GradingPtr> sources_;
+    std::map<std::pair<std::string, std::array<FormulaBuilder::Node, 3>>, FormulaBuilder::Node> samples_;
+    std::vector<int> depth_;  ///< of each of `others`: samples whose places depend on samples
+};
+
+}  // namespace lamella

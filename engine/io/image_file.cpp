@@ -1,0 +1,47 @@
+// The image library, loaded when it is first needed.
+#include "engine/io/image_file.h"
+
+#include "engine/base/error.h"
+#include "engine/base/module_file.h"
+
+namespace lamella {
+namespace {
+
+const ImageLibrary& load() {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): a loader knows no types
+    const auto library = reinterpret_cast<ImageLibraryFunction>(module_function(
+        "liblamella_images.so", image_library_symbol, ModuleScope::own, "images cannot be read or written",
+        "it belongs to lamella and lies beside its libraries, or in a folder that "
+        "LD_LIBRARY_PATH names"));
+    return *library();
+}
+
+/// Loaded once and never unloaded; threads that come first together wait for each other.
+const ImageLibrary& library() {
+    static const ImageLibrary& loaded = load();
+    return loaded;
+}
+
+}  // namespace
+
+std::unique_ptr<ImageReader> open_images(const std::string& path) { return library().open(path); }
+
+std::unique_ptr<ImageReader> open_images(const std::string& name, std::string_view bytes, std::string& why) {
+    return library().open_bytes(name, bytes, why);
+}
+
+std::vector<std::byte> encode_image(const std::string& name, const ImageData& image) {
+    std::vector<std::byte> file;
+    const std::string why = library().encode(name, image, file);
+    if (!why.empty()) throw FaultError("the image " + name + " cannot be made: " + why);
+    return file;
+}
+
+bool is_image_name(const std::string& path) { return library().knows(path); }
+
+void write_image(const std::string& path, const ImageData& image) {
+    const std::string why = library().write(path, image);
+    if (!why.empty()) throw FaultError(path + ": cannot be written: " + why);
+}
+
+}  // namespace lamella

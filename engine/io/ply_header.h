@@ -1,0 +1,65 @@
+// The header of a PLY file: which elements there are, and how their properties are stored.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/io/mesh_source.h"
+
+namespace lamella::ply {
+
+/// How the values behind the header are written.
+enum class Encoding { text, little_endian, big_endian };
+
+/// A type of number.
+struct Scalar {
+    std::size_t bytes = 0;
+    enum class Kind { signed_integer, unsigned_integer, real } kind = Kind::real;
+};
+
+/// A number, or a list of numbers, that every row of an element has.
+struct Property {
+    std::string name;
+    std::optional<Scalar> count;  // lists only
+    Scalar value;
+};
+
+/// A table of rows: vertices, faces and whatever else a program writes.
+struct Element {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+
+    /// False when a row takes row_bytes() bytes in every binary file, else that many at least.
+    bool has_lists() const {
+        return std::any_of(properties.begin(), properties.end(),
+                           [](const Property& p) { return p.count.has_value(); });
+    }
+    std::size_t row_bytes() const {
+        std::size_t bytes = 0;
+        for (const Property& p : properties) bytes += p.count ? p.count->bytes : p.value.bytes;
+        return bytes;
+    }
+    /// The property's place in a row; properties.size() when there is none of this name.
+    std::size_t index_of(std::string_view property) const {
+        const auto found = std::find_if(properties.begin(), properties.end(),
+                                        [&](const Property& p) { return p.name == property; });
+        return static_cast<std::size_t>(found - properties.begin());
+    }
+    bool has(std::string_view property) const { return index_of(property) < properties.size(); }
+};
+
+/// All of a header that counts.
+struct Header {
+    Encoding encoding = Encoding::text;
+    std::vector<Element> elements;
+    std::size_t data_at = 0;  ///< offset of the first byte behind the header
+};
+
+/// Reads the header of a file that begins with "ply" and a line end. Throws InputError with the line.
+Header read_header(const MeshSource& source);
+
+}  // namespace lamella::ply

@@ -1,0 +1,68 @@
+// 3MF: the triangles of the core specification's objects, where build items and components place them.
+#include <algorithm>
+#include <map>
+
+#include "engine/io/model_3mf.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t most_triangles = 50'000'000;
+constexpr std::string_view harmless[] = {"/production/", "/material/", "/trianglesets/"};
+
+class Reader3mf {
+  public:
+    explicit Reader3mf(const MeshSource& source) : source_(source), model_(source, harmless) {}
+
+    MeshFile read() {
+        model_.require_items();
+        model_.for_each_placed([this](const PlacedObject& placed) {
+            for (const pugi::xml_node& child : placed.object.children()) {
+                if (local_name(child) == "levelset" &&
+                    namespace_of(child).find("/volumetric/") != std::string::npos)
+                    model_.reject_at(placed.part, child,
+                                     "a level set is no mesh; a [[field]] of kind 3mf reads it");
+            }
+            if (const pugi::xml_node mesh = core_child(placed.object, "mesh")) add(placed, mesh);
+        });
+        std::vector<std::string> notes = model_.left_out();
+        note_left_out(notes, outside_, "triangle", "pointing to vertices that do not exist");
+        return welder_.finish(source_, std::move(notes));
+    }
+
+  private:
+    void add(const PlacedObject& placed, const pugi::xml_node& node) {
+        const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
+        if (fresh) entry->second = read_object_mesh(model_, placed.part, node);
+        const ObjectMesh& mesh = entry->second;
+        if (welder_.offered() + mesh.triangles.size() > most_triangles)
+            reject(source_, "it places more than 50,000,000 triangles");
+        std::vector<std::uint32_t> welded;
+        welded.reserve(mesh.vertices.size());
+        for (const dvec3& p : mesh.vertices)
+            welded.push_back(welder_.vertex(placed.transform(p) * model_.unit_mm()));
+        const bool mirrored = placed.transform.determinant() < 0.0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            if (std::max({a, b, c}) >= welded.size()) {
+                ++outside_;
+            } else if (mirrored) {
+                welder_.triangle(welded[a], welded[c], welded[b]);
+            } else {
+                welder_.triangle(welded[a], welded[b], welded[c]);
+            }
+        }
+    }
+
+    const MeshSource& source_;
+    Model3mf model_;
+    std::map<const void*, ObjectMesh> meshes_;
+    MeshWelder welder_;
+    std::size_t outside_ = 0;
+};
+
+}  // namespace
+
+MeshFile read_3mf(const MeshSource& source) { return Reader3mf(source).read(); }
+
+}  // namespace lamella

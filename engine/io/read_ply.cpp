@@ -1,0 +1,346 @@
+// PLY, as text and as little-endian or big-endian binary.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/base/whole_file.h"
+#include "engine/io/mesh_attribute.h"
+#include "engine/io/mesh_source.h"
+#include "engine/io/ply_header.h"
+#include "engine/mesh/triangulate.h"
+
+namespace lamella {
+
+namespace {
+
+using ply::Element, ply::Encoding, ply::Header, ply::Property, ply::Scalar;
+
+/// Gives the values of the body one after another; `ok` turns false at the end of the data.
+class BodyCursor {
+  public:
+    BodyCursor(const MeshSource& source, const Header& header)
+        : source_(source),
+          encoding_(header.encoding),
+          text_(source.bytes, header.data_at),
+          at_(header.data_at) {}
+
+    bool ok() const { return ok_; }
+    std::size_t bytes_left() const { return source_.bytes.size() - offset(); }
+    Encoding encoding() const { return encoding_; }
+
+    double value(const Scalar& scalar) {
+        if (!ok_) return 0.0;
+        return encoding_ == Encoding::text ? text_value() : binary_value(scalar);
+    }
+
+    void skip_bytes(std::size_t bytes) { at_ += bytes; }
+
+    std::string where() const {
+        return encoding_ == Encoding::text ? "line " + std::to_string(text_.line())
+                                           : "byte " + std::to_string(at_);
+    }
+
+  private:
+    std::size_t offset() const { return encoding_ == Encoding::text ? text_.offset() : at_; }
+
+    double text_value() {
+        const std::string_view token = text_.token();
+        const auto number = parse_double(token);
+        if (number) return *number;
+        ok_ = false;
+        if (!text_.at_end()) reject(source_, where() + ": " + excerpt(token) + " is not a number");
+        return 0.0;
+    }
+
+    double binary_value(const Scalar& scalar) {
+        if (source_.bytes.size() - at_ < scalar.bytes) {
+            ok_ = false;
+            return 0.0;
+        }
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < scalar.bytes; ++i) {
+            const std::size_t byte = encoding_ == Encoding::little_endian ? scalar.bytes - 1 - i : i;
+            bits = bits << 8U | static_cast<unsigned char>(source_.bytes[at_ + byte]);
+        }
+        at_ += scalar.bytes;
+        if (scalar.kind == Scalar::Kind::unsigned_integer) return static_cast<double>(bits);
+        if (scalar.kind == Scalar::Kind::real && scalar.bytes == 8) return std::bit_cast<double>(bits);
+        if (scalar.kind == Scalar::Kind::real) {
+            return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        }
+        const std::uint64_t sign = std::uint64_t{1} << (8 * scalar.bytes - 1);
+        return static_cast<double>(static_cast<std::int64_t>(bits ^ sign) - static_cast<std::int64_t>(sign));
+    }
+
+    const MeshSource& source_;
+    Encoding encoding_;
+    TextCursor text_;
+    std::size_t at_;
+    bool ok_ = true;
+};
+
+class PlyReader {
+  public:
+    explicit PlyReader(const MeshSource& source)
+        : source_(source), header_(ply::read_header(source)), body_(source, header_) {}
+
+    MeshFile read() {
+        read_elements();
+        return build();
+    }
+
+    /// Strict where read() mends: a number must not end up at another corner.
+    AttributedMesh read_with(const std::string& attribute) {
+        choose(attribute);
+        read_elements();
+        if (!notes_.empty()) reject(source_, notes_.front());
+        if (!has_faces_) reject(source_, without_faces());
+        AttributedMesh out;
+        out.mesh.vertices = std::move(vertices_);
+        out.values = std::move(values_);
+        cut_faces(out.mesh);
+        return out;
+    }
+
+  private:
+    void read_elements() {
+        for (const Element& element : header_.elements) {
+            if (element.name == "vertex") {
+                read_vertices(element);
+            } else if (element.name == "face") {
+                read_faces(element);
+            } else {
+                skip(element);
+            }
+            if (!body_.ok()) break;
+        }
+    }
+
+    /// Finds the property to be read at each vertex, and what one stands for.
+    void choose(const std::string& attribute) {
+        std::string names;
+        for (const Element& element : header_.elements) {
+            if (element.name != "vertex") continue;
+            if (!names.empty()) reject(source_, "its header announces vertices twice");
+            for (const Property& p : element.properties) {
+                if (p.name == "x" || p.name == "y" || p.name == "z" || p.count) continue;
+                names += (names.empty() ? "" : ", ") + excerpt(p.name);
+                if (p.name != attribute) continue;
+                attribute_ = element.index_of(attribute);
+                const bool channel =
+                    attribute == "red" || attribute == "green" || attribute == "blue" || attribute == "alpha";
+                if (channel && p.value.kind != Scalar::Kind::real) full_scale_ = greatest(p.value);
+            }
+        }
+        if (attribute_ != none) return;
+        reject(source_, "its vertices have no number named " + excerpt(attribute) + "; there " +
+                            (names.empty() ? "is none beside x, y and z" : "are " + names));
+    }
+
+    static double greatest(const Scalar& scalar) {
+        const std::size_t bits = 8 * scalar.bytes - (scalar.kind == Scalar::Kind::signed_integer ? 1 : 0);
+        return static_cast<double>((std::uint64_t{1} << bits) - 1);
+    }
+
+    /// How many rows can be there at most, so that no announced count makes us allocate.
+    std::size_t possible_rows(const Element& element) const {
+        const std::size_t least =
+            body_.encoding() == Encoding::text ? 2 * element.properties.size() : element.row_bytes();
+        return least == 0 ? 0 : std::min(element.count, body_.bytes_left() / least + 1);
+    }
+
+    void read_vertices(const Element& element) {
+        const std::size_t x = element.index_of("x");
+        const std::size_t y = element.index_of("y");
+        const std::size_t z = element.index_of("z");
+        if (std::max({x, y, z}) >= element.properties.size()) {
+            reject(source_, "its vertices lack one of the properties x, y and z");
+        }
+        vertices_.reserve(possible_rows(element));
+        for (std::size_t row = 0; row < element.count; ++row) {
+            dvec3 p(0.0);
+            double number = 0.0;
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const double value = read_property(element.properties[i], nullptr);
+                if (i == x) p.x = value;
+                if (i == y) p.y = value;
+                if (i == z) p.z = value;
+                if (i == attribute_) number = value;
+            }
+            if (!body_.ok()) cut_off(element, row);
+            if (!body_.ok()) return;
+            vertices_.push_back(p * source_.unit_mm);
+            if (attribute_ != none)
+                values_.push_back(std::isfinite(number) ? number / full_scale_ : std::nan(""));
+        }
+    }
+
+    void read_faces(const Element& element) {
+        const std::size_t list = element.has("vertex_indices") ? element.index_of("vertex_indices")
+                                                               : element.index_of("vertex_index");
+        if (list >= element.properties.size() || !element.properties[list].count) {
+            reject(source_, "its faces lack the list property vertex_indices");
+        }
+        has_faces_ = true;
+        face_ends_.reserve(possible_rows(element));
+        for (std::size_t row = 0; row < element.count; ++row) {
+            const std::size_t begin = corners_.size();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                read_property(element.properties[i], i == list ? &corners_ : nullptr);
+            }
+            if (!body_.ok()) corners_.resize(begin);
+            if (!body_.ok()) cut_off(element, row);
+            if (!body_.ok()) return;
+            face_ends_.push_back(corners_.size());
+        }
+    }
+
+    void skip(const Element& element) {
+        if (element.name == "tristrips") has_strips_ = true;
+        if (element.properties.empty()) return;
+        if (body_.encoding() != Encoding::text && !element.has_lists()) {
+            const std::size_t rows = std::min(element.count, body_.bytes_left() / element.row_bytes());
+            body_.skip_bytes(rows * element.row_bytes());
+            if (rows < element.count) cut_off(element, rows);
+            return;
+        }
+        for (std::size_t row = 0; row < element.count && body_.ok(); ++row) {
+            for (const Property& property : element.properties) read_property(property, nullptr);
+            if (!body_.ok()) cut_off(element, row);
+        }
+    }
+
+    /// A scalar's value, or a list whose values go to `list` (when given) as indices.
+    double read_property(const Property& property, std::vector<std::int64_t>* list) {
+        if (!property.count) return body_.value(property.value);
+        const double length = body_.value(*property.count);
+        if (!(length >= 0.0 && length <= 1e9)) {
+            reject(source_, body_.where() + ": a list of impossible length");
+        }
+        for (auto left = static_cast<std::size_t>(length); left > 0 && body_.ok(); --left) {
+            const double value = body_.value(property.value);
+            if (list) list->push_back(std::abs(value) < 1e15 ? static_cast<std::int64_t>(value) : -1);
+        }
+        return length;
+    }
+
+    void cut_off(const Element& element, std::size_t rows) {
+        notes_.push_back("the file is cut off: its header announces " +
+                         counted(element.count, element.name + " element") + ", only " + grouped(rows) +
+                         (rows == 1 ? " is" : " are") + " there whole");
+    }
+
+    std::string without_faces() const {
+        if (!notes_.empty()) return notes_.front();
+        if (has_strips_) {
+            return "its triangles are stored as strips (tristrips), which are not read; export it with plain "
+                   "faces";
+        }
+        return "it holds points but no faces";
+    }
+
+    /// Cuts the faces into triangles over the vertices as they stand; leaves out triangles without extent.
+    void cut_faces(TriangleMesh& mesh) const {
+        std::vector<dvec3> loop;
+        std::vector<std::array<std::uint32_t, 3>> cut;
+        std::size_t begin = 0;
+        for (std::size_t face = 0; face < face_ends_.size(); begin = face_ends_[face++]) {
+            loop.clear();
+            for (std::size_t i = begin; i < face_ends_[face]; ++i) {
+                loop.push_back(checked_corner(mesh, face, corners_[i]));
+            }
+            cut.clear();
+            triangulate_loop(loop, cut);
+            for (const auto& t : cut) {
+                if (loop[t[0]] == loop[t[1]] || loop[t[1]] == loop[t[2]] || loop[t[2]] == loop[t[0]])
+                    continue;
+                mesh.triangles.push_back({static_cast<std::uint32_t>(corners_[begin + t[0]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[1]]),
+                                          static_cast<std::uint32_t>(corners_[begin + t[2]])});
+            }
+        }
+        if (mesh.triangles.empty()) reject(source_, "none of its faces has an extent");
+    }
+
+    dvec3 checked_corner(const TriangleMesh& mesh, std::size_t face, std::int64_t corner) const {
+        const auto fail = [&](const std::string& what) {
+            reject(source_, "face " + grouped(face + 1) + " " + what);
+        };
+        if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.vertices.size()) {
+            fail("points to a vertex that does not exist");
+        }
+        const dvec3 p = mesh.vertices[static_cast<std::size_t>(corner)];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(p[axis]) <= max_coordinate)) {
+                fail("has a corner that is NaN, infinite or absurdly large");
+            }
+        }
+        return p;
+    }
+
+    MeshFile build() {
+        if (!has_faces_) reject(source_, without_faces() + ", so there is nothing to print");
+        PolygonWelder welder(std::move(vertices_));
+        std::size_t begin = 0;
+        std::size_t bad_index = 0;
+        std::size_t too_short = 0;
+        std::vector<std::uint32_t> polygon;
+        for (const std::size_t end : face_ends_) {
+            polygon.clear();
+            bool known = true;
+            for (; begin < end; ++begin) {
+                known = known && corners_[begin] >= 0 &&
+                        static_cast<std::size_t>(corners_[begin]) < welder.vertex_count();
+                polygon.push_back(static_cast<std::uint32_t>(corners_[begin]));
+            }
+            if (!known) ++bad_index;
+            if (known && polygon.size() < 3) ++too_short;
+            if (known && polygon.size() >= 3) welder.polygon(polygon);
+        }
+        note(bad_index, "pointed to vertices that do not exist");
+        note(too_short, "had fewer than 3 corners");
+        return welder.finish(source_, std::move(notes_));
+    }
+
+    void note(std::size_t count, const std::string& why) {
+        if (count == 0) return;
+        notes_.push_back(grouped(count) + " of " + counted(face_ends_.size(), "face") + " " + why + " and " +
+                         (count == 1 ? "was" : "were") + " left out");
+    }
+
+    const MeshSource& source_;
+    Header header_;
+    BodyCursor body_;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::size_t attribute_ = none;
+    double full_scale_ = 1.0;
+    std::vector<dvec3> vertices_;
+    std::vector<double> values_;
+    std::vector<std::int64_t> corners_;
+    std::vector<std::size_t> face_ends_;
+    std::vector<std::string> notes_;
+    bool has_faces_ = false;
+    bool has_strips_ = false;
+};
+
+}  // namespace
+
+MeshFile read_ply(const MeshSource& source) { return PlyReader(source).read(); }
+
+AttributedMesh read_ply_attribute(std::string_view name, std::span<const std::byte> bytes,
+                                  const std::string& attribute, double unit_mm) {
+    const MeshSource source = mesh_source(name, bytes, unit_mm);
+    if (!source.bytes.starts_with("ply\n") && !source.bytes.starts_with("ply\r")) {
+        reject(source,
+               "a PLY file begins with a line \"ply\", and this one does not; no other mesh format "
+               "is read for numbers at its vertices");
+    }
+    return PlyReader(source).read_with(attribute);
+}
+
+AttributedMesh read_ply_attribute(const std::string& path, const std::string& attribute, double unit_mm) {
+    const std::string bytes = whole_file(path, "a PLY file");
+    return read_ply_attribute(path, std::as_bytes(std::span(bytes)), attribute, unit_mm);
+}
+
+}  // namespace lamella

@@ -1,0 +1,184 @@
+// STL, the binary form and the text form.
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cstring>
+
+#include "engine/io/mesh_source.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t header_bytes = 84;
+constexpr std::size_t record_bytes = 50;
+
+std::uint32_t little_u32(const char* p) {
+    unsigned char b[4];
+    std::memcpy(b, p, 4);
+    return static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
+           static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+}
+
+double little_float(const char* p) { return static_cast<double>(std::bit_cast<float>(little_u32(p))); }
+
+std::size_t exact_size(std::string_view bytes) {
+    return header_bytes + record_bytes * static_cast<std::size_t>(little_u32(bytes.data() + 80));
+}
+
+bool same_word(std::string_view token, std::string_view lower) {
+    return token.size() == lower.size() &&
+           std::equal(token.begin(), token.end(), lower.begin(), [](char a, char b) {
+               return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
+           });
+}
+
+/// How many whole triangles to take, with a note where the header's count and the length disagree.
+std::size_t usable_records(const MeshSource& source, std::vector<std::string>& notes) {
+    const std::size_t announced = little_u32(source.bytes.data() + 80);
+    const std::size_t room = source.bytes.size() - header_bytes;
+    const std::size_t whole = room / record_bytes;
+    if (announced > whole) {
+        notes.push_back("the file is cut off: its header announces " + counted(announced, "triangle") +
+                        ", only " + grouped(whole) + (whole == 1 ? " is" : " are") + " there whole");
+        return whole;
+    }
+    if (announced == 0 && whole > 0) {
+        notes.push_back("the header announces 0 triangles, but " + grouped(whole) +
+                        (whole == 1 ? " follows" : " follow") + "; they were read");
+        return whole;
+    }
+    if (const std::size_t extra = room - announced * record_bytes; extra > 0) {
+        notes.push_back(counted(extra, "byte") + " after the last triangle " + (extra == 1 ? "was" : "were") +
+                        " ignored");
+    }
+    return announced;
+}
+
+MeshFile read_binary(const MeshSource& source) {
+    if (source.bytes.size() < header_bytes) {
+        reject(source, "the file has only " + counted(source.bytes.size(), "byte") +
+                           "; a binary STL begins with a header of 84 bytes, a text STL with \"solid\"");
+    }
+    std::vector<std::string> notes;
+    const std::size_t count = usable_records(source, notes);
+    MeshWelder welder(count / 2 + 2);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* record = source.bytes.data() + header_bytes + i * record_bytes + 12;
+        std::uint32_t corner[3];
+        for (std::uint32_t& c : corner) {
+            c = welder.vertex(
+                dvec3(little_float(record), little_float(record + 4), little_float(record + 8)) *
+                source.unit_mm);
+            record += 12;
+        }
+        welder.triangle(corner[0], corner[1], corner[2]);
+    }
+    return welder.finish(source, std::move(notes));
+}
+
+/// The text form: a keyword decides what follows, line ends do not matter except behind a solid's name.
+class AsciiStl {
+  public:
+    explicit AsciiStl(const MeshSource& source) : source_(source), text_(source.bytes) {
+        if (source.bytes.starts_with("\xef\xbb\xbf")) text_ = TextCursor(source.bytes, 3);
+    }
+
+    MeshFile read() {
+        for (std::string_view word = text_.token(); !word.empty() && !cut_off_; word = text_.token())
+            take(word);
+        if (corners_ > 0 || cut_off_) {
+            notes_.push_back("the file is cut off in the middle of triangle " +
+                             grouped(welder_.offered() + 1) + "; the whole triangles before it were read");
+        }
+        return welder_.finish(source_, std::move(notes_));
+    }
+
+  private:
+    void take(std::string_view word) {
+        if (same_word(word, "vertex")) {
+            take_vertex();
+        } else if (same_word(word, "endloop") || same_word(word, "endfacet") || same_word(word, "facet")) {
+            end_loop();
+            if (same_word(word, "facet")) skip_normal();
+        } else if (same_word(word, "solid") || same_word(word, "endsolid") || same_word(word, "color")) {
+            end_loop();
+            text_.skip_line();
+        } else if (!same_word(word, "outer") && !same_word(word, "loop")) {
+            refuse(word, "a keyword of a text STL (facet, outer loop, vertex, endloop, endfacet)");
+        }
+    }
+
+    void take_vertex() {
+        double v[3] = {};
+        for (double& coordinate : v) {
+            const std::string_view token = text_.token();
+            const auto number = parse_double(token);
+            if (number && text_.at_end()) cut_off_ = true;  // its last digits may be missing
+            if (!number) refuse(token, "a coordinate (three numbers follow \"vertex\")");
+            if (cut_off_) return;
+            coordinate = *number;
+        }
+        if (corners_ == 3) {
+            reject(source_, "line " + std::to_string(text_.line()) +
+                                ": a fourth corner in one facet; the facets of an STL are triangles");
+        }
+        corner_[corners_++] = welder_.vertex(dvec3(v[0], v[1], v[2]) * source_.unit_mm);
+    }
+
+    void skip_normal() {
+        // The normal is not used, and exporters write anything there; the winding says which way is out.
+        TextCursor ahead = text_;
+        if (!same_word(ahead.token(), "normal")) return;
+        for (int i = 0; i < 3; ++i) ahead.token();
+        text_ = ahead;
+    }
+
+    void end_loop() {
+        if (corners_ == 0) return;
+        if (corners_ != 3) {
+            reject(source_, "line " + std::to_string(text_.line()) + ": a facet with only " +
+                                counted(corners_, "corner") + "; the facets of an STL are triangles");
+        }
+        welder_.triangle(corner_[0], corner_[1], corner_[2]);
+        corners_ = 0;
+    }
+
+    void refuse(std::string_view token, const std::string& expected) {
+        if (text_.at_end()) {
+            cut_off_ = true;
+            return;
+        }
+        reject(source_, "line " + std::to_string(text_.line()) + ": " + excerpt(token) + " where " + expected +
+                            " was expected");
+    }
+
+    const MeshSource& source_;
+    TextCursor text_;
+    MeshWelder welder_;
+    std::vector<std::string> notes_;
+    std::uint32_t corner_[3] = {};
+    std::size_t corners_ = 0;
+    bool cut_off_ = false;
+};
+
+}  // namespace
+
+bool is_exact_binary_stl(std::string_view bytes) {
+    return bytes.size() >= header_bytes && exact_size(bytes) == bytes.size();
+}
+
+bool is_ascii_stl(std::string_view bytes) {
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+    if (is_exact_binary_stl(bytes) || !same_word(TextCursor(bytes).token(), "solid")) return false;
+    // Binary headers begin with "solid" too, but no text holds a zero byte, and no triangle is free of them
+    // for long.
+    constexpr std::size_t probe = 1024;
+    return bytes.substr(0, probe).find('\0') == bytes.npos;
+}
+
+MeshFile read_stl(const MeshSource& source) {
+    return is_ascii_stl(source.bytes) ? AsciiStl(source).read() : read_binary(source);
+}
+
+}  // namespace lamella

@@ -1,0 +1,49 @@
+// Layers of a job.
+#include "engine/layers/layer.h"
+
+#include "engine/base/error.h"
+
+namespace lamella {
+
+int count_layers(double part_height, double h) {
+    if (!(part_height > 0) || !std::isfinite(part_height))
+        throw InputError("the part has no height to cut into layers");
+    if (!(h > 0) || !std::isfinite(h)) throw InputError("the layer height must be positive");
+    // A part that is a whole number of layers high up to rounding gets no extra sliver on top.
+    constexpr double share_of_layer = 1e-6;
+    const double count = std::ceil(part_height / h - share_of_layer);
+    constexpr double most_layers = 10'000'000;
+    if (count > most_layers)
+        throw InputError("the layer height is too small for the part: more than 10 million layers");
+    return std::max(1, static_cast<int>(count));
+}
+
+Layer::Layer(const Job& job, int index, const CancelToken* cancel)
+    : job_(&job), index_(index), cancel_(cancel), z_(job.plane(index)), thickness_(job.layer_height) {}
+
+const SliceField& Layer::part_at(double share) const { return context_.slice(*job_->part, height_of(share)); }
+
+const SliceField* Layer::supports_at(double share) const {
+    return job_->supports ? &context_.slice(*job_->supports, height_of(share)) : nullptr;
+}
+
+void Layer::keep_lines(const RowBand& wanted) const {
+    part_lines_.emplace_back(wanted);
+    if (job_->supports) support_lines_.emplace_back(wanted);
+}
+
+std::span<KeptLines> Layer::lines_to_keep(const SliceField& slice) const {
+    if (part_lines_.empty()) return {};
+    if (&slice == &part()) return part_lines_;
+    if (&slice == supports()) return support_lines_;
+    return {};
+}
+
+const SpanRows* Layer::kept_lines(const SliceField& slice, const RowBand& wanted) const {
+    for (const KeptLines& lines : lines_to_keep(slice)) {
+        if (lines.wanted() == wanted && lines.rows() != nullptr) return lines.rows();
+    }
+    return nullptr;
+}
+
+}  // namespace lamella

@@ -1,0 +1,49 @@
+// Rows of whole layers for surveys, and the stack of them that a survey keeps as it goes.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/field/slice_context.h"
+#include "engine/layers/layer_stream.h"
+#include "engine/runs/run_boxes.h"
+
+namespace lamella {
+
+/// Rows along x over a rectangle, `pitch` mm from one to the next: the first begins at its lower side, run
+/// coordinate 0 at its left one.
+RowBand rows_over(const Rect& rect, double pitch);
+
+/// All rows of a band, from its first one on; the slice is asked piece by piece, so that what it works with
+/// stays in the cache.
+SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
+
+/// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job (island_pitches)
+/// or lie further apart than an outline moves by from one course of layers to the next, `step` mm.
+void check_course_pitch(const char* survey, const Job& job, double pitch, double step);
+
+/// The rows of layers, from the lowest on. Memory: eight bytes a run and four a row, and while boxes are made
+/// of them another 48 a run; all of it is counted from the beginning.
+class LayerStack {
+  public:
+    /// Throws InputError as soon as more than `most_bytes` would be needed; `pitch`, mm, is for its message.
+    LayerStack(std::size_t most_bytes, double pitch) : most_bytes_(most_bytes), pitch_(pitch) {}
+
+    std::size_t size() const { return layers_.size(); }
+    const SpanRows& operator[](std::size_t i) const { return layers_[i]; }
+    void push(const SpanRows& rows);
+    void replace(std::size_t i, const SpanRows& rows);
+    /// The sum of the lengths of all runs, run units.
+    std::int64_t total_length() const;
+    /// Boxes as long as the runs; layer i is layer i of the grid, line l its row l.
+    RunBoxes boxes(const SurveyGrid& grid) const;
+
+  private:
+    static std::size_t bytes(const SpanRows& rows);
+
+    std::size_t most_bytes_, bytes_ = 0;
+    double pitch_;
+    std::vector<SpanRows> layers_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,24 @@
+// Closing what is open: the net boundary of a mesh, cut into loops and capped.
+#pragma once
+
+#include <cstddef>
+
+#include "engine/mesh/mesh.h"
+
+namespace lamella {
+
+/// Makes the mesh a chain without boundary: afterwards every directed edge (u, v) occurs as often as (v, u).
+/// The net boundary of any set of triangles is a cycle, so it falls apart into simple loops, and each is
+/// triangulated against its direction. No vertex is added. O(n log n) in the length of the boundary.
+/// Returns how many triangles were added at the end of the mesh.
+std::size_t cap_holes(TriangleMesh& mesh);
+
+/// What the last `caps` triangles of a mesh close.
+struct Holes {
+    std::size_t wide = 0;  ///< holes one could see
+    std::size_t hairlines =
+        0;  ///< thinner than 1e-4 of the bounding box's diagonal, as T-junctions leave them
+};
+Holes holes_under(const TriangleMesh& mesh, std::size_t caps);
+
+}  // namespace lamella

@@ -1,0 +1,29 @@
+// The section of a closed mesh with a plane, as runs by winding number.
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh/triangle_tree.h"
+#include "engine/runs/runs.h"
+#include "engine/solids/plane_index.h"
+
+namespace lamella {
+
+/// The directed segments in which a closed chain of triangles meets a plane. A point is solid where the
+/// section's winding number round it is not 0, which is the mesh's winding number there: nested shells,
+/// overlaps and mended holes come out right.
+class MeshSection {
+  public:
+    /// triangles: at least all triangles that meet the plane at height z, mm.
+    MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double z);
+
+    void spans(const RowBand& band, SpanRows& out) const;
+    Rect bounds() const { return boxes_.bounds(); }
+    const std::vector<SectionSegment>& segments() const { return segments_; }
+
+  private:
+    std::vector<SectionSegment> segments_;
+    PlaneIndex boxes_;
+};
+
+}  // namespace lamella

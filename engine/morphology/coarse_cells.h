@@ -1,0 +1,29 @@
+// CoarseCells: a layer by cells of several rows, where its finest details do not matter.
+#pragma once
+
+#include "engine/morphology/cell_rows.h"
+
+namespace lamella {
+
+/// The cells, `scale` pitches long and as many rows wide, that hold some of a layer and some of the void.
+class CoarseCells {
+  public:
+    /// Cells are known up to `reach` beside the rows, run units.
+    CoarseCells(const SpanRows& rows, std::int32_t scale, double reach, double row_pitch);
+
+    const CellRows& solid() const { return solid_; }
+    const CellRows& voids() const { return void_; }
+    /// Rows that are known on either side of the layer's.
+    std::size_t margin() const { return solid_.lattice().margin_lines * static_cast<std::size_t>(scale_); }
+    /// Cells of the lattice as runs of the layer's rows and the margin's, run units.
+    SpanRows rows_of(const CellRows& cells) const;
+
+  private:
+    void add(std::int32_t begin, std::int32_t end, std::size_t line, CellRows& to);
+
+    std::int32_t scale_;
+    std::size_t row_count_;
+    CellRows solid_, void_;
+};
+
+}  // namespace lamella

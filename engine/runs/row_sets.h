@@ -1,0 +1,64 @@
+// Set operations on the rows of a layer that return their result, for where no buffer is at hand.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/runs/runs.h"
+
+namespace lamella {
+
+/// One line of the operation, appended.
+void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+
+/// The operands have equally many lines.
+inline SpanRows united(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    unite(a, b, out);
+    return out;
+}
+inline SpanRows common(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    intersect(a, b, out);
+    return out;
+}
+inline SpanRows without(const SpanRows& a, const SpanRows& b) {
+    SpanRows out;
+    subtract(a, b, out);
+    return out;
+}
+/// What [begin, end) has on each line besides the rows, which lie in it.
+inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_t end) {
+    SpanRows out;
+    out.reserve(rows.lines(), rows.lines() + rows.runs().size());
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        std::int32_t from = begin;
+        for (const Run& run : rows.line(l)) {
+            out.push(from, run.begin);
+            from = run.end;
+        }
+        out.push(from, end);
+        out.end_line();
+    }
+    return out;
+}
+/// From the first begin to the last end of a run of any line.
+inline Run extent_of(const SpanRows& rows) {
+    Run extent{0, 0};
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        if (rows.line(l).empty()) continue;
+        const std::int32_t begin = rows.line(l).front().begin, end = rows.line(l).back().end;
+        extent = extent.begin == extent.end ? Run{begin, end}
+                                            : Run{std::min(extent.begin, begin), std::max(extent.end, end)};
+    }
+    return extent;
+}
+/// Rows without a run.
+inline SpanRows empty_rows(std::size_t lines) {
+    SpanRows out;
+    out.end_lines(lines);
+    return out;
+}
+
+}  // namespace lamella

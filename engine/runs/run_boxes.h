@@ -1,0 +1,61 @@
+// RunBoxes: the plan of a survey that has found places, kept as boxes of runs by layer.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/base/geometry.h"
+#include "engine/runs/run_components.h"
+
+namespace lamella {
+
+/// Where the rows and layers of a survey lie. Row r covers y in [origin.y + r pitch, origin.y + (r + 1)
+/// pitch) and layer l covers z in [z0 + l h, z0 + (l + 1) h); each is looked at in its middle.
+struct SurveyGrid {
+    dvec2 origin{0};          ///< mm, where row 0 begins and run coordinate 0 lies
+    double pitch = 0.1;       ///< mm from row to row; a run unit is 1/256 of it
+    double z0 = 0;            ///< mm
+    double layer_height = 0;  ///< h, mm
+
+    /// The box of a run, mm.
+    Box box(const PlacedRun& run) const;
+};
+
+/// Boxes, layer by layer, to be taken from a solid or to be one (box_solid.h). Immutable and thread-safe.
+/// Memory: sixteen bytes a run.
+class RunBoxes {
+  public:
+    /// The runs in any order; they may overlap.
+    RunBoxes(const SurveyGrid& grid, std::vector<PlacedRun> runs);
+
+    const SurveyGrid& grid() const { return grid_; }
+    bool empty() const { return runs_.empty(); }
+    /// All runs, by layer, row and begin; disjoint, not touching within a row.
+    std::span<const PlacedRun> runs() const { return runs_; }
+    /// The runs of the layer that holds height z.
+    std::span<const PlacedRun> at(double z) const;
+    /// The run whose box holds the point; null when there is none.
+    const PlacedRun* find(dvec3 p) const;
+    /// The lesser of `limit` and the distance from the point to the nearest box, mm.
+    double distance_within(dvec3 p, double limit) const;
+    /// Encloses all boxes, mm; empty when there are none.
+    const Box& bounds() const { return bounds_; }
+    /// Whether some box meets this one.
+    bool meets(const Box& box) const;
+
+    friend bool operator==(const RunBoxes& a, const RunBoxes& b) { return a.runs_ == b.runs_; }
+
+  private:
+    std::span<const PlacedRun> layer(int index) const;
+    std::span<const PlacedRun> row(int layer_index, int row) const;
+    double distance_in_layer(int index, dvec3 p, double limit) const;
+
+    SurveyGrid grid_;
+    std::vector<PlacedRun> runs_;
+    int first_layer_ = 0;
+    std::vector<std::size_t> starts_;  ///< of each layer from first_layer_ on, one more than there are
+    std::vector<Rect> rects_;          ///< encloses the runs of each layer
+    Box bounds_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,187 @@
+// Runs of a layer's boxes, taken from a solid's runs or as they are.
+#include "engine/solids/box_solid.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/field/slice_context.h"
+#include "engine/field/tile_walk.h"
+#include "engine/solids/line_frame.h"
+
+namespace lamella {
+namespace {
+
+/// The lines of the band in an interval that owns its lower end only, whichever way lines are counted. Their
+/// places are compared themselves, so that a line's answer is the same in every band.
+LineRange owned_lines(const RowBand& band, const Interval& across) {
+    LineRange lines = lines_across(band, across);
+    lines.first = std::max(0, lines.first - 1);
+    lines.last = std::min(band.lines(), lines.last + 1);
+    const auto owned = [&](int l) { return across.lo <= band.line(l) && band.line(l) < across.hi; };
+    while (lines.first < lines.last && !owned(lines.first)) ++lines.first;
+    while (lines.first < lines.last && !owned(lines.last - 1)) --lines.last;
+    return lines;
+}
+
+/// The runs of the boxes at height z on the lines of the band. False, and `out` as it was, where there are
+/// none.
+bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector& boxes, SpanRows& out) {
+    const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
+    const Rect rect = band.rect();
+    boxes.clear();
+    bool any = false;
+    for (const PlacedRun& run : plan.at(z)) {
+        const Rect box = plan.grid().box(run).rect();
+        if (intersect(box, rect).empty()) continue;
+        const LineRange lines = owned_lines(band, {box.lo[across], box.hi[across]});
+        const int count = lines.last - lines.first;
+        if (count <= 0) continue;
+        any = true;
+        const double u = band.coordinate(box.lo[along]), v = band.coordinate(box.hi[along]);
+        const auto segment = boxes.add(lines.first, count);
+        std::fill_n(segment.begin, count, round_run(std::min(u, v)));
+        std::fill_n(segment.end, count, round_run(std::max(u, v)));
+    }
+    if (any) boxes.merge(band, out);
+    return any;
+}
+
+/// How far inside the box a point of it lies; above 0, for a box owns its lower faces.
+double depth_in(const Box& box, dvec3 p) {
+    const dvec3 depth = glm::min(p - box.lo, box.hi - p);
+    const double inner = std::min(depth.x, std::min(depth.y, depth.z));
+    return std::max(inner, std::numeric_limits<double>::denorm_min());
+}
+
+class WithoutBoxes : public Field {
+  public:
+    WithoutBoxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes)
+        : solid_(std::move(solid)), boxes_(std::move(boxes)) {}
+
+    double value(dvec3 p) const override { return adjusted(p, solid_->value(p)); }
+    Interval range(const Box& box) const override;
+    Metric metric() const override { return solid_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override;
+    Box bounds() const override { return solid_->bounds(); }
+
+    /// The value at p of the solid without the boxes, from that of the solid with them.
+    double adjusted(dvec3 p, double v) const {
+        if (const PlacedRun* run = boxes_->find(p)) {
+            return std::max(v, depth_in(boxes_->grid().box(*run), p));
+        }
+        return v < 0 ? std::max(v, -boxes_->distance_within(p, -v)) : v;
+    }
+
+  private:
+    FieldPtr solid_;
+    std::shared_ptr<const RunBoxes> boxes_;
+};
+
+class WithoutBoxesSlice : public SampledSlice {
+  public:
+    WithoutBoxesSlice(const WithoutBoxes& field, const SliceField& solid, const RunBoxes& boxes, double z)
+        : SampledSlice(field, z), field_(field), solid_(solid), boxes_(boxes), z_(z) {}
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void sample(const Tile& tile, std::span<float> out) const override {
+        solid_.sample(tile, out);
+        std::size_t k = 0;
+        for (int j = 0; j < tile.ny; ++j) {
+            for (int i = 0; i < tile.nx; ++i, ++k) {
+                const dvec2 p = tile.origin + dvec2(i, j) * tile.step;
+                out[k] = static_cast<float>(field_.adjusted(dvec3(p, z_), out[k]));
+            }
+        }
+    }
+    Rect bounds() const override { return solid_.bounds(); }
+
+  private:
+    const WithoutBoxes& field_;
+    const SliceField& solid_;
+    const RunBoxes& boxes_;
+    double z_;
+};
+
+Interval WithoutBoxes::range(const Box& box) const {
+    Interval r = solid_->range(box);
+    if (boxes_->empty()) return r;
+    // Inside a box the value is at most its half-height; near one, a solid point is no deeper than it is far.
+    const double margin = boxes_->grid().pitch;
+    if (boxes_->meets(box)) {
+        r.hi = std::max(r.hi, boxes_->grid().layer_height / 2);
+    } else {
+        r.hi = std::max(r.hi, boxes_->meets(grown(box, margin)) ? 0.0 : -margin);
+    }
+    return r;
+}
+
+const SliceField& WithoutBoxes::slice(SliceContext& context, double z) const {
+    const SliceField& solid = context.slice(*solid_, z);
+    if (boxes_->empty()) return solid;
+    return context.make<WithoutBoxesSlice>(*this, solid, *boxes_, z);
+}
+
+void WithoutBoxesSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+    solid_.spans(band, scratch, out);
+    const auto taken = scratch.rows(), rest = scratch.rows();
+    if (!box_spans(boxes_, z_, band, scratch.collector, *taken)) return;
+    subtract(out, *taken, *rest);
+    std::swap(out, *rest);
+}
+
+class BoxSolid : public Field {
+  public:
+    explicit BoxSolid(std::shared_ptr<const RunBoxes> boxes) : boxes_(std::move(boxes)) {}
+
+    double value(dvec3 p) const override {
+        if (const PlacedRun* run = boxes_->find(p)) return -depth_in(boxes_->grid().box(*run), p);
+        return boxes_->distance_within(p, infinity);
+    }
+    Interval range(const Box& box) const override;
+    const SliceField& slice(SliceContext& context, double z) const override;
+    Box bounds() const override { return boxes_->bounds(); }
+
+    const RunBoxes& boxes() const { return *boxes_; }
+
+  private:
+    std::shared_ptr<const RunBoxes> boxes_;
+};
+
+class BoxSolidSlice : public SampledSlice {
+  public:
+    BoxSolidSlice(const BoxSolid& field, double z) : SampledSlice(field, z), field_(field), z_(z) {}
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+        if (box_spans(field_.boxes(), z_, band, scratch.collector, out)) return;
+        out.clear();
+        for (int l = 0; l < band.lines(); ++l) out.end_line();
+    }
+
+  private:
+    const BoxSolid& field_;
+    double z_;
+};
+
+Interval BoxSolid::range(const Box& box) const {
+    const double half = diagonal(box) / 2, middle = value(box.center());
+    if (!boxes_->meets(box)) return {std::max(0.0, middle - half), middle + half};
+    const SurveyGrid& grid = boxes_->grid();
+    return {-std::min(grid.pitch, grid.layer_height) / 2, std::max(0.0, middle + half)};
+}
+
+const SliceField& BoxSolid::slice(SliceContext& context, double z) const {
+    return context.make<BoxSolidSlice>(*this, z);
+}
+
+}  // namespace
+
+FieldPtr make_without_boxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes) {
+    if (!solid || !boxes) throw InputError("a solid without boxes needs a solid and a survey's plan");
+    return std::make_shared<WithoutBoxes>(std::move(solid), std::move(boxes));
+}
+
+FieldPtr make_box_solid(std::shared_ptr<const RunBoxes> boxes) {
+    if (!boxes) throw InputError("a solid of boxes needs a survey's plan");
+    return std::make_shared<BoxSolid>(std::move(boxes));
+}
+
+}  // namespace lamella

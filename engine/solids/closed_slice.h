@@ -1,0 +1,45 @@
+// ClosedSlice: the slice of a shape whose cut with a line has a closed form.
+#pragma once
+
+#include <vector>
+
+#include "engine/field/slice_context.h"
+#include "engine/field/tile_walk.h"
+
+namespace lamella {
+
+/// Rounds intervals (mm, sorted, disjoint) of a line to runs clipped to the band and appends them as one
+/// line.
+void push_intervals(const RowBand& band, std::span<const Interval> intervals, SpanRows& out);
+
+/// A point in the plane from its coordinates along and across the lines.
+inline dvec2 on_plane(Axis axis, double along, double across) {
+    return axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
+}
+
+/// Spans by `shape.cut(axis, across, z, intervals)`, which appends the solid intervals (mm along, sorted,
+/// disjoint) of the line at `across`; samples and ranges by the field itself.
+template <typename Shape>
+class ClosedSlice : public SampledSlice {
+  public:
+    ClosedSlice(const Shape& shape, double z) : SampledSlice(shape, z), shape_(shape), z_(z) {}
+
+    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+        out.clear();
+        std::vector<Interval> intervals;
+        for (int l = 0; l < band.lines(); ++l) {
+            intervals.clear();
+            shape_.cut(band.axis, band.line(l), z_, intervals);
+            push_intervals(band, intervals, out);
+        }
+    }
+
+  private:
+    const Shape& shape_;
+    double z_;
+};
+
+/// A range for fields whose value changes by at most 1 per mm.
+Interval lipschitz_range(const Field& field, const Box& box);
+
+}  // namespace lamella

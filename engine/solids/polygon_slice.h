@@ -1,0 +1,33 @@
+// Polygons as a slice: what of a plane lies inside them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/field/field.h"
+
+namespace lamella {
+
+/// All points of the plane that an odd number of closed polygons encloses. Values are distances from the
+/// nearest side, mm.
+class PolygonSlice : public SliceField {
+  public:
+    /// Polygons without repeated last points, in any order and orientation; mm, finite.
+    explicit PolygonSlice(std::span<const std::vector<dvec2>> polygons);
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    Interval range(const Rect& r) const override;
+    void sample(const Tile& tile, std::span<float> out) const override;
+    Rect bounds() const override { return bounds_; }
+
+  private:
+    struct Side {
+        dvec2 a, b;
+    };
+    double value(dvec2 p) const;
+
+    std::vector<Side> sides_;
+    Rect bounds_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,32 @@
+// Distances from a point to segments and triangles.
+#pragma once
+
+#include "engine/base/geometry.h"
+
+namespace lamella {
+
+/// Squared distance from p to the segment a, a + e; e may be 0.
+inline double squared_distance_to_edge(dvec3 p, dvec3 a, dvec3 e) {
+    const dvec3 d = p - a;
+    const double length = glm::dot(e, e);
+    if (!(length > 0)) return squared_length(d);
+    const double t = std::min(std::max(glm::dot(d, e) / length, 0.0), 1.0);
+    return squared_length(d - e * t);
+}
+
+/// Squared distance from p to a triangle: over its face when p projects into it, else to its nearest edge.
+inline double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
+    const dvec3 ab = b - a, bc = c - b, ca = a - c;
+    const dvec3 n = glm::cross(ab, c - a);
+    const double area = glm::dot(n, n);
+    const bool inside = area > 0 && glm::dot(glm::cross(ab, n), p - a) <= 0 &&
+                        glm::dot(glm::cross(bc, n), p - b) <= 0 && glm::dot(glm::cross(ca, n), p - c) <= 0;
+    if (inside) {
+        const double h = glm::dot(n, p - a);
+        return h * h / area;
+    }
+    return std::min(squared_distance_to_edge(p, a, ab),
+                    std::min(squared_distance_to_edge(p, b, bc), squared_distance_to_edge(p, c, ca)));
+}
+
+}  // namespace lamella

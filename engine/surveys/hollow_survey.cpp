@@ -1,0 +1,206 @@
+// Layers shrink by the wall as they stream; then the cavities are swept from the top down.
+#include "engine/surveys/hollow_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/layers/survey_rows.h"
+#include "engine/morphology/layer_opening.h"
+#include "engine/runs/row_sets.h"
+#include "engine/surveys/printable_roof.h"
+
+namespace lamella {
+namespace {
+
+struct HollowRows : LayerProduct {
+    SpanRows rows;
+};
+
+/// What may become cavity, layer by layer: the part shrunk by the wall, without what is too narrow.
+class HollowSurveyor : public Backend {
+  public:
+    HollowSurveyor(const Job& job, const HollowOptions& options)
+        : options_(options),
+          band_(rows_over(job.bounds.rect(), options.pitch)),
+          height_(job.layer_height * options.layers_at_once),
+          middle_(job.bounds.size() / 2.0),
+          shrunk_(ball_lattice(band_, height_, reach(), reach()), units(reach())),
+          insides_(options.most_bytes, options.pitch) {}
+
+    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
+    void write(const Layer& layer, LayerProduct& product) override;
+    void end() override;
+
+    LayerStack& insides() { return insides_; }
+    const RowBand& band() const { return band_; }
+    double height() const { return height_; }
+    double part_volume() const { return part_volume_; }
+    double units(double mm) const { return mm * (run_unit / options_.pitch); }
+
+  private:
+    /// The wall, and what rows and layers stand for: half of one to all sides, and so does the void beside
+    /// them.
+    double reach() const {
+        return options_.wall + std::sqrt(options_.pitch * options_.pitch + height_ * height_);
+    }
+    void finish_course();
+    void take_shrunk();
+    SpanRows wide_enough(const SpanRows& rows) const;
+    SpanRows chamber_walls() const;
+
+    const HollowOptions& options_;
+    RowBand band_;
+    double height_;  // of a course: of the layers taken at once
+    dvec3 middle_;   // from the lower corner of the bounds
+    ShrinkingLayers shrunk_;
+    LayerStack insides_;
+    SpanRows course_;  // what is solid in all of its layers so far
+    int in_course_ = 0;
+    double part_volume_ = 0;
+};
+
+std::unique_ptr<LayerProduct> HollowSurveyor::render(const Layer& layer) const {
+    auto product = std::make_unique<HollowRows>();
+    Scratch scratch;
+    product->rows = all_rows(layer.part(), band_, scratch);
+    product->area =
+        static_cast<double>(product->rows.total_length()) / run_unit * options_.pitch * options_.pitch;
+    return product;
+}
+
+void HollowSurveyor::write(const Layer& layer, LayerProduct& product) {
+    SpanRows& rows = static_cast<HollowRows&>(product).rows;
+    part_volume_ += product.area * layer.thickness();
+    if (in_course_ == 0) {
+        course_ = std::move(rows);
+    } else {
+        course_ = common(course_, rows);
+    }
+    if (++in_course_ == options_.layers_at_once) finish_course();
+}
+
+void HollowSurveyor::end() {
+    if (in_course_ > 0) finish_course();
+    shrunk_.finish();
+    take_shrunk();
+}
+
+void HollowSurveyor::finish_course() {
+    shrunk_.push(course_);
+    in_course_ = 0;
+    take_shrunk();
+}
+
+void HollowSurveyor::take_shrunk() {
+    for (SpanRows rows; shrunk_.pop(rows);) insides_.push(wide_enough(rows));
+}
+
+/// Divided into chambers, and of each what a disc as wide as a bead covers that lies within it.
+SpanRows HollowSurveyor::wide_enough(const SpanRows& rows) const {
+    SpanRows divided = rows;
+    if (options_.chamber > 0) subtract(rows, chamber_walls(), divided);
+    if (options_.bead == 0) return divided;
+    SpanRows shrunk, opened;
+    shrink_rows(divided, units(options_.bead / 2), run_unit, shrunk);
+    grow_rows(BallRows(shrunk, units(options_.bead / 2)), run_unit, opened);
+    return opened;
+}
+
+/// Walls along x and y, of a bead's width at least; one of each goes through the middle.
+SpanRows HollowSurveyor::chamber_walls() const {
+    const double every = options_.chamber + options_.bead, half = options_.bead / 2;
+    const double width = band_.hi * options_.pitch;
+    SpanRows walls;
+    for (int l = 0; l < band_.count; ++l) {
+        const double y = (l + 0.5) * options_.pitch - middle_.y;
+        if (std::abs(y - every * std::floor(y / every + 0.5)) < half + options_.pitch / 2) {
+            walls.push(0, band_.hi * run_unit);
+        } else {
+            for (double x = middle_.x - every * std::floor(middle_.x / every); x < width; x += every) {
+                walls.push(round_run(units(x - half)), round_run(units(x + half)));
+            }
+        }
+        walls.end_line();
+    }
+    return walls;
+}
+
+/// Makes of what may become cavity what does.
+void sweep_down(LayerStack& layers, const RoofRule& rule, const CancelToken* cancel) {
+    if (layers.size() == 0) return;
+    SpanRows above = empty_rows(layers[0].lines());
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped while cavities were made");
+        above = cavity_below(above, layers[i], rule);
+        layers.replace(i, above);
+    }
+}
+
+/// The number of each layer's components in the whole, by their order in it.
+using ComponentNumbers = std::vector<std::vector<std::uint32_t>>;
+
+/// Leaves out the runs of the components that have been found too small.
+void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunComponents& components,
+                 std::int64_t least_length) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const LabelledLayer labels = label_layer(layers[i], static_cast<int>(i), Growth{});
+        SpanRows rest;
+        std::size_t k = 0;
+        for (std::size_t l = 0; l < layers[i].lines(); ++l) {
+            for (const Run& run : layers[i].line(l)) {
+                const std::uint32_t number = numbers[i][labels.owners[k++]];
+                if (components.component(number).extent.length >= least_length) rest.push(run.begin, run.end);
+            }
+            rest.end_line();
+        }
+        layers.replace(i, rest);
+    }
+}
+
+/// Counts the cavities and leaves out those that are too small.
+void sort_out(LayerStack& layers, std::int64_t least_length, HollowSurvey& survey) {
+    RunComponents components(Growth{}, 0);
+    ComponentNumbers numbers;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const int index = static_cast<int>(i);
+        numbers.push_back(components.add(label_layer(layers[i], index, Growth{}), index));
+    }
+    for (const std::uint32_t number : components.numbers()) {
+        const bool small = components.component(number).extent.length < least_length;
+        ++(small ? survey.left_solid : survey.count);
+    }
+    if (survey.left_solid > 0) leave_solid(layers, numbers, components, least_length);
+}
+
+void check(const Job& job, const HollowOptions& options) {
+    const auto refuse = [](const std::string& what) { throw InputError("hollowing out: " + what); };
+    if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
+    if (!(options.bead >= 0 && options.chamber >= 0 && options.least_volume >= 0 &&
+          options.layers_at_once > 0)) {
+        refuse("a width, a volume or the number of layers taken at once is below its least");
+    }
+    check_course_pitch("hollowing out", job, options.pitch, options.step * options.layers_at_once);
+}
+
+}  // namespace
+
+HollowSurvey hollow_out(const Job& job, const HollowOptions& options) {
+    check(job, options);
+    HollowSurveyor surveyor(job, options);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    LayerStack& layers = surveyor.insides();
+    const double step = surveyor.units(options.step * options.layers_at_once);
+    sweep_down(layers, {step, run_unit, surveyor.units(options.bead)}, options.cancel);
+    const double unit_volume = options.pitch * options.pitch * surveyor.height() / run_unit;
+    HollowSurvey survey;
+    sort_out(layers, static_cast<std::int64_t>(std::ceil(options.least_volume / unit_volume)), survey);
+    survey.volume = static_cast<double>(layers.total_length()) * unit_volume;
+    survey.part_volume = surveyor.part_volume();
+    const SurveyGrid grid{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), surveyor.height()};
+    survey.cavities = std::make_shared<RunBoxes>(layers.boxes(grid));
+    return survey;
+}
+
+}  // namespace lamella

@@ -1,0 +1,89 @@
+// Sweeps down and up over a stack of layers.
+#include "engine/surveys/printable_enclosure.h"
+
+#include "engine/base/error.h"
+#include "engine/morphology/layer_offset.h"
+#include "engine/runs/row_sets.h"
+
+namespace lamella {
+namespace {
+
+SpanRows grown(const SpanRows& rows, double by, double row_pitch) {
+    SpanRows out;
+    grow_rows(BallRows(rows, by), row_pitch, out);
+    return out;
+}
+
+/// The layer with all that the one beside it has further than a step inside.
+SpanRows with_inside_of(const SpanRows& layer, const SpanRows& beside, const EnclosureRule& rule) {
+    SpanRows inside, out;
+    shrink_rows(beside, rule.step, rule.row_pitch, inside);
+    unite(layer, inside, out);
+    return out;
+}
+
+/// What of the layer above stands too far out over this one. Rows are taken for what lies between them: where
+/// they graze an outline, a disc may miss it by a part of a row.
+SpanRows hanging_over(const SpanRows& layer, const SpanRows& above, const EnclosureRule& rule) {
+    SpanRows hanging;
+    subtract(above, grown(layer, rule.corner + rule.row_pitch / 2, rule.row_pitch), hanging);
+    return hanging;
+}
+
+/// The layer with what holds all of the one above. Sharp corners and fins are drawn in as far as they may be:
+/// of them comes in, row by row outward, what is needed. What hangs together with nothing else stays as it
+/// is.
+SpanRows with_thin_of(const SpanRows& layer, const SpanRows& above, const EnclosureRule& rule) {
+    constexpr int longest = 256;  // rows that a fin is followed
+    SpanRows hanging = hanging_over(layer, above, rule);
+    if (hanging.runs().empty()) return layer;
+    const double reach = rule.corner + rule.row_pitch / 2;
+    const SpanRows about = common(above, grown(hanging, reach, rule.row_pitch));
+    SpanRows all = layer, out;
+    for (int k = 0; k < longest && !hanging.runs().empty(); ++k) {
+        unite(all, common(about, grown(all, rule.row_pitch, rule.row_pitch)), out);
+        if (out == all) break;
+        all = std::move(out);
+        hanging = hanging_over(all, above, rule);
+    }
+    unite(all, common(above, grown(hanging, rule.step, rule.row_pitch)), out);
+    return out;
+}
+
+/// Whether the layer is another than before.
+bool take(LayerStack& layers, std::size_t i, const SpanRows& rows) {
+    if (rows == layers[i]) return false;
+    layers.replace(i, rows);
+    return true;
+}
+
+bool sweep_down(LayerStack& layers, const EnclosureRule& rule) {
+    bool changed = false;
+    for (std::size_t i = layers.size(); i-- > 1;) {
+        const SpanRows& above = layers[i];
+        const SpanRows below = with_thin_of(with_inside_of(layers[i - 1], above, rule), above, rule);
+        changed = take(layers, i - 1, below) || changed;
+    }
+    return changed;
+}
+
+bool sweep_up(LayerStack& layers, const EnclosureRule& rule) {
+    bool changed = false;
+    for (std::size_t i = 1; i < layers.size(); ++i) {
+        changed = take(layers, i, with_inside_of(layers[i], layers[i - 1], rule)) || changed;
+    }
+    return changed;
+}
+
+}  // namespace
+
+int enclose(LayerStack& layers, const EnclosureRule& rule, const CancelToken* cancel) {
+    for (int sweeps = 1;; ++sweeps) {
+        if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped while an enclosure grew");
+        const bool down = sweeps % 2 == 1;
+        const bool changed = down ? sweep_down(layers, rule) : sweep_up(layers, rule);
+        if (!changed && sweeps > 1) return sweeps;
+    }
+}
+
+}  // namespace lamella

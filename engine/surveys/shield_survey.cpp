@@ -1,0 +1,132 @@
+// Layers grow by gap and wall as they stream; then the enclosure is swept, and its outline kept.
+#include "engine/surveys/shield_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/layers/survey_rows.h"
+#include "engine/morphology/layer_offset.h"
+#include "engine/runs/row_sets.h"
+#include "engine/surveys/printable_enclosure.h"
+
+namespace lamella {
+namespace {
+
+struct ShieldRows : LayerProduct {
+    SpanRows rows;
+};
+
+/// What the shield has to hold, layer by layer.
+class ShieldSurveyor : public Backend {
+  public:
+    ShieldSurveyor(const Job& job, const ShieldOptions& options)
+        : options_(options),
+          // As many rows as the wall takes, and one more for what lies between the rows that are looked at.
+          wall_(std::ceil(options.wall / options.pitch - 1e-9) * run_unit),
+          reach_(units(options.gap) + wall_ + run_unit),
+          smooth_(units(options.bead)),
+          rect_(grown(job.bounds.rect(), (reach_ + smooth_ + wall_ + 2 * run_unit) / units(1))),
+          band_(rows_over(rect_, options.pitch)),
+          layers_(options.most_bytes, options.pitch) {}
+
+    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
+    void write(const Layer& layer, LayerProduct& product) override;
+    void end() override {
+        if (in_course_ > 0) finish_course();
+    }
+
+    LayerStack& layers() { return layers_; }
+    dvec2 origin() const { return rect_.lo; }
+    double units(double mm) const { return mm * (run_unit / options_.pitch); }
+    /// The wall's thickness, run units.
+    double wall() const { return wall_; }
+
+  private:
+    void finish_course();
+
+    const ShieldOptions& options_;
+    double wall_, reach_, smooth_;  // run units
+    Rect rect_;
+    RowBand band_;
+    LayerStack layers_;
+    SpanRows course_;  // what there is in any of its layers so far
+    int in_course_ = 0;
+};
+
+std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
+    auto product = std::make_unique<ShieldRows>();
+    Scratch scratch;
+    SpanRows print = all_rows(layer.part(), band_, scratch);
+    if (layer.supports() != nullptr) print = united(print, all_rows(*layer.supports(), band_, scratch));
+    SpanRows wide;
+    grow_rows(BallRows(print, reach_ + smooth_), run_unit, wide);
+    shrink_rows(wide, smooth_, run_unit, product->rows);
+    return product;
+}
+
+void ShieldSurveyor::write(const Layer& /*layer*/, LayerProduct& product) {
+    const SpanRows& rows = static_cast<ShieldRows&>(product).rows;
+    if (in_course_ == 0) {
+        course_ = rows;
+    } else {
+        course_ = united(course_, rows);
+    }
+    if (++in_course_ == options_.layers_at_once) finish_course();
+}
+
+void ShieldSurveyor::finish_course() {
+    layers_.push(course_);
+    in_course_ = 0;
+}
+
+/// The rows with what is thinner than `least` made about as thick.
+SpanRows thickened(const SpanRows& rows, double least) {
+    SpanRows core, opened, grown;
+    shrink_rows(rows, least / 2, run_unit, core);
+    // A row more: slivers where rows graze an outline are not thin.
+    grow_rows(BallRows(core, least / 2 + run_unit), run_unit, opened);
+    grow_rows(BallRows(without(rows, opened), least / 2), run_unit, grown);
+    return united(rows, grown);
+}
+
+/// Leaves of each layer what lies within the wall's thickness of its outline.
+void keep_walls(LayerStack& layers, double wall) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const SpanRows outer = thickened(layers[i], wall);
+        SpanRows inside;
+        shrink_rows(outer, wall, run_unit, inside);
+        layers.replace(i, without(outer, inside));
+    }
+}
+
+void check(const Job& job, const ShieldOptions& options) {
+    const auto refuse = [](const std::string& what) { throw InputError("shield: " + what); };
+    if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
+    if (!(options.gap >= 0 && options.bead >= 0 && options.layers_at_once > 0))
+        refuse("the gap, the bead or the number of layers taken at once is below its least");
+    check_course_pitch("shield", job, options.pitch, options.step * options.layers_at_once);
+}
+
+}  // namespace
+
+ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
+    check(job, options);
+    ShieldSurveyor surveyor(job, options);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    LayerStack& layers = surveyor.layers();
+    ShieldSurvey survey;
+    const double step = surveyor.units(options.step * options.layers_at_once);
+    constexpr double corner = 2.5;  // steps: corners of 50 degrees and more are drawn in with their sides
+    survey.sweeps = enclose(layers, {step, corner * step, run_unit}, options.cancel);
+    keep_walls(layers, surveyor.wall());
+    const double height = job.layer_height * options.layers_at_once;
+    survey.volume =
+        static_cast<double>(layers.total_length()) / run_unit * options.pitch * options.pitch * height;
+    survey.wall =
+        std::make_shared<RunBoxes>(layers.boxes({surveyor.origin(), options.pitch, job.z0(), height}));
+    return survey;
+}
+
+}  // namespace lamella

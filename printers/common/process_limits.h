@@ -1,0 +1,23 @@
+// What is known of the processes that machines work by: which faults matter to them, and how small they make.
+#pragma once
+
+#include "printers/common/profile.h"
+
+namespace lamella {
+
+/// The process of a profile: what it says, or else what its back-end and settings are for. Masks are for
+/// resin, G-code for filament or, under grbl, for cutting, CLI and 3MF slices for powder, SVG and DXF for
+/// cutting, but SVG as Slic3r exports it for resin.
+Process process_of(const PrinterProfile& profile);
+
+/// Least sizes and verdicts of a process where nothing else is known, after the table of manufacturing
+/// constraints by process in J. Dumas, "Controllable Shape Synthesis for Digital Fabrication", 2017 (table
+/// 2.1). Sizes that depend on the machine (lines, pixels, kerf) are the profile's.
+PrintLimits usual_limits(Process process, const PrinterProfile& profile);
+
+/// The usual limits of the profile's process with what its CheckProfile says over them, and its supports'
+/// free_stretch, own_bridge, spacing and gap. The overhang and the build volume depend on the job and are
+/// left as they are.
+PrintLimits process_limits(const PrinterProfile& profile);
+
+}  // namespace lamella

@@ -1,0 +1,167 @@
+// Nearest neighbours, and 2-opt among them.
+#include "printers/toolpath/bead_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "printers/polygons/nearest_points.h"
+
+namespace lamella {
+namespace {
+
+double squared_distance(dvec2 a, dvec2 b) {
+    const dvec2 d = a - b;
+    return d.x * d.x + d.y * d.y;
+}
+
+/// How far the border turns left at a loop's point, radians; loops run counter-clockwise round solid.
+double turn_at(const std::vector<dvec2>& points, std::size_t i) {
+    const std::size_t n = points.size();
+    const dvec2 in = points[i] - points[(i + n - 1) % n], out = points[(i + 1) % n] - points[i];
+    return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
+}
+
+/// The point at which a loop begins and ends.
+std::size_t start_of(const std::vector<dvec2>& points, Seam seam, dvec2 from) {
+    std::size_t best = 0;
+    double least = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double cost = seam == Seam::nearest ? squared_distance(points[i], from)
+                            : seam == Seam::rear  ? -points[i].y
+                                                  : -turn_at(points, i);
+        if (i == 0 || cost < least) {
+            best = i;
+            least = cost;
+        }
+    }
+    return best;
+}
+
+void begin_at(Bead& loop, std::size_t point) {
+    const auto by = static_cast<std::ptrdiff_t>(point);
+    std::rotate(loop.points.begin(), loop.points.begin() + by, loop.points.end());
+    if (!loop.widths.empty()) std::rotate(loop.widths.begin(), loop.widths.begin() + by, loop.widths.end());
+}
+
+dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
+
+/// The nearest few points of each, by a grid of about two points a cell.
+std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> points) {
+    constexpr std::size_t wanted = 8;
+    Rect box;
+    for (const dvec2& p : points) box = unite(box, Rect{p, p});
+    const dvec2 size = box.hi - box.lo;
+    const double area = std::max(size.x, 1e-3) * std::max(size.y, 1e-3);
+    const double cell = std::sqrt(2 * area / static_cast<double>(points.size()));
+    const auto columns = static_cast<std::size_t>(size.x / cell) + 1,
+               rows = static_cast<std::size_t>(size.y / cell) + 1;
+    const auto cell_of = [&](double v, double lo, std::size_t count) {
+        return std::min(static_cast<std::size_t>((v - lo) / cell), count - 1);
+    };
+    std::vector<std::vector<std::uint32_t>> cells(columns * rows);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        cells[cell_of(points[i].y, box.lo.y, rows) * columns + cell_of(points[i].x, box.lo.x, columns)]
+            .push_back(i);
+    std::vector<std::vector<std::uint32_t>> result(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        std::vector<std::uint32_t>& found = result[i];
+        const std::size_t x = cell_of(points[i].x, box.lo.x, columns),
+                          y = cell_of(points[i].y, box.lo.y, rows);
+        for (std::size_t v = y > 1 ? y - 2 : 0; v < std::min(y + 3, rows); ++v) {
+            for (std::size_t u = x > 1 ? x - 2 : 0; u < std::min(x + 3, columns); ++u) {
+                for (const std::uint32_t j : cells[v * columns + u]) {
+                    if (j != i) found.push_back(j);
+                }
+            }
+        }
+        std::ranges::sort(found, [&](std::uint32_t a, std::uint32_t b) {
+            const double da = squared_distance(points[a], points[i]),
+                         db = squared_distance(points[b], points[i]);
+            return da != db ? da < db : a < b;
+        });
+        if (found.size() > wanted) found.resize(wanted);
+    }
+    return result;
+}
+
+}  // namespace
+
+void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bead>& out) {
+    std::vector<dvec2> ends;  // two for each bead; a loop may begin anywhere, its first point stands for it
+    for (const Bead& bead : beads) {
+        ends.push_back(bead.points.front());
+        ends.push_back(bead.closed ? bead.points.front() : bead.points.back());
+    }
+    NearestPoints left(ends);
+    while (!left.empty()) {
+        const std::size_t end = left.nearest(at);
+        Bead& bead = beads[end / 2];
+        left.remove(end);
+        left.remove(end ^ 1);
+        if (bead.closed) {
+            begin_at(bead, start_of(bead.points, seam, at));
+        } else if (end % 2 == 1) {
+            std::ranges::reverse(bead.points);
+            std::ranges::reverse(bead.widths);
+        }
+        at = end_of(bead);
+        out.push_back(std::move(bead));
+    }
+}
+
+std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) {
+    const std::size_t n = points.size();
+    std::vector<std::size_t> tour;
+    tour.reserve(n);
+    NearestPoints left(points);
+    for (dvec2 at = start; !left.empty(); at = points[tour.back()]) {
+        tour.push_back(left.nearest(at));
+        left.remove(tour.back());
+    }
+    if (n < 3) return tour;
+    const auto neighbours = neighbours_of(points);
+    std::vector<std::size_t> place(n);
+    for (std::size_t i = 0; i < n; ++i) place[tour[i]] = i;
+    const auto length = [&](dvec2 a, dvec2 b) { return std::sqrt(squared_distance(a, b)); };
+    const auto before = [&](std::size_t i) { return i == 0 ? start : points[tour[i - 1]]; };
+    // Turning [i, j] round replaces the ways into i and out of j; the last point has no way out.
+    const auto gain = [&](std::size_t i, std::size_t j) {
+        double saved = length(before(i), points[tour[i]]) - length(before(i), points[tour[j]]);
+        if (j + 1 < n)
+            saved +=
+                length(points[tour[j]], points[tour[j + 1]]) - length(points[tour[i]], points[tour[j + 1]]);
+        return saved;
+    };
+    const auto turn = [&](std::size_t i, std::size_t j) {
+        std::reverse(tour.begin() + static_cast<std::ptrdiff_t>(i),
+                     tour.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        for (std::size_t k = i; k <= j; ++k) place[tour[k]] = k;
+    };
+    // Long stretches cost as much as they are long, so that many points get shorter ones only.
+    const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
+    constexpr double least_gain = 1e-6;  // mm
+    constexpr int most_rounds = 20;
+    for (int round = 0; round < most_rounds; ++round) {
+        bool shorter = false;
+        for (std::size_t p = 0; p < n; ++p) {
+            for (const std::uint32_t q : neighbours[p]) {
+                const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
+                if (b - a > longest) continue;
+                // To bring p and q together: turn what lies between them, with the later or the earlier of
+                // both.
+                if (a + 1 <= b && gain(a + 1, b) > least_gain) {
+                    turn(a + 1, b);
+                    shorter = true;
+                } else if (b >= 1 && a <= b - 1 && gain(a, b - 1) > least_gain) {
+                    turn(a, b - 1);
+                    shorter = true;
+                }
+            }
+        }
+        if (!shorter) break;
+    }
+    return tour;
+}
+
+}  // namespace lamella

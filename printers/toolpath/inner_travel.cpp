@@ -1,0 +1,42 @@
+// The outline inset, and the shortest way in that.
+#include "printers/toolpath/inner_travel.h"
+
+#include <utility>
+
+#include "printers/polygons/shortest_way.h"
+
+namespace lamella {
+namespace {
+
+constexpr double most_detour = 3;  // beyond it the filament is better drawn back
+
+}  // namespace
+
+InnerTravel::InnerTravel(Polygons outline, double line_width)
+    : outline_(std::move(outline)), regions_{{{line_width / 2}, {line_width / 10}}} {}
+
+std::optional<std::vector<dvec2>> InnerTravel::way(dvec2 from, dvec2 to) {
+    for (Region& region : regions_) {
+        if (auto found = way_within(region, from, to)) return found;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::vector<dvec2>> InnerTravel::way_within(Region& region, dvec2 from, dvec2 to) const {
+    if (!region.sight) region.sight.emplace(offset_polygons(outline_, -region.inset));
+    // Beads begin and end on the region's border or, rounded, beside it. Up to the inset the way there cannot
+    // leave the island.
+    constexpr double share = 0.8;
+    const double reach = share * region.inset * polygon_scale;
+    const ClipperLib::Path ends = to_polygon({from, to});
+    const auto begin = region.sight->enter(ends[0], reach), end = region.sight->enter(ends[1], reach);
+    if (!begin || !end) return std::nullopt;
+    auto corners =
+        shortest_way(*region.sight, *begin, *end, most_detour * polygon_scale * glm::distance(from, to));
+    if (!corners) return std::nullopt;
+    if (*begin != ends[0]) corners->insert(corners->begin(), *begin);
+    if (*end != ends[1]) corners->push_back(*end);
+    return to_points(*corners);
+}
+
+}  // namespace lamella

@@ -1,0 +1,56 @@
+// Sections traced once, and their booleans.
+#include "printers/toolpath/neighbour_layers.h"
+
+#include <utility>
+
+namespace lamella {
+namespace {}  // namespace
+
+std::shared_ptr<NeighbourLayers::Entry> NeighbourLayers::entry(int index) const {
+    std::shared_ptr<Entry> entry;
+    {
+        const std::lock_guard lock(mutex_);
+        std::shared_ptr<Entry>& held = entries_[index];
+        if (!held) held = std::make_shared<Entry>();
+        entry = held;
+    }
+    std::call_once(entry->traced, [&] {
+        const Layer layer(*job_, index);
+        entry->outlines = {layer.contours(tolerance_), layer.support_contours(tolerance_)};
+    });
+    return entry;
+}
+
+std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const {
+    const std::shared_ptr<Entry> entry = this->entry(index);
+    return {entry, &entry->outlines};
+}
+
+Footing NeighbourLayers::footing(int index, double pitch) const {
+    const auto below = outlines(index - 1);
+    Polygons section = to_polygons(below->part);
+    if (!below->supports.empty()) section = unite_polygons(section, to_polygons(below->supports));
+    return {std::move(section), pitch};
+}
+
+PlacedPolygons NeighbourLayers::core(int index, int below, int above) const {
+    if (index < below || index + above >= job_->layer_count) return {};
+    Polygons common;
+    bool first = true;
+    for (int i = index - below; i <= index + above; ++i) {
+        if (i == index) continue;
+        const std::shared_ptr<Entry> layer = entry(i);
+        std::call_once(layer->simplified,
+                       [&] { layer->coarse = simplified(to_polygons(layer->outlines.part), tolerance_); });
+        common = std::exchange(first, false) ? layer->coarse : intersect_polygons(common, layer->coarse);
+        if (common.empty()) break;
+    }
+    return PlacedPolygons(std::move(common));
+}
+
+void NeighbourLayers::forget_below(int index) {
+    const std::lock_guard lock(mutex_);
+    entries_.erase(entries_.begin(), entries_.lower_bound(index));
+}
+
+}  // namespace lamella

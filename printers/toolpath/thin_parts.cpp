@@ -1,0 +1,229 @@
+// The lines of a graph's thin edges, traced from end to end.
+#include "printers/toolpath/thin_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "printers/toolpath/thin_graph.h"
+
+namespace lamella {
+namespace {
+
+using EndKind = ThinGraph::Kind;
+
+/// Takes `by` mm off the end of a line.
+void shorten(TaperedLine& line, double by) {
+    while (line.points.size() > 2) {
+        const double l = length(line.points.back() - line.points[line.points.size() - 2]);
+        if (l > by) break;
+        by -= l;
+        line.points.pop_back();
+        line.thickness.pop_back();
+    }
+    const std::size_t n = line.points.size();
+    const dvec2 last = line.points[n - 1] - line.points[n - 2];
+    const double l = length(last), t = l > 0 ? std::min(by / l, 0.75) : 0;
+    line.points[n - 1] -= last * t;
+    line.thickness[n - 1] += (line.thickness[n - 2] - line.thickness[n - 1]) * t;
+}
+
+/// With fewer points (Douglas and Peucker 1973), thickness taken as a third coordinate.
+TaperedLine simplified(const TaperedLine& line, double tolerance) {
+    const std::size_t n = line.points.size();
+    std::vector<bool> kept(n);
+    kept[0] = kept[n - 1] = true;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
+    while (!open.empty()) {
+        const auto [a, b] = open.back();
+        open.pop_back();
+        double worst = tolerance;
+        std::size_t at = a;
+        const dvec2 across = line.points[b] - line.points[a];
+        const double square = dot(across, across);
+        for (std::size_t i = a + 1; i < b; ++i) {
+            const dvec2 p = line.points[i] - line.points[a];
+            const double t = square > 0 ? std::clamp(dot(p, across) / square, 0.0, 1.0) : 0;
+            const double thickness = line.thickness[a] + (line.thickness[b] - line.thickness[a]) * t;
+            const double off = std::max(length(p - across * t), std::abs(line.thickness[i] - thickness));
+            if (off > worst) {
+                worst = off;
+                at = i;
+            }
+        }
+        if (at == a) continue;
+        kept[at] = true;
+        open.push_back({a, at});
+        open.push_back({at, b});
+    }
+    TaperedLine result;
+    result.closed = line.closed;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!kept[i]) continue;
+        result.points.push_back(line.points[i]);
+        result.thickness.push_back(line.thickness[i]);
+    }
+    return result;
+}
+
+class LineTracer {
+  public:
+    LineTracer(const ThinGraph& graph, double thinnest, double tolerance)
+        : graph_(graph), thinnest_(thinnest), tolerance_(tolerance) {}
+
+    std::vector<TaperedLine> trace() const {
+        std::vector<TaperedLine> lines;
+        std::vector<bool> done(graph_.edges());
+        for (const bool ends : {true, false}) {  // lines that end somewhere, then those that do not
+            for (std::uint32_t e = 0; e < graph_.edges(); ++e) {
+                for (const std::uint32_t node : graph_.link(e)) {
+                    if (done[e] || graph_.kind(e) != EndKind::line ||
+                        (ends && next(e, node) != ThinGraph::none))
+                        continue;
+                    add(walk(e, node, done), lines);
+                }
+            }
+        }
+        // What remains of a branch between a line's flank and its own end may be too short to be worth a way.
+        const auto is_speck = [](const TaperedLine& line) {
+            const double widest = std::ranges::max(line.thickness);
+            return area_of(line) < 0.25 * widest * widest;
+        };
+        if (!std::ranges::all_of(lines, is_speck)) std::erase_if(lines, is_speck);
+        return lines;
+    }
+
+  private:
+    /// The edge on which a line that comes by `e` goes on behind `node`: of those that go straight on best.
+    std::uint32_t next(std::uint32_t e, std::uint32_t node) const {
+        constexpr double straight = -0.3;  // cosine between the two ways out of the node
+        const auto out = [&](std::uint32_t edge) {
+            const dvec2 w = graph_.at(graph_.other(edge, node)) - graph_.at(node);
+            const double l = length(w);
+            return l > 0 ? w / l : dvec2(0);
+        };
+        const auto partner = [&](std::uint32_t edge) {
+            std::uint32_t best = ThinGraph::none;
+            double least = std::numeric_limits<double>::infinity();
+            std::size_t lines = 0;
+            for (const std::uint32_t f : graph_.edges_at(node)) {
+                if (graph_.kind(f) != EndKind::line) continue;
+                ++lines;
+                if (f == edge) continue;
+                const double c = dot(out(edge), out(f));
+                if (c < least || (c == least && f < best)) {
+                    least = c;
+                    best = f;
+                }
+            }
+            return lines == 2 || least < straight ? best : ThinGraph::none;
+        };
+        const std::uint32_t best = partner(e);
+        return best != ThinGraph::none && partner(best) == e ? best : ThinGraph::none;
+    }
+
+    struct Chain {
+        std::vector<std::uint32_t> nodes;
+        bool closed = false;
+    };
+
+    Chain walk(std::uint32_t e, std::uint32_t from, std::vector<bool>& done) const {
+        Chain chain{{from}, false};
+        const std::uint32_t first = e;
+        std::uint32_t node = from;
+        while (true) {
+            done[e] = true;
+            node = graph_.other(e, node);
+            chain.nodes.push_back(node);
+            e = next(e, node);
+            if (e == first) {
+                chain.closed = true;
+                chain.nodes.pop_back();
+                return chain;
+            }
+            if (e == ThinGraph::none || done[e]) return chain;
+        }
+    }
+
+    void add(const Chain& chain, std::vector<TaperedLine>& lines) const {
+        TaperedLine line;
+        line.closed = chain.closed;
+        for (const std::uint32_t node : chain.nodes) {
+            const dvec2 at = graph_.at(node);
+            if (!line.points.empty() && length(at - line.points.back()) == 0) continue;
+            line.points.push_back(at);
+            line.thickness.push_back(2 * std::min(graph_.radius(node), graph_.limit()));
+        }
+        if (!line.closed) {
+            end_line(line, chain.nodes.back());
+            std::ranges::reverse(line.points);
+            std::ranges::reverse(line.thickness);
+            end_line(line, chain.nodes.front());
+        }
+        if (line.points.size() >= 2) lines.push_back(simplified(line, tolerance_));
+    }
+
+    /// Brings the last end of a line to its place.
+    void end_line(TaperedLine& line, std::uint32_t node) const {
+        if (line.points.size() < 2) return;
+        const auto lines = std::ranges::count_if(
+            graph_.edges_at(node), [&](std::uint32_t e) { return graph_.kind(e) == EndKind::line; });
+        if (lines > 1) {
+            // It meets one that passes, and ends in that one's flank.
+            shorten(line, graph_.radius(node) * 0.75);
+            return;
+        }
+        while (line.points.size() > 1 && line.thickness.back() < thinnest_) {
+            line.points.pop_back();
+            line.thickness.pop_back();
+        }
+        if (line.points.size() < 2 || graph_.at_limit(node) ||
+            line.thickness.back() < 2 * graph_.radius(node))
+            return;
+        const double r = graph_.radius(node);
+        if (!(r > 0)) return;
+        const dvec2 last = line.points.back() - line.points[line.points.size() - 2];
+        const double l = length(last);
+        if (l > 0) {
+            line.points.push_back(line.points.back() +
+                                  last * (std::min(graph_.tail(node) / (2 * r), r / 2) / l));
+            line.thickness.push_back(line.thickness.back());
+        }
+    }
+
+    const ThinGraph& graph_;
+    double thinnest_, tolerance_;  // mm
+};
+
+}  // namespace
+
+double area_of(const TaperedLine& line) {
+    double area = 0;
+    const std::size_t n = line.points.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
+        const std::size_t j = (i + 1) % n;
+        area += length(line.points[j] - line.points[i]) * (line.thickness[i] + line.thickness[j]) / 2;
+    }
+    return area;
+}
+
+ThinParts find_thin_parts(const MedialAxis& axis, double thinnest, double thickest, double tolerance) {
+    const ThinGraph graph(axis, thinnest, thickest, tolerance);
+    ThinParts parts;
+    for (std::size_t e = 0; e < graph.edges(); ++e) {
+        if (graph.kind(e) == EndKind::rest) {
+            parts.whole = false;
+        } else {
+            parts.area += graph.share_area(e);
+        }
+    }
+    if (!(parts.area > 0)) return {{}, 0, false, {}};
+    parts.lines = LineTracer(graph, thinnest, tolerance).trace();
+    for (std::size_t e = 0; e < graph.edges() && !parts.whole; ++e) {
+        if (graph.kind(e) == EndKind::rest) continue;
+        const auto points = graph.share(e);
+        parts.covered.push_back(to_polygon({points.begin(), points.end()}));
+    }
+    return parts;
+}
+
+}  // namespace lamella

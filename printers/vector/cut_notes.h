@@ -1,0 +1,34 @@
+// What befell layers on their way to the cutter.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "printers/vector/cut_plan.h"
+
+namespace lamella {
+
+/// Counts what a user should know about the layers that were cut.
+class CutNotes {
+  public:
+    /// Throws ConstraintError for a layer of several pieces when the profile refuses those.
+    void count(int layer, const CutPlan& plan, const CuttingProfile& profile);
+    /// A sentence each.
+    std::vector<std::string> texts(const CuttingProfile& profile) const;
+
+  private:
+    /// How many layers something befell, and the first of them.
+    struct Tally {
+        int layers = 0;
+        int first = 0;
+        int sum = 0;
+
+        void count(int layer, int times);
+        std::string where() const;
+    };
+
+    Tally loose_, holes_, merged_, unnumbered_;
+    int first_loose_ = 0;
+};
+
+}  // namespace lamella

@@ -1,0 +1,20 @@
+// Colours and widths by which laser software tells cuts from engravings.
+#pragma once
+
+#include <array>
+
+#include "printers/common/profile.h"
+#include "printers/vector/sheet.h"
+
+namespace lamella {
+
+struct LaserStroke {
+    const char* colour;  ///< "#rrggbb"
+    double width;        ///< mm
+};
+
+/// By CutPurpose. Drivers that print take thin lines for cuts and wide ones for engravings (Universal: 0.2 mm
+/// and more; Epilog: cuts 0.001 inch), the others go by colour alone.
+const std::array<LaserStroke, cut_purposes>& laser_strokes(Laser laser);
+
+}  // namespace lamella

@@ -1,0 +1,118 @@
+// The nodes of a periodic grid of cubic elements that something stiff touches, and the forces between them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "procedural/elasticity/hex_element.h"
+
+namespace lamella {
+
+/// Load cases that are solved for side by side.
+inline constexpr std::size_t load_cases = 6;
+/// Numbers a node has in a vector: displacement or force x of each load case, then y, then z.
+inline constexpr std::size_t node_numbers = 3 * load_cases;
+inline constexpr std::size_t hex_neighbours = 27;
+
+/// The forces at a node that displacements of the nodes about it cause: a 3x3 block for each, neighbour
+/// (dx, dy, dz) at dx + 1 + 3 * (dy + 1) + 9 * (dz + 1).
+template <typename Number>
+using NodeStencil = std::array<Number, 9 * hex_neighbours>;
+
+/// Which elements of a periodic grid there are. Elements x fastest, element (x, y, z) between nodes
+/// (x, y, z) and (x + 1, y + 1, z + 1).
+struct ElementMask {
+    glm::ivec3 size{0};
+    std::vector<std::uint8_t> present;  ///< not 0
+
+    /// Of all elements, those that are present.
+    double share() const {
+        const auto there = std::count_if(present.begin(), present.end(), [](auto p) { return p != 0; });
+        return static_cast<double>(there) / static_cast<double>(std::max<std::size_t>(present.size(), 1));
+    }
+    bool at(int x, int y, int z) const { return present[place(x, y, z)] != 0; }
+    std::size_t place(int x, int y, int z) const {
+        return static_cast<std::size_t>(x) +
+               static_cast<std::size_t>(size.x) *
+                   (static_cast<std::size_t>(y) +
+                    static_cast<std::size_t>(size.y) * static_cast<std::size_t>(z));
+    }
+};
+
+/// Numbers the nodes that belong to elements, in the order of the grid.
+class ElasticGrid {
+  public:
+    explicit ElasticGrid(const ElementMask& elements);
+
+    glm::ivec3 size() const { return size_; }
+    std::size_t nodes() const { return places_.size(); }
+    glm::ivec3 place(std::size_t node) const { return places_[node]; }
+    /// The number of the node at a place, -1 where there is none. Coordinates from -1 to the size.
+    std::int32_t number(int x, int y, int z) const {
+        return numbers_[index(wrapped(x, size_.x), wrapped(y, size_.y), wrapped(z, size_.z))];
+    }
+    /// Of a node: bit e is set where the element exists whose corner e the node is.
+    std::uint8_t elements(std::size_t node) const { return elements_[node]; }
+    /// Numbers of the nodes about a node, in the order of NodeStencil; -1 where there is none.
+    std::array<std::int32_t, hex_neighbours> neighbours(std::size_t node) const;
+
+  private:
+    static int wrapped(int i, int size) { return i < 0 ? i + size : i >= size ? i - size : i; }
+    std::size_t index(int x, int y, int z) const {
+        return static_cast<std::size_t>(x) +
+               static_cast<std::size_t>(size_.x) *
+                   (static_cast<std::size_t>(y) +
+                    static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(z));
+    }
+
+    glm::ivec3 size_;
+    std::vector<std::int32_t> numbers_;
+    std::vector<glm::i16vec3> places_;
+    std::vector<std::uint8_t> elements_;
+};
+
+/// The stencil of a node at corner e of elements; `stiffness(e)` is the matrix of that element or null.
+template <typename Number, typename Stiffness>
+NodeStencil<Number> gather_stencil(const Stiffness& stiffness) {
+    NodeStencil<Number> stencil{};
+    for (std::size_t e = 0; e < hex_nodes; ++e) {
+        const auto* k = stiffness(e);
+        if (k == nullptr) continue;
+        for (std::size_t c = 0; c < hex_nodes; ++c) {
+            const std::size_t neighbour = (1 + (c & 1) - (e & 1)) + 3 * (1 + (c >> 1 & 1) - (e >> 1 & 1)) +
+                                          9 * (1 + (c >> 2 & 1) - (e >> 2 & 1));
+            for (std::size_t i = 0; i < 3; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    stencil[9 * neighbour + 3 * i + j] += static_cast<Number>((*k)[3 * e + i][3 * c + j]);
+                }
+            }
+        }
+    }
+    return stencil;
+}
+
+/// Adds the forces of a stencil to `sum`, from the displacements of all nodes.
+template <typename Number>
+void add_forces(const NodeStencil<Number>& stencil,
+                const std::array<std::int32_t, hex_neighbours>& neighbours, const Number* displacements,
+                Number* sum) {
+    for (std::size_t k = 0; k < hex_neighbours; ++k) {
+        if (neighbours[k] < 0) continue;
+        const Number* from = displacements + node_numbers * static_cast<std::size_t>(neighbours[k]);
+        const Number* block = stencil.data() + 9 * k;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                const Number a = block[3 * i + j];
+                for (std::size_t l = 0; l < load_cases; ++l)
+                    sum[load_cases * i + l] += a * from[load_cases * j + l];
+            }
+        }
+    }
+}
+
+}  // namespace lamella

@@ -1,0 +1,22 @@
+// The finite element of homogenisation: a cube of edge 1 with a node at each corner (trilinear, hex8).
+#pragma once
+
+#include <array>
+
+#include "procedural/elasticity/elastic_tensor.h"
+
+namespace lamella {
+
+inline constexpr int hex_nodes = 8;                 ///< node c lies at (c & 1, c >> 1 & 1, c >> 2 & 1)
+inline constexpr int hex_unknowns = 3 * hex_nodes;  ///< displacements x, y, z of node 0, of node 1, ...
+
+struct HexElement {
+    std::array<std::array<double, hex_unknowns>, hex_unknowns> stiffness{};
+    /// Forces at the nodes under each of the six strains of Voigt's notation, held back by the stresses.
+    std::array<std::array<double, 6>, hex_unknowns> loads{};
+};
+
+/// Integrated exactly (two Gauss points a direction).
+HexElement make_hex_element(const ElasticTensor& stiffness);
+
+}  // namespace lamella

@@ -1,0 +1,54 @@
+// Nodes worked on in parallel, and sums over them that do not depend on how.
+#pragma once
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "procedural/elasticity/elastic_grid.h"
+
+namespace lamella {
+
+inline constexpr std::size_t nodes_in_a_block = 512;
+
+/// Calls work(node) for each node.
+template <typename Work>
+void for_each_node(std::size_t nodes, const Work& work) {
+    const std::size_t blocks = (nodes + nodes_in_a_block - 1) / nodes_in_a_block;
+    oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        const std::size_t end = std::min((b + 1) * nodes_in_a_block, nodes);
+        for (std::size_t node = b * nodes_in_a_block; node < end; ++node) work(node);
+    });
+}
+
+using CaseNumbers = std::array<double, load_cases>;
+
+/// Sums what add(node, sums) adds for each node: in blocks, then block after block.
+template <typename Add>
+CaseNumbers sum_over_nodes(std::size_t nodes, const Add& add) {
+    std::vector<CaseNumbers> parts((nodes + nodes_in_a_block - 1) / nodes_in_a_block, CaseNumbers{});
+    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t b) {
+        const std::size_t end = std::min((b + 1) * nodes_in_a_block, nodes);
+        for (std::size_t node = b * nodes_in_a_block; node < end; ++node) add(node, parts[b]);
+    });
+    CaseNumbers sums{};
+    for (const CaseNumbers& part : parts) {
+        for (std::size_t l = 0; l < load_cases; ++l) sums[l] += part[l];
+    }
+    return sums;
+}
+
+/// The scalar products, case by case, of two vectors of nodes.
+template <typename A, typename B>
+CaseNumbers products(std::size_t nodes, const A* a, const B* b) {
+    return sum_over_nodes(nodes, [=](std::size_t node, CaseNumbers& sums) {
+        for (std::size_t k = 0; k < node_numbers; ++k) {
+            const std::size_t at = node * node_numbers + k;
+            sums[k % load_cases] += static_cast<double>(a[at]) * static_cast<double>(b[at]);
+        }
+    });
+}
+
+}  // namespace lamella

@@ -1,0 +1,32 @@
+// A piece of a foam with walls: a beam or a round triangle.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "engine/solids/round_triangle.h"
+#include "procedural/foam/plane_strips.h"
+
+namespace lamella {
+
+/// What the cells of a foam with walls are made of.
+using FoamPiece = std::variant<Beam, RoundTriangle>;
+
+inline double signed_distance(const FoamPiece& piece, dvec3 p) {
+    return std::visit([&](const auto& solid) { return signed_distance(solid, p); }, piece);
+}
+
+inline Box bounds(const FoamPiece& piece) {
+    return std::visit([](const auto& solid) { return bounds(solid); }, piece);
+}
+
+inline void put_into(PlanePieces& pieces, const FoamPiece& piece) {
+    if (const auto* beam = std::get_if<Beam>(&piece)) pieces.beams.push_back(*beam);
+    if (const auto* wall = std::get_if<RoundTriangle>(&piece)) pieces.walls.push_back(*wall);
+}
+
+/// Whether the closed round triangle and the closed box have a point in common; exact up to rounding.
+bool touches(const RoundTriangle& triangle, const Box& box);
+bool touches(const FoamPiece& piece, const Box& box);
+
+}  // namespace lamella

@@ -1,0 +1,63 @@
+// Joints: what holds the parts of a surface frame together where Voronoi faces and edges alone do not.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "procedural/foam/cell_faces.h"
+#include "procedural/foam/surface_curves.h"
+
+namespace lamella {
+
+/// Joins what hangs together in the body but not in the frame, cell by cell.
+///
+/// In a cell, the frame is the curves on its faces and the parts of its edges within the body. Where the body
+/// is thin against the cell, a face may cut it in a loop that meets no edge, and a cell may hold several such
+/// pieces. All pieces that lie in one connected part of (cell and body) are joined: so foam and frame are in
+/// one piece wherever the body is, up to what the lattices below do not see. A piece is joined by the
+/// straight line from its nearest point where that leaves the body by less than a quarter of the frame's
+/// radius, else by a path through a lattice of 20 points along the cell. Not thread-safe; keeps buffers for
+/// reuse.
+class FrameJoints {
+  public:
+    /// `radius`: of the frame. `edges_hold`: whether the cells' edges are beams.
+    FrameJoints(NodeRadius radius, bool edges_hold) : radius_(std::move(radius)), edges_hold_(edges_hold) {}
+
+    /// The joints of a cell whose faces, and the curves on all of them, are given. `own` and `sites` are the
+    /// cell's, in the seeds' space.
+    std::vector<SurfaceCurve> joints(std::span<const CellFaces::Face> faces,
+                                     std::span<const SurfaceCurve> curves, SurfaceTracer& tracer,
+                                     const Seed& own, std::span<const Seed> sites, const Stretch& stretch);
+
+  private:
+    /// A pair of components that could be joined, and the line or path that would.
+    struct Candidate {
+        double length;
+        std::size_t a, b;
+        SurfaceCurve path;
+    };
+    struct Lattice;
+
+    std::size_t point(dvec3 p);
+    std::size_t root(std::size_t i);
+    void unite(std::size_t a, std::size_t b);
+    void add_edges(std::span<const CellFaces::Face> faces, SurfaceTracer& tracer);
+    void collect_components();
+    void join(std::vector<Candidate>& candidates, std::vector<SurfaceCurve>& joints);
+    bool leads_through(dvec3 p, dvec3 q, const Field& body, double allowance) const;
+    std::vector<Candidate> straight(const Field& body) const;
+    std::vector<Candidate> paths(std::span<const CellFaces::Face> faces, const Field& body, const Seed& own,
+                                 std::span<const Seed> sites, const Stretch& stretch) const;
+    SurfaceCurve shortened(const SurfaceCurve& path, const Field& body) const;
+
+    NodeRadius radius_;
+    bool edges_hold_;
+    std::map<dvec3, std::size_t, PlaceOrder> points_;
+    std::vector<dvec3> places_;
+    std::vector<std::size_t> parents_;
+    std::vector<std::vector<dvec3>> components_;
+    std::vector<std::size_t> component_roots_;
+};
+
+}  // namespace lamella

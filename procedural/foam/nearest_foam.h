@@ -1,0 +1,93 @@
+// NearestFoam: beams from every seed to its k nearest ones, near in a metric that may be stretched and turned
+// from place to place.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "procedural/foam/beam_box.h"
+#include "procedural/foam/beam_foam.h"
+#include "procedural/foam/foam_settings.h"
+#include "procedural/foam/piece_units.h"
+
+namespace lamella {
+
+/// The factors that a k-nearest foam takes.
+inline constexpr Interval nearest_factors{0.1, 10};
+
+struct NearestFoamSettings {
+    FoamSettings foam;   ///< without a stretch of its own
+    int neighbours = 5;  ///< k, from 1 to 26
+    /// Factors along three axes at right angles, within nearest_factors: where one is larger, beams along its
+    /// axis are more and longer.
+    std::array<Graded, 3> stretch = {1.0, 1.0, 1.0};
+    std::array<Graded, 3> turn = {0.0, 0.0, 0.0};  ///< of the axes about x, then y, then z, degrees
+};
+
+/// How near seeds are to one of them: the length of the way to them, divided along each axis by its factor.
+struct LocalMetric {
+    glm::dmat3 inverse{1};      ///< squared length of inverse * way is what is compared
+    double largest_factor = 1;  ///< a way is at most this times as long as it is far in the metric
+    double distance_squared(dvec3 way) const {
+        const dvec3 v = inverse * way;
+        return v.x * v.x + v.y * v.y + v.z * v.z;
+    }
+};
+
+/// Makes the beams that a seed owns: those to its k nearest seeds, except to a lower key that has it among
+/// its own.
+class NearestSource {
+  public:
+    using Piece = Beam;
+    /// `settings` are checked.
+    NearestSource(const FoamGround& ground, const NearestFoamSettings& settings, double farthest_ratio);
+
+    void gather(const Box& /*box*/) { known_.clear(); }
+    void append(const Seed& own, std::vector<Beam>& beams);
+    double reach(const SeedBlock& block, std::size_t node) const;
+    double farthest() const;
+    double growth(const Box& box) const { return tapered_.radius().largest_in(box); }
+    double largest_growth() const { return tapered_.radius().largest(); }
+    bool avoids(const Box& /*box*/) const { return false; }
+    const Stretch& stretch() const { return none_; }
+
+    /// The k nearest seeds, by distance, then key.
+    const std::vector<Seed>& nearest(const Seed& own);
+
+  private:
+    struct Search;
+    LocalMetric metric_at(dvec3 p) const;
+    double sure_radius(dvec3 p, int deepest_level) const;
+    void visit(const SeedBlock& block, std::size_t node, Search& search) const;
+
+    std::shared_ptr<const SeedTree> tree_;
+    TaperedBeams tapered_;
+    std::size_t neighbours_;
+    std::array<Graded, 3> stretch_, turn_;
+    double farthest_ratio_;  ///< no metric's largest factor over its smallest exceeds it
+    Stretch none_;
+    std::map<SeedKey, std::vector<Seed>> known_;
+};
+
+/// A foam of beams between near seeds (after Martinez, Song, Dumas and Lefebvre, "Orthotropic k-nearest foams
+/// for additive manufacturing", SIGGRAPH 2017). It has no walls and no cells, follows any field of
+/// directions, and is not sure to be in one piece.
+class NearestFoam : public BeamFoam {
+  public:
+    /// Throws InputError for settings out of range.
+    explicit NearestFoam(const NearestFoamSettings& settings);
+
+    std::vector<Beam> pieces_touching(const Box& box) const override { return units_.touching(box); }
+    /// All seeds in the closed box, by key.
+    std::vector<Seed> seeds_in(const Box& box) const { return ground_.seeds_in(box); }
+
+  private:
+    NearestFoam(const NearestFoamSettings& settings, const FoamGround& ground);
+
+    FoamGround ground_;
+    PieceUnits<NearestSource> units_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,114 @@
+// PieceFoam: what foams share as fields: distances, ranges and slices from a query of pieces.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "engine/field/grading.h"
+#include "engine/field/slice_context.h"
+#include "procedural/foam/distance_brick.h"
+#include "procedural/foam/piece_slabs.h"
+#include "procedural/voronoi/cell_cache.h"
+
+namespace lamella {
+
+/// The union of infinitely many pieces, known by what touches a box.
+///
+/// Piece: signed_distance(piece, p) and put_into(PlanePieces&, piece), found by argument.
+template <typename Piece>
+class PieceFoam : public Field {
+  public:
+    /// Every piece whose solid touches the box, once, in canonical order.
+    virtual std::vector<Piece> pieces_touching(const Box& box) const = 0;
+
+    /// The minimum of the signed distances to all pieces, mm: the exact distance outside; inside, its
+    /// magnitude never exceeds the distance to the surface. NaN at points that are not finite.
+    double value(dvec3 p) const override;
+    Interval range(const Box& box) const override;
+    Metric metric() const override { return Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override;
+    /// The region.
+    Box bounds() const override { return region_; }
+
+  protected:
+    /// `cell`: about how far pieces are apart, mm, within `cells` everywhere. No piece is deeper than
+    /// `deepest`, mm. `cache_bytes` bounds the memory for distances.
+    PieceFoam(const Box& region, GradingPtr cell, Interval cells, double deepest, std::size_t cache_bytes)
+        : region_(region),
+          cell_(std::move(cell)),
+          cells_(cells),
+          deepest_(deepest),
+          bricks_(cache_bytes),
+          slabs_(slab_height_in_cells * cells.lo, strips_of(region, cells.lo)) {}
+
+  private:
+    static constexpr double slab_height_in_cells = 0.125;
+    static int strips_of(const Box& region, double cell);
+    PlaceKey brick_about(dvec3 p) const;
+    double side_of(int level) const { return std::ldexp(cells_.hi, -level); }
+
+    Box region_;
+    GradingPtr cell_;
+    Interval cells_;
+    double deepest_;
+    mutable CellCache<PieceBrick<Piece>> bricks_;
+    PieceSlabs<Piece> slabs_;
+};
+
+template <typename Piece>
+double PieceFoam<Piece>::value(dvec3 p) const {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    const PlaceKey key = brick_about(p);
+    const auto brick = bricks_.find_or_make(key, p.z, [&] {
+        const double side = side_of(key.level);
+        const dvec3 index(glm::i64vec3(key.x, key.y, key.z));
+        return PieceBrick<Piece>({index * side, (index + 1.0) * side},
+                                 [this](const Box& box) { return pieces_touching(box); });
+    });
+    return brick->distance(p);
+}
+
+/// Any brick about the point is exact; one no larger than twice the smallest cell about it is quick to make
+/// and to ask.
+template <typename Piece>
+PlaceKey PieceFoam<Piece>::brick_about(dvec3 p) const {
+    for (int level = 0;; ++level) {
+        const double side = side_of(level);
+        const dvec3 index = glm::floor(p / side);
+        const Box box{index * side, (index + 1.0) * side};
+        if (side <= cells_.lo || side <= 2 * cell_->range(grown(box, side)).lo) {
+            return {static_cast<std::int64_t>(index.x), static_cast<std::int64_t>(index.y),
+                    static_cast<std::int64_t>(index.z), level, 0};
+        }
+    }
+}
+
+template <typename Piece>
+Interval PieceFoam<Piece>::range(const Box& box) const {
+    const dvec3 center = box.center();
+    const double center_value = value(center);
+    if (!std::isfinite(center_value)) return {-infinity, infinity};
+    // The value is 1-Lipschitz. Inside, the axis of the thickest piece is the deepest place.
+    const double radius = glm::length(box.hi - center);
+    return {std::max(center_value - radius, -deepest_), center_value + radius};
+}
+
+/// Strips of some thousand cells in a plane.
+template <typename Piece>
+int PieceFoam<Piece>::strips_of(const Box& region, double cell) {
+    constexpr double cells_per_strip = 8192, most_strips = 256;
+    const dvec2 cells = region.rect().size() / cell;
+    return std::max(static_cast<int>(std::min(cells.x * cells.y / cells_per_strip, most_strips)), 1);
+}
+
+template <typename Piece>
+const SliceField& PieceFoam<Piece>::slice(SliceContext& context, double z) const {
+    const auto meeting = [this, z](std::size_t strip, const Rect& rect) {
+        return slabs_.at(strip, rect, z, [this](const Box& box) { return pieces_touching(box); });
+    };
+    return context.make<PlaneStrips>(*this, meeting, region_.rect(), slabs_.strips(), z);
+}
+
+}  // namespace lamella

@@ -1,0 +1,227 @@
+// The pieces of a foam by place: units of seeds whose pieces are made once, shared by all layers in flight.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "procedural/voronoi/rounding.h"
+#include "procedural/voronoi/seed_tree.h"
+#include "procedural/voronoi/stretch.h"
+
+namespace lamella {
+
+/// Answers which pieces (beams, walls) of a foam touch a box. Thread-safe; the answers are pure functions of
+/// the tree and the source.
+///
+/// Source makes the pieces that a seed owns, and is copied for each query that makes some:
+///   using Piece                    with bounds(piece) and touches(piece, box) found by argument
+///   void gather(const Box&)        called before append() for seeds in the box
+///   void append(const Seed&, std::vector<Piece>&)
+///   double reach(const SeedBlock&, std::size_t node) const   how far the axes of the node's pieces can lie
+///                                  from the node's box, in the seeds' space, mm
+///   double farthest() const        no reach is larger
+///   double growth(const Box&) const   how far solids leave axes in a box of the part's space, mm
+///   double largest_growth() const  ... anywhere
+///   bool avoids(const Box&) const  whether surely no axis of a piece passes through a box of the part's
+///   space const Stretch& stretch() const from the seeds' space to that of pieces and of boxes asked about
+///
+/// A unit is a tree node of at most 64 seeds, or one of its eight slabs in z when it has more than 16. It
+/// matters to a query only within its reach and growth.
+template <typename Source>
+class PieceUnits {
+  public:
+    using Piece = typename Source::Piece;
+
+    /// `cache_bytes` bounds the memory of the cached units (CellCache says how).
+    PieceUnits(std::shared_ptr<const SeedTree> tree, Source source, std::size_t cache_bytes)
+        : tree_(std::move(tree)),
+          source_(std::move(source)),
+          units_(cache_bytes, idle_unit_bytes),
+          reaches_(reach_bytes, idle_reach_bytes) {}
+
+    /// Every piece whose solid touches the box, once, in the order of units (coarse cells by z, y, x; nodes
+    /// depth first; slabs upwards) and within a unit in the order of keys.
+    std::vector<Piece> touching(const Box& box) const;
+
+  private:
+    static constexpr std::uint32_t unit_seeds = 64;      // a node with more is no unit but its children
+    static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
+    static constexpr int slabs = 8;
+    static constexpr std::size_t reach_bytes = std::size_t{32} << 20;
+    static constexpr std::size_t idle_unit_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t idle_reach_bytes = std::size_t{1} << 16;
+
+    struct Unit {
+        std::vector<Piece> pieces;
+        std::vector<Interval> heights;  ///< of each piece's solid: most pieces miss a layer's plane
+        Box extent;                     ///< of the pieces' solids, mm
+        std::size_t bytes() const {
+            return sizeof(Unit) + pieces.capacity() * (sizeof(Piece) + sizeof(Interval));
+        }
+        Interval z_extent() const { return {extent.lo.z, extent.hi.z}; }
+    };
+    /// How far the pieces of a node's seeds can be from it, in the seeds' space.
+    struct Reach {
+        double distance;
+        Interval z;
+        std::size_t bytes() const { return sizeof(Reach); }
+        Interval z_extent() const { return z; }
+    };
+    /// What one query passes on: what is asked, what was found, and the buffers for making units.
+    struct Request {
+        const Box& box;  ///< in the part's space
+        Box seed_box;    ///< about the same in the seeds' space
+        double z;        ///< of the layer, for the caches; in the seeds' space
+        Source source;
+        std::vector<Piece> pieces;
+    };
+
+    static int parts_of(const SeedNode& node) { return node.seed_count > slabless_seeds ? slabs : 1; }
+    static Box part_box(const SeedNode& node, int part);
+
+    double reach(const SeedBlock& block, std::size_t node, double z) const;
+    void visit(const SeedBlock& block, std::size_t node, double within, Request& request) const;
+    void collect(const SeedBlock& block, std::size_t node, double within, Request& request) const;
+    Unit make(const SeedBlock& block, const SeedNode& node, const Box& part, double within,
+              Request& request) const;
+
+    std::shared_ptr<const SeedTree> tree_;
+    Source source_;
+    mutable CellCache<Unit> units_;
+    mutable CellCache<Reach> reaches_;
+};
+
+template <typename Source>
+Box PieceUnits<Source>::part_box(const SeedNode& node, int part) {
+    const int parts = parts_of(node);
+    const double height = (node.box.hi.z - node.box.lo.z) / parts;
+    Box box = node.box;
+    box.lo.z = node.box.lo.z + height * part;
+    if (part + 1 < parts) box.hi.z = node.box.lo.z + height * (part + 1);
+    return box;
+}
+
+template <typename Source>
+double PieceUnits<Source>::reach(const SeedBlock& block, std::size_t node, double z) const {
+    const Box box = block.nodes[node].box;
+    const PlaceKey key{block.index.x, block.index.y, block.index.z, static_cast<int>(node), 0};
+    const auto make = [&] {
+        const double axes = source_.reach(block, node);
+        const Stretch& stretch = source_.stretch();
+        const double growth = source_.growth(stretch.to_part(grown(box, axes)));
+        return Reach{(axes + growth * stretch.seeds_per_part()) * rounding_margin, {box.lo.z, box.hi.z}};
+    };
+    return reaches_.find_or_make(key, z, make)->distance;
+}
+
+template <typename Source>
+std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box) const {
+    if (box.empty()) return {};
+    const Stretch& stretch = source_.stretch();
+    const Box seed_box = stretch.to_seeds(box);
+    Request request{box, seed_box, seed_box.center().z, source_, {}};
+    const double farthest =
+        (source_.farthest() + source_.largest_growth() * stretch.seeds_per_part()) * rounding_margin;
+    const Box about = grown(seed_box, farthest);
+    const glm::i64vec3 lo = tree_->block_index(about.lo), hi = tree_->block_index(about.hi);
+    for (std::int64_t z = lo.z; z <= hi.z; ++z) {
+        for (std::int64_t y = lo.y; y <= hi.y; ++y) {
+            for (std::int64_t x = lo.x; x <= hi.x; ++x) {
+                if (distance(tree_->block_box({x, y, z}), seed_box) > farthest) continue;
+                const auto block = tree_->block({x, y, z});
+                visit(*block, 0, farthest, request);
+            }
+        }
+    }
+    return std::move(request.pieces);
+}
+
+/// Goes down to the units within reach of the box. `within` bounds the reach of everything in the node.
+template <typename Source>
+void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double within,
+                               Request& request) const {
+    const SeedNode& here = block.nodes[node];
+    if (here.seed_count == 0) return;
+    const double away = distance(here.box, request.seed_box);
+    if (away > within) return;
+    // Where all leaves have one level, so has the reach; elsewhere it is worth knowing at every node.
+    if (node == 0 || block.leaf_level < 0) {
+        within = std::min(within, reach(block, node, request.z));
+        if (away > within) return;
+    }
+    if (here.seed_count <= unit_seeds || here.first_child < 0) {
+        collect(block, node, within, request);
+        return;
+    }
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+        visit(block, static_cast<std::size_t>(here.first_child) + octant, within, request);
+    }
+}
+
+/// Appends the pieces of one node's units that touch the box; missing units are made from one gathering.
+template <typename Source>
+void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, double within,
+                                 Request& request) const {
+    const SeedNode& here = block.nodes[node];
+    std::array<typename CellCache<Unit>::Pointer, slabs> units;
+    std::array<bool, slabs> missing{};
+    Box gathering;
+    const auto key = [&](int part) {
+        return PlaceKey{block.index.x, block.index.y, block.index.z, static_cast<int>(node), part};
+    };
+    for (int part = 0; part < parts_of(here); ++part) {
+        const Box box = part_box(here, part);
+        if (distance(box, request.seed_box) > within) continue;
+        const auto at = static_cast<std::size_t>(part);
+        units[at] = units_.find(key(part), request.z);
+        missing[at] = !units[at];
+        if (missing[at]) gathering = unite(gathering, box);
+    }
+    if (!gathering.empty()) {
+        request.source.gather(gathering);
+        for (int part = 0; part < parts_of(here); ++part) {
+            const auto at = static_cast<std::size_t>(part);
+            if (!missing[at]) continue;
+            auto unit =
+                std::make_shared<const Unit>(make(block, here, part_box(here, part), within, request));
+            units[at] = units_.insert(key(part), request.z, std::move(unit));
+        }
+    }
+    for (const auto& unit : units) {
+        if (!unit || intersect(unit->extent, request.box).empty()) continue;
+        for (std::size_t i = 0; i < unit->pieces.size(); ++i) {
+            const Interval& z = unit->heights[i];
+            if (z.hi < request.box.lo.z || request.box.hi.z < z.lo) continue;
+            if (touches(unit->pieces[i], request.box)) request.pieces.push_back(unit->pieces[i]);
+        }
+    }
+}
+
+template <typename Source>
+typename PieceUnits<Source>::Unit PieceUnits<Source>::make(const SeedBlock& block, const SeedNode& node,
+                                                           const Box& part, double within,
+                                                           Request& request) const {
+    Unit unit;
+    const bool last = part.hi.z == node.box.hi.z, first = part.lo.z == node.box.lo.z;
+    const bool none = source_.avoids(source_.stretch().to_part(grown(part, within)));
+    const std::uint32_t end = none ? node.first_seed : node.first_seed + node.seed_count;
+    for (std::uint32_t i = node.first_seed; i < end; ++i) {
+        const Seed own = block.seed(i);
+        if (own.position.z < part.lo.z && !first) continue;
+        if (own.position.z >= part.hi.z && !last) continue;
+        request.source.append(own, unit.pieces);
+    }
+    unit.pieces.shrink_to_fit();
+    unit.heights.reserve(unit.pieces.size());
+    for (const Piece& piece : unit.pieces) {
+        const Box box = bounds(piece);
+        unit.heights.push_back({box.lo.z, box.hi.z});
+        unit.extent = unite(unit.extent, box);
+    }
+    if (unit.pieces.empty()) unit.extent = {dvec3(infinity), dvec3(infinity)};
+    return unit;
+}
+
+}  // namespace lamella

@@ -1,0 +1,52 @@
+// The slice of a foam: its plane in strips, each opened when a band first needs it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/solids/beam_slice.h"
+#include "engine/solids/wedge_rows.h"
+
+namespace lamella {
+
+/// What of a foam meets a part of a plane.
+struct PlanePieces {
+    std::vector<Beam> beams;
+    std::vector<RoundTriangle> walls;  ///< drawn without their edges' beams
+};
+
+inline void put_into(PlanePieces& pieces, const Beam& beam) { pieces.beams.push_back(beam); }
+
+/// Runs of infinitely many pieces in one plane. A small plane is one strip; a large one is cut across y into
+/// strips of equal height, so that its first band waits for its own pieces only. Thread-safe.
+class PlaneStrips : public SampledSlice {
+  public:
+    /// At least what of a strip, given with its number, meets the plane.
+    using Query = std::function<PlanePieces(std::size_t strip, const Rect&)>;
+    PlaneStrips(const Field& field, Query meeting, const Rect& region, int strips, double z);
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    /// The region.
+    Rect bounds() const override { return region_; }
+
+  private:
+    struct Rows {
+        BeamRows beams;
+        WedgeRows walls;
+    };
+    struct Strip {
+        std::once_flag opened;
+        std::unique_ptr<const Rows> rows;
+    };
+    const Rows& open(std::size_t strip) const;
+    std::size_t strip_of(double y) const;
+
+    Query meeting_;
+    Rect region_;
+    double z_, height_;
+    mutable std::vector<Strip> strips_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,186 @@
+// Stretches of many lines in step: all that is asked next is asked at once.
+#include "procedural/lattice/line_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace lamella {
+namespace {
+
+constexpr double stretch = 8 * run_unit;
+constexpr double smallest_step = run_unit / 4.0;
+constexpr double precise = 1.0 / 64;  // run units
+constexpr int most_rounds = 16;
+/// Borders of stretches that are asked for at once: enough for what asking costs to be shared.
+constexpr std::size_t many_points = 1 << 14;
+
+/// Neighbouring points of a line, and what is there.
+struct Pair {
+    std::size_t line;
+    double u0, v0, u1, v1;
+
+    bool turns() const { return (v0 < 0) != (v1 < 0); }
+    double gap() const { return u1 - u0; }
+    double middle() const { return (u0 + u1) * 0.5; }
+};
+
+/// A pair that holds a turn while it is narrowed.
+class Turn {
+  public:
+    explicit Turn(const Pair& pair) : pair_(pair) {}
+
+    std::size_t line() const { return pair_.line; }
+    bool into_solid() const { return !(pair_.v0 < 0); }
+    bool is_found() const { return found_ || pair_.gap() <= precise; }
+    double at() const { return found_ ? at_ : pair_.middle(); }
+
+    /// Where to look next: secant steps while they close in, halvings otherwise.
+    double next(int round) {
+        slope_ = (pair_.v1 - pair_.v0) / pair_.gap();
+        const double secant = pair_.u0 - pair_.v0 / slope_;
+        halves_ = round % 3 == 2 || !(pair_.u0 < secant && secant < pair_.u1);
+        at_ = halves_ ? pair_.middle() : secant;
+        return at_;
+    }
+    void take(double value) {
+        found_ = !halves_ && std::abs(value) < precise * std::abs(slope_);
+        if (found_) return;
+        if ((value < 0) == (pair_.v0 < 0)) {
+            pair_.u0 = at_;
+            pair_.v0 = value;
+        } else {
+            pair_.u1 = at_;
+            pair_.v1 = value;
+        }
+    }
+
+  private:
+    Pair pair_;
+    double at_ = 0, slope_ = 0;
+    bool halves_ = false, found_ = false;
+};
+
+/// The walk of lines [first, last).
+class ValueWalk {
+  public:
+    ValueWalk(const LineFunction& function, std::size_t first, std::size_t last, std::int32_t lo,
+              std::int32_t hi)
+        : function_(function), first_(first), last_(last), lo_(lo), hi_(hi) {
+        for (std::size_t line = first; line < last; ++line) steepest_.push_back(function.steepest(line));
+    }
+
+    void run(SpanRows& out) {
+        ask_stretches();
+        while (!pairs_.empty()) halve();
+        narrow();
+        append(out);
+    }
+
+  private:
+    void ask() {
+        values_.resize(points_.size());
+        function_.values(points_, values_);
+    }
+
+    void ask_stretches() {
+        const double begin = std::floor(static_cast<double>(lo_) / stretch) * stretch;
+        points_.clear();
+        for (std::size_t line = first_; line < last_; ++line) {
+            points_.push_back({line, begin});
+            for (double u = begin; u < hi_; u += stretch) points_.push_back({line, u + stretch});
+        }
+        ask();
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const LinePoint& point = points_[i];
+            if (i == 0 || points_[i - 1].line != point.line) {
+                begins_solid_.push_back(values_[i] < 0);
+            } else {
+                consider({point.line, points_[i - 1].u, values_[i - 1], point.u, values_[i]});
+            }
+        }
+    }
+
+    /// Keeps a pair between whose points something turns, or may turn. All are of one length at a time, so
+    /// turns come in order.
+    void consider(const Pair& pair) {
+        const bool turns = pair.turns();
+        if (pair.gap() <= smallest_step) {
+            if (turns) turns_.emplace_back(pair);
+        } else if (turns || !is_proven(pair)) {
+            pairs_.push_back(pair);
+        }
+    }
+
+    /// Whether nothing can turn between points on one side; false where a value is NaN.
+    bool is_proven(const Pair& pair) const {
+        return std::abs(pair.v0) + std::abs(pair.v1) >= steepest_[pair.line - first_] * pair.gap();
+    }
+
+    void halve() {
+        points_.clear();
+        for (const Pair& pair : pairs_) points_.push_back({pair.line, pair.middle()});
+        ask();
+        std::swap(pairs_, wholes_);
+        pairs_.clear();
+        for (std::size_t i = 0; i < wholes_.size(); ++i) {
+            const auto& [line, u0, v0, u1, v1] = wholes_[i];
+            consider({line, u0, v0, points_[i].u, values_[i]});
+            consider({line, points_[i].u, values_[i], u1, v1});
+        }
+    }
+
+    void narrow() {
+        std::vector<Turn*> open;
+        for (Turn& turn : turns_) open.push_back(&turn);
+        for (int round = 0; round < most_rounds; ++round) {
+            std::erase_if(open, [](const Turn* turn) { return turn->is_found(); });
+            if (open.empty()) return;
+            points_.clear();
+            for (Turn* const turn : open) points_.push_back({turn->line(), turn->next(round)});
+            ask();
+            for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(values_[i]);
+        }
+    }
+
+    void append(SpanRows& out) const {
+        std::size_t next = 0;
+        for (std::size_t line = first_; line < last_; ++line) {
+            std::int32_t begin = lo_;
+            bool solid = begins_solid_[line - first_];
+            for (; next < turns_.size() && turns_[next].line() == line; ++next) {
+                const std::int32_t at = round_run(turns_[next].at());
+                if (solid) out.push(std::max(begin, lo_), std::min(at, hi_));
+                begin = at;
+                solid = turns_[next].into_solid();
+            }
+            if (solid) out.push(std::max(begin, lo_), hi_);
+            out.end_line();
+        }
+    }
+
+    const LineFunction& function_;
+    std::size_t first_, last_;
+    std::int32_t lo_, hi_;
+    std::vector<double> steepest_;  // of the lines
+    std::vector<LinePoint> points_;
+    std::vector<double> values_;
+    std::vector<bool> begins_solid_;
+    std::vector<Pair> pairs_;   // between whose points something may turn
+    std::vector<Pair> wholes_;  // those that pairs_ are halves of
+    std::vector<Turn> turns_;
+};
+
+}  // namespace
+
+void walk_lines(const LineFunction& function, std::size_t lines, std::int32_t lo, std::int32_t hi,
+                SpanRows& out) {
+    const double length = std::max(0.0, static_cast<double>(hi) - lo);
+    const auto borders = static_cast<std::size_t>(length / stretch) + 2;
+    const std::size_t at_once = std::max<std::size_t>(1, many_points / borders);
+    for (std::size_t first = 0; first < lines; first += at_once)
+        ValueWalk(function, first, std::min(first + at_once, lines), lo, hi).run(out);
+}
+
+}  // namespace lamella

@@ -1,0 +1,96 @@
+// The periodic solids as fields: settings checked, values and ranges from g, slices closed or sampled.
+#include "procedural/lattice/tpms.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "engine/field/slice_context.h"
+#include "procedural/grading/grading_quotient.h"
+#include "procedural/lattice/tpms_slice.h"
+
+namespace lamella {
+namespace {
+
+constexpr double most_periods = 10'000;
+
+const char* name_of(TpmsKind kind) {
+    switch (kind) {
+        case TpmsKind::gyroid:
+            return "gyroid";
+        case TpmsKind::schwarz_p:
+            return "Schwarz P surface";
+        case TpmsKind::schwarz_d:
+            return "Schwarz D surface";
+        case TpmsKind::neovius:
+            break;
+    }
+    return "Neovius surface";
+}
+
+/// Replaces the gradings by ones that keep to what the region asks for, so that all of space is defined.
+TpmsSettings checked(const TpmsSettings& settings) {
+    const char* name = name_of(settings.kind);
+    const Box& region = settings.region;
+    if (!settings.period || !settings.thickness) {
+        throw InputError(fmt::format("the {} needs a period and a thickness", name));
+    }
+    if (region.empty() || !is_finite(region.lo) || !is_finite(region.hi)) {
+        throw InputError(
+            fmt::format("the {}'s region is empty or not finite; give a box with finite corners", name));
+    }
+    const Interval period = positive_range(*settings.period, region, fmt::format("the {}'s period", name));
+    const Interval thickness =
+        positive_range(*settings.thickness, region, fmt::format("the {}'s thickness", name));
+    const dvec3 size = region.size();
+    const double longest = std::max(size.x, std::max(size.y, size.z));
+    if (longest > most_periods * period.lo) {
+        throw InputError(
+            fmt::format("the {}'s period goes down to {:.6g} mm, which makes more than {} periods along a "
+                        "region of {:.6g} mm; it must be at least {:.4g} mm",
+                        name, period.lo, most_periods, longest, longest / most_periods));
+    }
+    TpmsSettings result = settings;
+    result.period = make_clamped_grading(settings.period, period);
+    result.thickness = make_clamped_grading(settings.thickness, thickness);
+    const double thickest = tight_range(*make_quotient_grading(result.thickness, result.period), region).hi;
+    const double limit = greatest_tpms_thickness(settings.kind, settings.network);
+    if (!(thickest < limit)) {
+        throw InputError(fmt::format(
+            "the {}'s thickness goes up to {:.4g} of its period, which leaves nothing open; it must be less "
+            "than {:.4g} of the period",
+            name, thickest, limit));
+    }
+    return result;
+}
+
+class Tpms : public Field {
+  public:
+    explicit Tpms(const TpmsSettings& settings)
+        : solid_(settings), metric_(solid_.is_constant() ? Metric::bound : Metric::sign) {}
+
+    double value(dvec3 p) const override { return solid_.value(p); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        solid_.values(points, out);
+    }
+    Interval range(const Box& box) const override { return solid_.range(box); }
+    Metric metric() const override { return metric_; }
+    Box bounds() const override { return solid_.region(); }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.make<TpmsSlice>(*this, solid_, z);
+    }
+
+  private:
+    TpmsSolid solid_;
+    Metric metric_;
+};
+
+}  // namespace
+
+double greatest_tpms_thickness(TpmsKind kind, bool network) {
+    const TpmsConstants g = tpms_constants(kind);
+    return network ? (g.greatest - g.joined) / (pi * g.steepest) : g.greatest / (pi * g.steepest_surface);
+}
+
+FieldPtr make_tpms(const TpmsSettings& settings) { return std::make_shared<Tpms>(checked(settings)); }
+
+}  // namespace lamella

@@ -1,0 +1,29 @@
+// The slice of a triply periodic solid: runs in closed form where period and thickness are constant.
+#pragma once
+
+#include "engine/field/tile_walk.h"
+#include "procedural/lattice/tpms_solid.h"
+
+namespace lamella {
+
+/// Runs lie within the solid's region. `field` is the field whose solid this is.
+class TpmsSlice : public SampledSlice {
+  public:
+    TpmsSlice(const Field& field, const TpmsSolid& solid, double z);
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void sample(const Tile& tile, std::span<float> out) const override;
+
+  private:
+    void closed_spans(const RowBand& band, SpanRows& out) const;
+    void walked_spans(const RowBand& band, SpanRows& out) const;
+    void sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
+                    std::span<float> out) const;
+
+    const TpmsSolid& solid_;
+    double z_;
+    Rect region_;  ///< empty off the region's heights
+    SineCosine height_;
+};
+
+}  // namespace lamella

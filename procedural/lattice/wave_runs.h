@@ -1,0 +1,28 @@
+// Where along a line a cosine wave lies between two levels: closed forms, without arc functions of the
+// library.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/geometry.h"
+#include "procedural/lattice/tpms_surface.h"
+
+namespace lamella {
+
+/// The angle, in turns from -1/2 to 1/2, of the point (cosine, sine) of the unit circle; to 1e-16 turns.
+double turns_of(double cosine, double sine);
+
+/// The turns t, within one period, in which a wave lies strictly between two levels: up to two intervals,
+/// ascending, disjoint, within [-1, 3/2]; an infinite one when the wave always does.
+struct WaveRuns {
+    Interval part[2];
+    int count = 0;
+};
+WaveRuns wave_runs(const Wave& wave, Interval levels);
+
+/// Appends the intervals (mm, ascending) of a line on which the wave lies between the levels, cut to `clip`
+/// (finite). The wave's angle 0 lies at `origin`, mm.
+void append_wave_runs(const WaveRuns& runs, double origin, double period, Interval clip,
+                      std::vector<Interval>& out);
+
+}  // namespace lamella

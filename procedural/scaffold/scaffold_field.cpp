@@ -1,0 +1,163 @@
+// A tree of pieces for values, an index over the height for slices, and two kernels: beams and upright
+// pieces.
+#include "procedural/scaffold/scaffold_field.h"
+
+#include <array>
+
+#include "engine/field/slice_context.h"
+#include "engine/mesh/halving_tree.h"
+#include "engine/runs/interval_index.h"
+#include "engine/solids/beam_slice.h"
+#include "engine/solids/closed_slice.h"
+#include "engine/solids/primitives.h"
+#include "procedural/scaffold/upright.h"
+
+namespace lamella {
+namespace {
+
+/// Pieces by number: uprights first, then beams.
+class Pieces {
+  public:
+    Pieces(std::vector<Upright> uprights, std::vector<Beam> beams)
+        : uprights_(std::move(uprights)), beams_(std::move(beams)) {
+        std::vector<Interval> heights;
+        std::vector<dvec3> centers;
+        for (std::size_t i = 0; i < size(); ++i) {
+            boxes_.push_back(i < uprights_.size() ? bounds(uprights_[i])
+                                                  : lamella::bounds(beams_[i - uprights_.size()]));
+            heights.push_back({boxes_[i].lo.z, boxes_[i].hi.z});
+            centers.push_back(boxes_[i].center());
+            order_.push_back(static_cast<std::uint32_t>(i));
+        }
+        by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
+        const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
+            Node node{{}, first, last - first};
+            for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
+            return node;
+        };
+        build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(size()), centers, leaf);
+    }
+
+    const Box& box() const { return nodes_.front().box; }
+    double distance(dvec3 p, double limit) const {
+        double best = limit;
+        visit_nearest_first(
+            nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
+            // Within a box of several pieces the deepest counts.
+            [&](double near) { return near < best || near == 0; },
+            [&](const Node& node) {
+                for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+                    best = std::min(best, signed_distance(order_[k], p));
+                }
+            });
+        return best;
+    }
+    void at_height(double z, std::vector<Upright>& uprights, std::vector<Beam>& beams) const {
+        std::vector<std::uint32_t> numbers;
+        by_height_.query({z, z}, numbers);
+        for (const std::uint32_t i : numbers) {
+            if (i >= uprights_.size()) {
+                beams.push_back(beams_[i - uprights_.size()]);
+            } else if (const Upright& upright = uprights_[i]; upright.lo <= z && z < upright.hi) {
+                uprights.push_back(upright);
+            }
+        }
+    }
+
+  private:
+    struct Node {
+        Box box;
+        std::uint32_t first;
+        std::uint32_t count;
+    };
+    std::size_t size() const { return uprights_.size() + beams_.size(); }
+    double signed_distance(std::uint32_t i, dvec3 p) const {
+        return i < uprights_.size() ? lamella::signed_distance(uprights_[i], p)
+                                    : lamella::signed_distance(beams_[i - uprights_.size()], p);
+    }
+    std::vector<Upright> uprights_;
+    std::vector<Beam> beams_;
+    std::vector<Box> boxes_;
+    IntervalIndex by_height_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+class ScaffoldSlice : public SampledSlice {
+  public:
+    ScaffoldSlice(const Field& field, const std::vector<Upright>& uprights, const std::vector<Beam>& beams,
+                  double z)
+        : SampledSlice(field, z), uprights_(uprights), beams_(beams, z) {}
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+        scratch.collector.clear();
+        uprights_.collect(band, scratch.collector);
+        beams_.collect(band, {0, band.lines()}, scratch.collector);
+        scratch.collector.merge(band, out);
+    }
+    Rect bounds() const override { return unite(uprights_.bounds(), beams_.bounds()); }
+
+  private:
+    UprightRows uprights_;
+    BeamRows beams_;
+};
+
+class ScaffoldField : public Field {
+  public:
+    ScaffoldField(std::vector<Upright> uprights, std::vector<Beam> beams)
+        : pieces_(std::move(uprights), std::move(beams)) {}
+
+    double value(dvec3 p) const override { return pieces_.distance(p, infinity); }
+    double value_within(dvec3 p, double limit) const override { return pieces_.distance(p, limit); }
+    Box bounds() const override { return pieces_.box(); }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        std::vector<Upright> uprights;
+        std::vector<Beam> beams;
+        pieces_.at_height(z, uprights, beams);
+        return context.make<ScaffoldSlice>(*this, uprights, beams, z);
+    }
+
+  private:
+    Pieces pieces_;
+};
+
+Upright bar_piece(const ScaffoldBar& bar, const ScaffoldShape& shape) {
+    const dvec2 way = dvec2(bar.b) - dvec2(bar.a);
+    const double length = std::sqrt(glm::dot(way, way));
+    Upright piece;
+    piece.center = (dvec2(bar.a) + dvec2(bar.b)) * 0.5;
+    piece.direction = length > 0 ? way / length : dvec2(1, 0);
+    piece.half = dvec2(length + shape.bar_width, shape.bar_width) * 0.5;
+    piece.lo = bar.a.z - shape.bar_height;
+    piece.hi = bar.a.z;
+    return piece;
+}
+
+void append_pillar(const ScaffoldPillar& pillar, const ScaffoldShape& shape, std::vector<Upright>& pieces) {
+    const double half = shape.pillar / 2;
+    Upright piece{pillar.at, {1, 0}, dvec2(half), pillar.bottom, pillar.top, shape.round_pillars};
+    if (shape.round_pillars) {
+        pieces.push_back(piece);
+    } else {
+        piece.half = {half, shape.wall / 2};
+        pieces.push_back(piece);
+        piece.half = {shape.wall / 2, half};
+        pieces.push_back(piece);
+    }
+    if (pillar.foot > 0) {
+        const double top = std::min(pillar.bottom + shape.foot_height, pillar.top);
+        pieces.push_back({pillar.at, {1, 0}, dvec2(pillar.foot), pillar.bottom, top, true});
+    }
+}
+
+}  // namespace
+
+FieldPtr make_scaffold_field(const Scaffold& scaffold) {
+    std::vector<Upright> uprights;
+    for (const ScaffoldPillar& pillar : scaffold.pillars) append_pillar(pillar, scaffold.shape, uprights);
+    for (const ScaffoldBar& bar : scaffold.bars) uprights.push_back(bar_piece(bar, scaffold.shape));
+    if (uprights.empty() && scaffold.connectors.empty()) return make_empty();
+    return std::make_shared<ScaffoldField>(std::move(uprights), scaffold.connectors);
+}
+
+}  // namespace lamella

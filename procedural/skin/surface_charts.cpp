@@ -1,0 +1,125 @@
+// Cubes by level and index, and the faces between cubes of different charts.
+#include "procedural/skin/surface_charts.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "procedural/voronoi/counter_hash.h"
+
+namespace lamella {
+namespace {
+
+constexpr int levels = 5;  // of cubes: the largest_chart are 16 times as wide as the finest
+constexpr int largest_chart = 1 << (levels - 1);
+constexpr double most_cubes = 1e5;  // along the body's diagonal
+constexpr std::size_t most_leaves = 20'000'000;
+constexpr double slope_step = 1e-3;  // of the finest cube
+
+int level_of(double side, double finest) {
+    int level = 0;
+    while (side < finest * largest_chart * 0.75) {
+        side *= 2;
+        ++level;
+    }
+    return level;
+}
+
+std::optional<Chart> chart_of(const Field& body, dvec3 p, double step) {
+    const auto normal = rising(body, p, step);
+    if (!normal) return std::nullopt;
+    Chart chart;
+    double best = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double share = std::abs((*normal)[axis]) * (1 + 0.01 * axis);
+        if (share <= best) continue;
+        best = share;
+        chart = {axis, (*normal)[axis] > 0};
+    }
+    return chart;
+}
+
+/// Whether corners and middle have one chart.
+bool uniform(const Field& body, const Box& box, double step) {
+    const auto middle = chart_of(body, box.center(), step);
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 share(corner & 1, (corner >> 1) & 1, corner >> 2);
+        if (chart_of(body, box.lo + share * box.size(), step) != middle) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::size_t SurfaceCharts::Hash::operator()(const Key& key) const {
+    return CounterHash(0, key.level, key.index.x, key.index.y, key.index.z).bits(0);
+}
+
+SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : finest_(finest) {
+    const double across = diagonal(body.bounds()) / finest;
+    if (!(finest > 0) || !(across < most_cubes)) {
+        throw InputError(fmt::format("struts are too narrow for a body of {:.4g} mm; accepted: wider ones",
+                                     diagonal(body.bounds())));
+    }
+    const double step = slope_step * finest;
+    std::vector<std::pair<LatticeCube, Chart>> leaves;
+    walk_surface(
+        body, finest * largest_chart, depth,
+        [&](const LatticeCube& cube) {
+            return level_of(cube.side, finest_) + 1 < levels && !uniform(body, cube.box(), step);
+        },
+        [&](const LatticeCube& cube) {
+            const auto chart = chart_of(body, cube.box().center(), step);
+            if (!chart) return;
+            if (leaves.size() == most_leaves) {
+                throw InputError("struts are too narrow for so large a surface; accepted: wider ones");
+            }
+            leaves_[{level_of(cube.side, finest_), cube.index}] = *chart;
+            leaves.emplace_back(cube, *chart);
+        });
+    std::vector<dvec3> seams;
+    for (const auto& [cube, chart] : leaves) collect_seams(cube, chart, seams);
+    seams_ = std::make_unique<const PointTree>(std::move(seams));
+}
+
+SurfaceCharts::Key SurfaceCharts::key(dvec3 p, int level) const {
+    const double side = finest_ * (largest_chart >> level);
+    const auto index = [&](double v) { return static_cast<std::int64_t>(std::floor(v / side)); };
+    return {level, {index(p.x), index(p.y), index(p.z)}};
+}
+
+std::optional<Chart> SurfaceCharts::at(dvec3 p) const {
+    for (int level = 0; level < levels; ++level) {
+        if (const auto found = leaves_.find(key(p, level)); found != leaves_.end()) return found->second;
+    }
+    return std::nullopt;
+}
+
+/// The faces of a cube beyond which the chart is another, in squares of the finest cube's side.
+void SurfaceCharts::collect_seams(const LatticeCube& cube, Chart chart, std::vector<dvec3>& seams) const {
+    const Box box = cube.box();
+    const int count = largest_chart >> level_of(cube.side, finest_);
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2, one = (axis + 1) % 3, two = (axis + 2) % 3;
+        const double beyond = face % 2 == 0 ? -0.5 : 0.5;
+        for (int i = 0; i < count; ++i) {
+            for (int j = 0; j < count; ++j) {
+                dvec3 middle = box.lo;
+                middle[axis] = face % 2 == 0 ? box.lo[axis] : box.hi[axis];
+                middle[one] += (i + 0.5) * finest_;
+                middle[two] += (j + 0.5) * finest_;
+                dvec3 neighbour = middle;
+                neighbour[axis] += beyond * finest_;
+                const auto other = at(neighbour);
+                if (other && !(*other == chart)) seams.push_back(middle);
+            }
+        }
+    }
+}
+
+double SurfaceCharts::seam_distance(dvec3 p, double limit) const {
+    constexpr double half_diagonal = 0.7072;  // of a square
+    const double slack = half_diagonal * finest_;
+    return seams_->distance_within(p, limit + slack) - slack;
+}
+
+}  // namespace lamella

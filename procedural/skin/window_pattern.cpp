@@ -1,0 +1,141 @@
+// The walk along the shell's runs, in steps as long as the pattern's value allows.
+#include "procedural/skin/window_pattern.h"
+
+#include "engine/base/error.h"
+#include "engine/field/crossing_bracket.h"
+#include "engine/field/slice_context.h"
+#include "engine/solids/closed_slice.h"
+
+namespace lamella {
+namespace {
+
+constexpr int quarter = run_unit / 4;
+constexpr int cells_per_unit = 16;  // a crossing is found to 1/16 of a run unit
+constexpr int chords = 6;           // rounds of interpolation before plain halving
+
+/// Walks the lines of a band.
+class LineWalk {
+  public:
+    LineWalk(const WindowPattern& pattern, const RowBand& band, double z)
+        : pattern_(pattern), band_(band), z_(z), step_(std::abs(band.along_pitch) / 4) {}
+
+    /// Appends the solid part of the runs of a line.
+    void cut(int line, std::span<const Run> runs, SpanRows& out) {
+        across_ = band_.line(line);
+        for (const Run& run : runs) cut(run, out);
+        out.end_line();
+    }
+
+  private:
+    double value(double u) {
+        const double along = band_.along(u);
+        const dvec3 p = band_.axis == Axis::x ? dvec3(along, across_, z_) : dvec3(across_, along, z_);
+        return pattern_.value_near(p, hint_);
+    }
+
+    void cut(const Run& run, SpanRows& out) {
+        // Quarters are counted from the band's origin, so that runs do not depend on how lines are cut.
+        std::int32_t u = run.begin >= 0 ? run.begin / quarter * quarter
+                                        : -((-run.begin + quarter - 1) / quarter * quarter);
+        double v = value(u);
+        std::int32_t from = run.begin;
+        while (u < run.end) {
+            const double quarters = std::min(std::abs(v) / step_, 1e6);
+            const std::int32_t step = std::max(static_cast<std::int32_t>(quarters), 1) * quarter;
+            const double next = u + step < run.end || step == quarter ? value(u + step) : v;
+            if ((v < 0) != (next < 0)) {
+                const std::int32_t turn = round_run(crossing(u, step, v, next));
+                if (v < 0) push(run, from, turn, out);
+                from = turn;
+            }
+            u += step;
+            v = next;
+        }
+        if (v < 0) push(run, from, run.end, out);
+    }
+
+    static void push(const Run& run, std::int32_t begin, std::int32_t end, SpanRows& out) {
+        out.push(std::max(begin, run.begin), std::min(end, run.end));
+    }
+
+    /// Where the surface passes between two samples, in run coordinates.
+    double crossing(std::int32_t u, std::int32_t step, double v, double next) {
+        Bracket bracket{0, step * cells_per_unit, v, next};
+        const auto at = [&](int border) { return u + static_cast<double>(border) / cells_per_unit; };
+        for (int round = 0; bracket.hi - bracket.lo > 1; ++round) {
+            const Bracket::Borders borders = bracket.next(round < chords ? Search::chord : Search::halves);
+            for (std::size_t n = 0; n < borders.count; ++n) {
+                if (bracket.lo < borders.at[n] && borders.at[n] < bracket.hi)
+                    bracket.take(borders.at[n], value(at(borders.at[n])), v < 0);
+            }
+        }
+        return (at(bracket.lo) + at(bracket.hi)) * 0.5;
+    }
+
+    const WindowPattern& pattern_;
+    const RowBand& band_;
+    double z_;
+    double step_;  ///< mm
+    double across_ = 0;
+    std::uint32_t hint_ = 0;
+};
+
+class PatternedSlice : public SampledSlice {
+  public:
+    PatternedSlice(const Field& field, const SliceField& shell, const WindowPattern& pattern, double z)
+        : SampledSlice(field, z), shell_(shell), pattern_(pattern), z_(z) {}
+
+    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+        const auto whole = scratch.rows();
+        shell_.spans(band, scratch, *whole);
+        out.clear();
+        LineWalk walk(pattern_, band, z_);
+        for (int l = 0; l < band.lines(); ++l) walk.cut(l, whole->line(static_cast<std::size_t>(l)), out);
+    }
+    Rect bounds() const override { return shell_.bounds(); }
+
+  private:
+    const SliceField& shell_;
+    const WindowPattern& pattern_;
+    double z_;
+};
+
+class PatternedShell : public Field {
+  public:
+    PatternedShell(FieldPtr shell, std::shared_ptr<const WindowPattern> pattern)
+        : shell_(std::move(shell)), pattern_(std::move(pattern)) {}
+
+    double value(dvec3 p) const override { return std::max(shell_->value(p), pattern_->value(p)); }
+    Interval range(const Box& box) const override {
+        const Interval shell = shell_->range(box);
+        if (shell.lo > 0) return shell;
+        const Interval pattern = pattern_->range(box);
+        return {std::max(shell.lo, pattern.lo), std::max(shell.hi, pattern.hi)};
+    }
+    Metric metric() const override { return shell_->metric() == Metric::sign ? Metric::sign : Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override {
+        return context.make<PatternedSlice>(*this, context.slice(*shell_, z), *pattern_, z);
+    }
+    Box bounds() const override { return shell_->bounds(); }
+
+  private:
+    FieldPtr shell_;
+    std::shared_ptr<const WindowPattern> pattern_;
+};
+
+}  // namespace
+
+Interval WindowPattern::range(const Box& box) const {
+    const double reach = 0.5 * diagonal(box);
+    if (!std::isfinite(reach)) return {-infinity, infinity};
+    constexpr double least = std::numeric_limits<double>::min();
+    const double v = value(box.center());
+    return {v > reach ? least : -infinity, v < -reach ? -least : infinity};
+}
+
+FieldPtr make_patterned_shell(FieldPtr shell, std::shared_ptr<const WindowPattern> pattern) {
+    if (!shell || !pattern) throw InputError("a patterned skin needs a shell and a pattern");
+    return std::make_shared<PatternedShell>(std::move(shell), std::move(pattern));
+}
+
+}  // namespace lamella

@@ -1,0 +1,177 @@
+// The extremes of a volume's samples over boxes, from those of blocks of blocks.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "engine/base/geometry.h"
+
+namespace lamella {
+
+/// A place in a volume, or its size: along x, y and z.
+using VoxelIndex = std::array<std::size_t, 3>;
+
+/// A span of indices along each axis, both ends included.
+struct VoxelBox {
+    VoxelIndex lo, hi;
+
+    std::size_t longest() const { return std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}) + 1; }
+    bool encloses(const VoxelBox& other) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (other.lo[i] < lo[i] || hi[i] < other.hi[i]) return false;
+        }
+        return true;
+    }
+};
+
+/// Calls visit(i, j, k) for every place of a box, x fastest.
+template <class Visit>
+void for_each_voxel(const VoxelBox& box, const Visit& visit) {
+    for (std::size_t k = box.lo[2]; k <= box.hi[2]; ++k) {
+        for (std::size_t j = box.lo[1]; j <= box.hi[1]; ++j) {
+            for (std::size_t i = box.lo[0]; i <= box.hi[0]; ++i) visit(i, j, k);
+        }
+    }
+}
+
+/// Least and greatest sample; a NaN is kept apart because it has no place in an order.
+template <class T>
+struct SampleExtremes {
+    T lo, hi;
+    bool undefined = false;  ///< a NaN or an infinity is among them, between which numbers are NaN
+
+    void include(const SampleExtremes& other) {
+        lo = std::min(lo, other.lo);
+        hi = std::max(hi, other.hi);
+        undefined = undefined || other.undefined;
+    }
+};
+
+template <class T>
+bool is_finite_sample(T value) {
+    if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
+    return true;
+}
+
+/// Nothing yet: what every sample widens.
+template <class T>
+SampleExtremes<T> no_extremes() {
+    if constexpr (std::is_floating_point_v<T>) return {static_cast<T>(infinity), static_cast<T>(-infinity)};
+    return {std::numeric_limits<T>::max(), std::numeric_limits<T>::lowest()};
+}
+
+template <class T>
+void include_sample(SampleExtremes<T>& extremes, T sample) {
+    extremes.undefined = extremes.undefined || !is_finite_sample(sample);
+    if (sample < extremes.lo) extremes.lo = sample;
+    if (sample > extremes.hi) extremes.hi = sample;
+}
+
+/// The samples' extremes over blocks of 8 x 8 x 8, over 8 of these, and so on up to one block.
+template <class T>
+class BlockPyramid {
+  public:
+    BlockPyramid(const VoxelIndex& size, const std::vector<T>& samples) : size_(size), samples_(samples) {
+        add_level(size, block_side, [this](const VoxelBox& inside) { return of_samples(inside); });
+        while (levels_.back().values.size() > 1) {
+            const Level& below = levels_.back();
+            add_level(below.size, 2, [&below](const VoxelBox& inside) {
+                auto extremes = no_extremes<T>();
+                for_each_voxel(inside, [&](std::size_t i, std::size_t j, std::size_t k) {
+                    extremes.include(below.at({i, j, k}));
+                });
+                return extremes;
+            });
+        }
+    }
+
+    /// Encloses the samples of a box: exact where it is a few blocks long, within a quarter of its length
+    /// beyond where it is longer.
+    SampleExtremes<T> over(const VoxelBox& box) const {
+        auto found = no_extremes<T>();
+        const std::size_t top = levels_.size() - 1;
+        std::size_t finest = 0;  // the level whose blocks are not opened any more, counted as levels below
+        for (std::size_t side = block_side * coarse; side < box.longest(); side *= 2) ++finest;
+        visit(found, box, top, {0, 0, 0}, finest);
+        return found;
+    }
+
+  private:
+    static constexpr std::size_t block_side = 8;
+    /// Boxes of this many blocks a side are looked at sample by sample at their rim.
+    static constexpr std::size_t coarse = 4;
+
+    struct Level {
+        VoxelIndex size;
+        std::size_t side;  ///< of a block, in samples
+        std::vector<SampleExtremes<T>> values;
+        const SampleExtremes<T>& at(const VoxelIndex& i) const {
+            return values[(i[2] * size[1] + i[1]) * size[0] + i[0]];
+        }
+    };
+
+    SampleExtremes<T> of_samples(const VoxelBox& inside) const {
+        auto extremes = no_extremes<T>();
+        for_each_voxel(inside, [&](std::size_t i, std::size_t j, std::size_t k) {
+            include_sample(extremes, samples_[(k * size_[1] + j) * size_[0] + i]);
+        });
+        return extremes;
+    }
+
+    /// The places of the level below that a block of `by` places a side covers.
+    static VoxelBox children(const VoxelIndex& block, std::size_t by, const VoxelIndex& below) {
+        VoxelBox inside;
+        for (std::size_t i = 0; i < 3; ++i) {
+            inside.lo[i] = block[i] * by;
+            inside.hi[i] = std::min(inside.lo[i] + by, below[i]) - 1;
+        }
+        return inside;
+    }
+
+    template <class Summary>
+    void add_level(const VoxelIndex& below, std::size_t by, const Summary& summary) {
+        Level level;
+        level.side = levels_.empty() ? block_side : levels_.back().side * 2;
+        for (std::size_t i = 0; i < 3; ++i) level.size[i] = (below[i] + by - 1) / by;
+        level.values.reserve(level.size[0] * level.size[1] * level.size[2]);
+        for_each_voxel({{0, 0, 0}, {level.size[0] - 1, level.size[1] - 1, level.size[2] - 1}},
+                       [&](std::size_t i, std::size_t j, std::size_t k) {
+                           level.values.push_back(summary(children({i, j, k}, by, below)));
+                       });
+        levels_.push_back(std::move(level));
+    }
+
+    void visit(SampleExtremes<T>& found, const VoxelBox& box, std::size_t number, const VoxelIndex& block,
+               std::size_t finest) const {
+        const Level& level = levels_[number];
+        const SampleExtremes<T>& below = level.at(block);
+        if (found.lo <= below.lo && below.hi <= found.hi && found.undefined >= below.undefined) return;
+        const VoxelBox samples = children(block, level.side, size_);
+        if (number < finest || box.encloses(samples)) return found.include(below);
+        VoxelBox common;
+        for (std::size_t i = 0; i < 3; ++i) {
+            common.lo[i] = std::max(box.lo[i], samples.lo[i]);
+            common.hi[i] = std::min(box.hi[i], samples.hi[i]);
+            if (common.lo[i] > common.hi[i]) return;
+        }
+        if (number == 0) return found.include(of_samples(common));
+        const std::size_t side = levels_[number - 1].side;
+        for (std::size_t i = 0; i < 3; ++i) {
+            common.lo[i] /= side;
+            common.hi[i] /= side;
+        }
+        for_each_voxel(common, [&](std::size_t i, std::size_t j, std::size_t k) {
+            visit(found, box, number - 1, {i, j, k}, finest);
+        });
+    }
+
+    VoxelIndex size_;
+    const std::vector<T>& samples_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,159 @@
+// Trilinear interpolation between voxels, and ranges from their extremes over blocks of blocks.
+#include "procedural/volume/volume_grading.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "procedural/volume/block_pyramid.h"
+
+namespace lamella {
+namespace {
+
+/// Where a coordinate lies between the centres of two neighbouring voxels.
+struct Between {
+    std::size_t lower, upper;
+    double t;  ///< 0 at the lower one, 1 at the upper one
+};
+
+template <class T>
+class VolumeGrading : public Grading {
+  public:
+    VolumeGrading(const VoxelIndex& size, std::vector<T> samples, double full_scale, const Box& box)
+        : size_(size),
+          samples_(std::move(samples)),
+          full_scale_(full_scale),
+          box_(box),
+          pyramid_(size_, samples_) {}
+
+    double at(dvec3 p) const override {
+        const dvec3 g = in_voxels(p);
+        return interpolated({split(g.x, 0), split(g.y, 1), split(g.z, 2)}) / full_scale_;
+    }
+
+    Interval range(const Box& box) const override {
+        const dvec3 lo = in_voxels(box.lo), hi = in_voxels(box.hi);
+        VoxelBox touched;
+        bool is_small = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<int>(i);
+            touched.lo[i] = split(lo[axis], i).lower;
+            touched.hi[i] = split(hi[axis], i).upper;
+            is_small = is_small && touched.hi[i] - touched.lo[i] <= most_stops;
+        }
+        const SampleExtremes<T> samples = pyramid_.over(touched);
+        Interval range{static_cast<double>(samples.lo), static_cast<double>(samples.hi)};
+        if (samples.undefined) return {range.lo / full_scale_, infinity};
+        if (is_small) range = at_stops(lo, hi, range);
+        return {range.lo / full_scale_, range.hi / full_scale_};
+    }
+
+  private:
+    /// Boxes over this many voxels a side are cut along the planes of the centres.
+    static constexpr std::size_t most_stops = 5;
+
+    /// In voxels from the first centre, kept between the outermost ones. Monotone, also when rounded.
+    dvec3 in_voxels(dvec3 p) const {
+        dvec3 g;
+        for (int i = 0; i < 3; ++i) {
+            const double last = static_cast<double>(size_[static_cast<std::size_t>(i)] - 1);
+            const double place = (p[i] - box_.lo[i]) / (box_.hi[i] - box_.lo[i]) * (last + 1) - 0.5;
+            g[i] = place >= last ? last : place > 0 ? place : 0.0;  // NaN lies at the first
+        }
+        return g;
+    }
+
+    Between split(double g, std::size_t axis) const {
+        const auto lower = static_cast<std::size_t>(g);
+        return {lower, std::min(lower + 1, size_[axis] - 1), g - static_cast<double>(lower)};
+    }
+
+    double sample(std::size_t x, std::size_t y, std::size_t z) const {
+        return static_cast<double>(samples_[(z * size_[1] + y) * size_[0] + x]);
+    }
+
+    double interpolated(const std::array<Between, 3>& at) const {
+        const auto& [x, y, z] = at;
+        double corners[8];
+        for (std::size_t i = 0; i < 8; ++i) {
+            corners[i] = sample((i & 1U) != 0 ? x.upper : x.lower, (i & 2U) != 0 ? y.upper : y.lower,
+                                (i & 4U) != 0 ? z.upper : z.lower);
+        }
+        const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
+        const Interval limits{*least, *most};
+        const auto mix = [](double a, double b, double t) { return a * (1 - t) + b * t; };
+        double rows[4];
+        for (std::size_t i = 0; i < 4; ++i) rows[i] = mix(corners[2 * i], corners[2 * i + 1], x.t);
+        const double value = mix(mix(rows[0], rows[1], y.t), mix(rows[2], rows[3], y.t), z.t);
+        // A mean lies between its parts, also when rounded: equal voxels give their number exactly.
+        return value < limits.lo ? limits.lo : value > limits.hi ? limits.hi : value;
+    }
+
+    /// The extremes over a box of few voxels: between the planes of the centres the number is linear along
+    /// each axis, so it is extreme at corners.
+    Interval at_stops(dvec3 lo, dvec3 hi, Interval samples) const {
+        std::array<std::array<Between, most_stops + 2>, 3> stops;
+        VoxelBox all{{0, 0, 0}, {0, 0, 0}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<int>(i);
+            stops[i][0] = split(lo[axis], i);
+            for (std::size_t centre = stops[i][0].lower + 1; static_cast<double>(centre) < hi[axis];
+                 ++centre) {
+                stops[i][++all.hi[i]] = split(static_cast<double>(centre), i);
+            }
+            stops[i][++all.hi[i]] = split(hi[axis], i);
+        }
+        Interval range;
+        for_each_voxel(all, [&](std::size_t i, std::size_t j, std::size_t k) {
+            const double number = interpolated({stops[0][i], stops[1][j], stops[2][k]});
+            range = {std::min(range.lo, number), std::max(range.hi, number)};
+        });
+        const double rounding = 1e-15 * 8 * std::max(std::abs(samples.lo), std::abs(samples.hi));
+        return {std::max(range.lo - rounding, samples.lo), std::min(range.hi + rounding, samples.hi)};
+    }
+
+    VoxelIndex size_;
+    std::vector<T> samples_;
+    double full_scale_;
+    Box box_;
+    BlockPyramid<T> pyramid_;
+};
+
+}  // namespace
+
+GradingPtr make_volume_grading(Volume volume, const Box& box) {
+    for (int i = 0; i < 3; ++i) {
+        const bool finite = std::abs(box.lo[i]) <= 1e9 && std::abs(box.hi[i]) <= 1e9;
+        if (!finite || !(box.lo[i] < box.hi[i])) {
+            throw InputError(
+                "the box of a volume must have three positive sides, within 1e9 mm of the origin");
+        }
+    }
+    return std::visit(
+        [&](auto& samples) -> GradingPtr {
+            using Sample = typename std::decay_t<decltype(samples)>::value_type;
+            const std::size_t voxels = volume.size[0] * volume.size[1] * volume.size[2];
+            if (voxels == 0 || samples.size() != voxels) throw InputError("a volume needs a sample a voxel");
+            return std::make_shared<VolumeGrading<Sample>>(volume.size, std::move(samples), volume.full_scale,
+                                                           box);
+        },
+        volume.samples);
+}
+
+GradingPtr make_volume_grading(const VolumeSource& source) {
+    Volume volume = read_volume(source.path, source.channel);
+    const std::optional<Box> box = source.box ? source.box : volume.box;
+    if (!box) {
+        throw InputError(
+            source.path +
+            ": the file does not say where the volume lies (an NRRD file does by spacings, or by "
+            "space directions along +x, +y and +z, in mm); state its box");
+    }
+    try {
+        return make_volume_grading(std::move(volume), *box);
+    } catch (const InputError& error) {
+        throw InputError(source.path + ": " + error.what());
+    }
+}
+
+}  // namespace lamella

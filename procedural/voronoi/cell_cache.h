@@ -1,0 +1,182 @@
+// A bounded, thread-safe cache of what was computed once for a place: evicted by z distance, then age.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/base/geometry.h"
+
+namespace lamella {
+
+/// A place: a node of an octree over a lattice of coarse cells, and a part of it.
+struct PlaceKey {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int64_t z = 0;
+    int level = 0;
+    int part = 0;
+    friend bool operator==(const PlaceKey&, const PlaceKey&) = default;
+};
+
+/// A hash of the key, the same in every process.
+std::size_t hash_value(const PlaceKey& key);
+
+/// Places of late, by their hashes in a table where each has one slot: a newer place may take it over.
+class RecentPlaces {
+  public:
+    /// Grows to at least so many slots.
+    void make_room(std::size_t slots);
+    /// There has to be a slot.
+    void add(const PlaceKey& key);
+    /// Whether the place was there; it is no longer.
+    bool take(const PlaceKey& key);
+
+  private:
+    std::uint64_t& slot(std::uint64_t hash) { return slots_[hash & (slots_.size() - 1)]; }
+
+    std::vector<std::uint64_t> slots_;  ///< a power of two of them, or none; free ones are 0
+};
+
+/// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds
+/// never shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock
+/// is held while a value is computed.
+///
+/// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves,
+/// mm).
+///
+/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below that,
+/// what is kept beyond `idle` bytes is at most twice what lay near the request in z that last met a limit, so
+/// that a job that goes upwards needs no more memory the higher it gets. Where most of what is made had just
+/// gone, as by rays that cross the part in any order, the limit doubles. When a limit is reached, the
+/// values farthest in z from the last request, and among those the least recently used, go first, until three
+/// quarters are left. Values still held by callers live on until released.
+template <typename Value>
+class CellCache {
+  public:
+    using Pointer = std::shared_ptr<const Value>;
+
+    explicit CellCache(std::size_t capacity) : CellCache(capacity, capacity) {}
+    CellCache(std::size_t capacity, std::size_t idle)
+        : shard_capacity_(capacity / shard_count), shard_idle_(std::min(idle, capacity) / shard_count) {
+        for (Shard& shard : shards_) shard.limit = shard_idle_;
+    }
+
+    /// The value at the key, or null when it is not held. `z` is the height for which it is wanted.
+    Pointer find(const PlaceKey& key, double z) {
+        Shard& shard = shard_of(key);
+        const std::lock_guard lock(shard.mutex);
+        const auto found = shard.entries.find(key);
+        if (found == shard.entries.end()) return nullptr;
+        shard.wanted_z = z;
+        found->second.used = ++shard.clock;
+        return found->second.value;
+    }
+
+    /// Offers a value; returns the one that the cache keeps (an equal one when another thread was faster).
+    Pointer insert(const PlaceKey& key, double z, Pointer value) {
+        Shard& shard = shard_of(key);
+        const std::lock_guard lock(shard.mutex);
+        const auto [entry, fresh] = shard.entries.try_emplace(key);
+        shard.wanted_z = z;
+        entry->second.used = ++shard.clock;
+        if (!fresh) return entry->second.value;
+        entry->second.value = value;
+        shard.bytes += cost(*value);
+        shard.came_back += shard.gone.take(key) ? 1U : 0U;
+        ++shard.made;
+        if (shard.bytes > shard.limit) evict(shard);
+        return value;
+    }
+
+    /// The value at the key, computed by `make()` (returning a Value) when it is not held.
+    template <typename Make>
+    Pointer find_or_make(const PlaceKey& key, double z, const Make& make) {
+        if (Pointer held = find(key, z)) return held;
+        return insert(key, z, std::make_shared<const Value>(make()));
+    }
+
+    /// The memory of all values held.
+    std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (Shard& shard : shards_) {
+            const std::lock_guard lock(shard.mutex);
+            sum += shard.bytes;
+        }
+        return sum;
+    }
+
+  private:
+    struct KeyHash {
+        std::size_t operator()(const PlaceKey& key) const { return hash_value(key); }
+    };
+    struct Entry {
+        Pointer value;
+        std::uint64_t used = 0;
+    };
+    // What lives as long as an entry stands in blocks of its own: strewn between a layer's buffers, entries
+    // would pin the holes that these leave, and memory would grow with the number of layers.
+    struct Shard {
+        std::mutex mutex;
+        std::pmr::unsynchronized_pool_resource nodes{
+            {.max_blocks_per_chunk = 64, .largest_required_pool_block = 128}};
+        std::pmr::unordered_map<PlaceKey, Entry, KeyHash> entries{&nodes};
+        std::size_t bytes = 0;
+        std::uint64_t clock = 0;
+        double wanted_z = 0;
+        std::size_t limit = 0;      ///< of bytes
+        RecentPlaces gone;          ///< evicted of late, and not wanted since
+        std::size_t made = 0;       ///< inserted since the last eviction
+        std::size_t came_back = 0;  ///< of these, how many had been evicted
+    };
+    static constexpr std::size_t shard_count = 16;
+    static constexpr std::size_t remembered = 8;  ///< of those gone, at most so many for each that is held
+    static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;  // and its node
+
+    static std::size_t cost(const Value& value) { return value.bytes() + entry_bytes; }
+
+    Shard& shard_of(const PlaceKey& key) const { return shards_[(hash_value(key) >> 32) % shard_count]; }
+
+    void evict(Shard& shard) {
+        struct Candidate {
+            double z_distance;
+            std::uint64_t used;
+            PlaceKey key;
+        };
+        std::vector<Candidate> candidates;
+        candidates.reserve(shard.entries.size());
+        std::size_t near = 0;
+        for (const auto& [key, entry] : shard.entries) {
+            const Interval z = entry.value->z_extent();
+            const double distance = std::max({z.lo - shard.wanted_z, shard.wanted_z - z.hi, 0.0});
+            if (distance <= z.width()) near += cost(*entry.value);
+            candidates.push_back({distance, entry.used, key});
+        }
+        const bool missed = shard.came_back > shard.made / 2;
+        const std::size_t kept = missed ? 2 * shard.limit : shard.limit / 2;
+        shard.limit = std::min(shard_capacity_, std::max({shard_idle_, 2 * near, kept}));
+        if (shard.bytes <= shard.limit) return;
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+            return a.z_distance != b.z_distance ? a.z_distance > b.z_distance : a.used < b.used;
+        });
+        shard.gone.make_room(remembered * shard.entries.size());
+        shard.made = shard.came_back = 0;
+        for (const Candidate& candidate : candidates) {
+            if (shard.bytes <= shard.limit / 4 * 3) break;
+            const auto entry = shard.entries.find(candidate.key);
+            shard.bytes -= cost(*entry->second.value);
+            shard.entries.erase(entry);
+            shard.gone.add(candidate.key);
+        }
+    }
+
+    std::size_t shard_capacity_, shard_idle_;
+    mutable std::array<Shard, shard_count> shards_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,14 @@
+// From the recipe's part to its body: a mesh, a shape or a field.
+#pragma once
+
+#include <optional>
+
+#include "recipe/build/build_fields.h"
+
+namespace lamella {
+
+/// The part's outside. A mesh fills in the report. Throws InputError when a file cannot be read or the body
+/// is empty.
+FieldPtr build_body(const Recipe& recipe, Gradings& gradings, std::optional<MeshReport>& report);
+
+}  // namespace lamella

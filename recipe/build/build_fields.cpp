@@ -1,0 +1,191 @@
+// Meshes are read, closed and placed; shapes are made in place; formulas are given a box and moved.
+#include "recipe/build/build_fields.h"
+
+#include "engine/base/error.h"
+#include "engine/base/whole_file.h"
+#include "engine/formula/formula_field.h"
+#include "engine/formula/formula_vm.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/mesh/mesh_field.h"
+#include "engine/mesh/mesh_repair.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "procedural/volume/volumetric_model.h"
+#include "procedural/voronoi/stretch.h"
+
+namespace lamella {
+
+namespace {
+
+Placement placement(const FieldRecipe& field) {
+    Placement place{turned_axes(field.turn), field.at};
+    // Right angles leave 1e-17 where 0 is meant, which would cost shapes along the axes their closed forms.
+    constexpr double rounding = 1e-15;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            double& entry = place.axes[column][row];
+            if (std::abs(entry) < rounding) entry = 0;
+        }
+    }
+    return place;
+}
+
+FieldPtr placed(FieldPtr solid, const Placement& place) {
+    if (place.axes == glm::dmat3(1) && place.at == dvec3(0)) return solid;
+    return make_transform(std::move(solid), place.axes, place.at);
+}
+
+template <Shape shape>
+FieldPtr shape_field(const FieldMaking& making) {
+    const FieldRecipe& field = making.recipe;
+    return make_shape(shape, {field.radius, field.size, field.height, field.tube}, making.place);
+}
+
+FieldPtr mesh_field(const FieldMaking& making) {
+    const FieldRecipe& field = making.recipe;
+    return read_solid(field.file, field.unit, field.scale, making.place, making.report);
+}
+
+/// The box about a box of the part, in the space of the formula before it is placed.
+Box before_placing(const Box& box, const Placement& place) {
+    const glm::dmat3 back = glm::transpose(place.axes);
+    Box image;
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                      corner & 4 ? box.hi.z : box.lo.z);
+        image.include(back * (p - place.at));
+    }
+    return image;
+}
+
+/// The inside of a formula within the box that the recipe gives, or that is about the part, or that a search
+/// finds.
+FieldPtr bounded(const FieldMaking& making, GradedFormula formula) {
+    Box bounds;
+    if (!making.recipe.bounds.empty()) {
+        for (const auto& corner : making.recipe.bounds) bounds.include({corner[0], corner[1], corner[2]});
+    } else if (making.within) {
+        bounds = before_placing(*making.within, making.place);
+    } else {
+        bounds = formula_bounds(formula.formula, formula.others);
+    }
+    return placed(make_formula_field(formula.formula, std::move(formula.others), bounds), making.place);
+}
+
+FieldPtr formula_field(const FieldMaking& making) {
+    return bounded(making, making.gradings.formula_of(making.recipe.formula));
+}
+
+FieldPtr vm_field(const FieldMaking& making) {
+    const std::string& file = making.recipe.file;
+    return bounded(making, {read_vm(whole_file(file, "a .vm file"), file), {}});
+}
+
+FieldPtr package_field(const FieldMaking& making) {
+    const FieldRecipe& field = making.recipe;
+    if (!field.function.empty() && !field.object.empty()) {
+        throw InputError(field.where +
+                         ".object: a function belongs to no object; accepted: object or function, "
+                         "one of them");
+    }
+    VolumetricModel model(field.file);
+    if (!field.function.empty()) {
+        PlacedFormula function = model.function(field.function);
+        return bounded(making, {std::move(function.formula), std::move(function.others)});
+    }
+    if (!field.bounds.empty()) {
+        throw InputError(field.where +
+                         ".bounds: objects have bounds of their own; accepted: bounds with a "
+                         "function");
+    }
+    return placed(field.object.empty() ? model.built() : model.object(field.object), making.place);
+}
+
+FieldPtr host_field(const FieldMaking& making) { return placed(making.recipe.host.pointer, making.place); }
+
+}  // namespace
+
+std::span<const FieldBuilder> field_builders() {
+    static const std::vector<FieldBuilder> list{
+        {{"formula", {"formula"}, {"bounds", "at", "turn"}}, formula_field},
+        {{"vm", {"file"}, {"bounds", "at", "turn"}}, vm_field},
+        {{"mesh", {"file"}, {"unit", "scale", "at", "turn"}}, mesh_field},
+        {{"3mf", {"file"}, {"object", "function", "bounds", "at", "turn"}}, package_field},
+        {{std::string(host_kind), {}, {"at", "turn"}}, host_field},
+        {{"sphere", {"radius"}, {"at"}}, shape_field<Shape::sphere>},
+        {{"box", {"size"}, {"at", "turn"}}, shape_field<Shape::box>},
+        {{"cylinder", {"radius", "height"}, {"at", "turn"}}, shape_field<Shape::cylinder>},
+        {{"capsule", {"radius", "height"}, {"at", "turn"}}, shape_field<Shape::capsule>},
+        {{"torus", {"radius", "tube"}, {"at", "turn"}}, shape_field<Shape::torus>}};
+    return list;
+}
+
+FieldPtr build_field(const FieldRecipe& field, Gradings& gradings, const std::optional<Box>& within,
+                     std::optional<MeshReport>& report) {
+    for (const FieldBuilder& builder : field_builders()) {
+        if (builder.kind.word != field.kind) continue;
+        return builder.make({field, gradings, within, placement(field), report});
+    }
+    throw InputError(field.where + ": kind " + field.kind + " is unknown");
+}
+
+FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place) {
+    const dvec3 half = sizes.size / 2.0;
+    const dvec3 end = place.axes * dvec3(0, 0, sizes.height / 2);
+    const bool upright = place.axes == glm::dmat3(1);
+    switch (shape) {
+        case Shape::sphere:
+            return make_sphere(place.at, sizes.radius);
+        case Shape::box:
+            return upright ? make_box(Box{place.at - half, place.at + half})
+                           : placed(make_box(Box{-half, half}), place);
+        case Shape::cylinder:
+            return make_cylinder(place.at - end, place.at + end, sizes.radius);
+        case Shape::capsule: {
+            const dvec3 ball = place.axes * dvec3(0, 0, sizes.height / 2 - sizes.radius);
+            return make_round_cone({place.at - ball, sizes.radius, place.at + ball, sizes.radius});
+        }
+        case Shape::torus:
+            return upright ? make_torus(place.at, sizes.radius, sizes.tube)
+                           : placed(make_torus(dvec3(0), sizes.radius, sizes.tube), place);
+        case Shape::gyroid:
+        case Shape::none:
+            break;
+    }
+    throw InputError("this shape has no sizes to be made of");
+}
+
+FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
+                    std::optional<MeshReport>& report) {
+    MeshReadOptions options;
+    options.unit_mm = millimetres(unit);
+    MeshFile file = read_mesh(path, options);
+    if (scale != 1 || place.axes != glm::dmat3(1) || place.at != dvec3(0)) {
+        for (dvec3& vertex : file.mesh.vertices) vertex = place.axes * (vertex * scale) + place.at;
+    }
+    MeshReport& found = report.emplace();
+    found.path = path;
+    found.notes = std::move(file.notes);
+    SolidMesh solid = close_mesh(std::move(file.mesh), path);
+    found.vertices = solid.mesh.vertices.size();
+    found.triangles = solid.mesh.triangles.size();
+    found.caps = solid.caps;
+    found.oriented_manifold = solid.oriented_manifold;
+    found.volume = enclosed_volume(solid.mesh);
+    found.notes.insert(found.notes.end(), solid.notes.begin(), solid.notes.end());
+    return make_mesh_field(std::move(solid));
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+    double six_volumes = 0;
+    const dvec3 origin = mesh.vertices.empty() ? dvec3(0) : mesh.vertices.front();
+    for (const auto& triangle : mesh.triangles) {
+        const dvec3 a = mesh.vertices[triangle[0]] - origin;
+        const dvec3 b = mesh.vertices[triangle[1]] - origin;
+        const dvec3 c = mesh.vertices[triangle[2]] - origin;
+        six_volumes += glm::dot(a, glm::cross(b, c));
+    }
+    return six_volumes / 6;
+}
+
+}  // namespace lamella

@@ -1,0 +1,185 @@
+// Graded numbers first, kept within the printable range, then the foam of the kind asked for.
+#include "recipe/build/build_foam.h"
+
+#include "engine/base/error.h"
+#include "procedural/foam/closed_foam.h"
+#include "procedural/foam/nearest_foam.h"
+#include "procedural/foam/voronoi_foam.h"
+#include "procedural/lattice/strut_lattice.h"
+#include "procedural/lattice/tpms.h"
+#include "recipe/recipe_formulas.h"
+
+namespace lamella {
+
+namespace {
+
+/// Keeps a further graded number with the foam and gives what is made of it.
+GradingPtr further(FoamMaking& making, const char* key, const GradedNumber& number, Interval limits) {
+    making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
+    return making.built.others.back().made;
+}
+
+/// Cells about seeds in a pattern, the same stretch everywhere.
+FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
+    const FoamRecipe& foam = making.recipe;
+    FoamSettings settings;
+    settings.cell = making.built.cell.made;
+    settings.beam_radius = making.built.member.made;
+    settings.seed = static_cast<std::uint64_t>(foam.seed);
+    settings.pattern = pattern;
+    settings.jitter = foam.jitter;
+    settings.repeats_after = making.repeats_after;
+    settings.region = making.region;
+    const dvec3 stretch = constant(foam.stretch).value_or(dvec3(1));
+    if (stretch != dvec3(1)) {
+        settings.stretch = Stretch(turned_axes(constant(foam.turn).value_or(dvec3(0))), stretch);
+    }
+    if (const auto& frame = making.gradings.recipe().frame; frame && making.gradings.body()) {
+        settings.frame = {making.gradings.body(),
+                          further(making, "frame.beam", frame->beam, {frame->beam_min, frame->beam_max}),
+                          frame->interior};
+    }
+    return settings;
+}
+
+/// How soon a foam on such seeds repeats, mm.
+double period_of(const FoamSettings& settings) {
+    const bool alike = settings.cell->constant() && settings.stretch.identity();
+    if (settings.repeats_after == 0 || !alike) return 0;
+    return prepare_foam(settings).tree->coarse_side() * static_cast<double>(settings.repeats_after);
+}
+
+/// Beams along the edges of the seeds' cells.
+void edges(FoamMaking& making, SeedPattern pattern) {
+    const FoamSettings settings = seeded(making, pattern);
+    BuiltFoam& built = making.built;
+    const auto made = make_voronoi_foam(settings);
+    built.field = made;
+    built.period = period_of(settings);
+    built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
+    built.seeds_in = [made](const Box& box) { return made->seeds_in(box); };
+    // The law was measured on jittered seeds in round cells.
+    if (pattern != SeedPattern::jittered || !settings.stretch.identity()) return;
+    built.volume_fraction = [made](dvec3 p) { return made->expected_volume_fraction(p); };
+}
+
+void voronoi(FoamMaking& making) { edges(making, SeedPattern::jittered); }
+
+void kelvin(FoamMaking& making) { edges(making, SeedPattern::bcc); }
+
+void closed(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
+    ClosedFoamSettings settings;
+    settings.foam = seeded(making, SeedPattern::jittered);
+    settings.wall = further(making, "foam.wall", foam.wall, {foam.wall_min, foam.wall_max});
+    settings.window = further(making, "foam.window", foam.window, {0, 1});
+    const auto made = make_closed_foam(settings);
+    making.built.field = made;
+    making.built.period = period_of(settings.foam);
+    making.built.beams_touching = [made](const Box& box) {
+        std::vector<Beam> beams;
+        for (const FoamPiece& piece : made->pieces_touching(box)) {
+            if (const auto* beam = std::get_if<Beam>(&piece)) beams.push_back(*beam);
+        }
+        return beams;
+    };
+    making.built.seeds_in = [ground = prepare_foam(settings.foam)](const Box& box) {
+        return ground.seeds_in(box);
+    };
+}
+
+void nearest_seeds(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
+    NearestFoamSettings settings;
+    settings.foam.cell = making.built.cell.made;
+    settings.foam.beam_radius = making.built.member.made;
+    settings.foam.seed = static_cast<std::uint64_t>(foam.seed);
+    settings.foam.repeats_after = making.repeats_after;
+    settings.foam.region = making.region;
+    settings.neighbours = static_cast<int>(foam.neighbours);
+    for (std::size_t i = 0; i < 3; ++i) {
+        settings.stretch[i] = further(making, "foam.stretch", foam.stretch[i], nearest_factors);
+        settings.turn[i] = making.gradings.of(foam.turn[i], making.names);
+    }
+    const auto made = std::make_shared<const NearestFoam>(settings);
+    making.built.field = made;
+    if (constant(foam.stretch) == dvec3(1)) making.built.period = period_of(settings.foam);
+    making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
+    making.built.seeds_in = [made](const Box& box) { return made->seeds_in(box); };
+}
+
+template <TpmsKind surface>
+void periodic(FoamMaking& making) {
+    BuiltFoam& built = making.built;
+    built.period = built.cell.made->constant().value_or(0);
+    built.field =
+        make_tpms({surface, making.recipe.network, built.cell.made, built.member.made, making.region});
+}
+
+void lattice(FoamMaking& making) {
+    const FoamRecipe& foam = making.recipe;
+    LatticeSettings settings;
+    for (const auto& row : foam.struts) {
+        settings.struts.push_back({{row[0], row[1], row[2]}, {row[3], row[4], row[5]}});
+    }
+    if (foam.struts.empty()) settings.struts = unit_cell(foam.unit_cell);
+    settings.cell = making.built.cell.made;
+    settings.beam = making.built.member.made;
+    settings.region = making.region;
+    const auto made = make_strut_lattice(settings);
+    making.built.field = made;
+    if (settings.cell->constant()) making.built.period = made->cells().coarse_side();
+    making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
+}
+
+/// A kind with the range of its cells and members among what it takes.
+FoamBuilder kind(std::string word, std::string member, std::vector<std::string> needs,
+                 std::vector<std::string> takes, void (*make)(FoamMaking&)) {
+    needs.insert(needs.begin(), {"cell", member});
+    takes.insert(takes.end(), {"cell_min", "cell_max", member + "_min", member + "_max"});
+    return {{std::move(word), std::move(needs), std::move(takes)}, std::move(member), make};
+}
+
+}  // namespace
+
+std::span<const FoamBuilder> foam_builders() {
+    static const std::vector<FoamBuilder> list{
+        kind("voronoi", "beam", {}, {"seed", "stretch", "turn"}, voronoi),
+        kind("kelvin", "beam", {}, {"seed", "jitter", "stretch", "turn"}, kelvin),
+        kind("closed", "beam", {"wall"}, {"wall_min", "wall_max", "window", "seed", "stretch", "turn"},
+             closed),
+        kind("k-nearest", "beam", {}, {"neighbours", "seed", "stretch", "turn"}, nearest_seeds),
+        kind("gyroid", "wall", {}, {"network"}, periodic<TpmsKind::gyroid>),
+        kind("schwarz-p", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_p>),
+        kind("schwarz-d", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_d>),
+        kind("neovius", "wall", {}, {"network"}, periodic<TpmsKind::neovius>),
+        kind("lattice", "beam", {"unit_cell|struts"}, {}, lattice)};
+    return list;
+}
+
+const FoamBuilder& builder_of(const FoamRecipe& foam) {
+    for (const FoamBuilder& builder : foam_builders()) {
+        if (builder.kind.word == foam.kind) return builder;
+    }
+    throw InputError("foam.kind: " + foam.kind + " is unknown");
+}
+
+BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings,
+                     std::int64_t repeats_after) {
+    BuiltFoam built;
+    FoamSizes sizes = foam_sizes(foam, gradings, built.modulus);
+    built.cell = std::move(sizes.cell);
+    built.member = std::move(sizes.member);
+    const std::map<std::string, GradingPtr> cell{{std::string(cell_name), built.cell.made}};
+    try {
+        FoamMaking making{foam, region, gradings, cell, repeats_after, built};
+        builder_of(foam).make(making);
+    } catch (const PlacedError&) {
+        throw;
+    } catch (const InputError& error) {
+        throw InputError("foam (" + foam.kind + "): " + error.what());
+    }
+    return built;
+}
+
+}  // namespace lamella

@@ -1,0 +1,203 @@
+// The kinds of gradings, a line each, and the order in which they are made.
+#include "recipe/build/build_gradings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/formula/formula_grading.h"
+#include "engine/formula/formula_parser.h"
+#include "procedural/grading/attractors.h"
+#include "procedural/grading/attribute_grading.h"
+#include "procedural/grading/region_grading.h"
+#include "procedural/grading/table_grading.h"
+#include "procedural/volume/volume_grading.h"
+#include "procedural/volume/volumetric_model.h"
+#include "recipe/recipe_formulas.h"
+#include "recipe/settings.h"
+
+namespace lamella {
+
+namespace {
+
+dvec3 point(std::span<const double> numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+GradingPtr volume(const GradingRecipe& grading, Gradings& /*others*/) {
+    VolumeSource source;
+    source.path = grading.file;
+    source.channel = static_cast<int>(grading.channel);
+    if (!grading.box.empty()) source.box = Box{point(grading.box[0]), point(grading.box[1])};
+    return make_volume_grading(source);
+}
+
+GradingPtr build_table(const GradingRecipe& grading, Gradings& others) {
+    Table rows;
+    for (const auto& row : grading.rows) rows.emplace_back(row[0], row[1]);
+    if (!grading.file.empty()) rows = read_table(grading.file);
+    return make_table_grading(others.of(grading.along), std::move(rows), grading.smooth);
+}
+
+GradingPtr package(const GradingRecipe& grading, Gradings& /*others*/) {
+    VolumetricModel model(grading.file);
+    if (!grading.property.empty()) return model.property(grading.property, grading.object);
+    if (!grading.object.empty())
+        throw InputError("a function belongs to no object; accepted: object with a property");
+    PlacedFormula function = model.function(grading.function);
+    return make_formula_grading(std::move(function.formula), std::move(function.others));
+}
+
+/// The part's own mesh serves where no file is given.
+GradingPtr attribute(const GradingRecipe& grading, Gradings& others) {
+    const PartRecipe& part = others.recipe().part;
+    const std::string& file = grading.file.empty() ? part.mesh : grading.file;
+    if (file.empty()) {
+        throw InputError("there is no mesh to read `" + grading.attribute +
+                         "` from; accepted: a file, or a PLY as part.mesh");
+    }
+    return make_attribute_grading(file, grading.attribute, millimetres(part.unit) * part.scale, 1);
+}
+
+GradingPtr attractors(const GradingRecipe& grading, Gradings& /*others*/) {
+    std::vector<Attractor> list;
+    for (const auto& row : grading.points) list.push_back({Attractor::Kind::point, point(row), {}});
+    for (const auto& row : grading.segments) {
+        list.push_back({Attractor::Kind::segment, point(row), point(std::span(row).subspan(3))});
+    }
+    return make_falloff_grading(make_distance_grading(std::move(list)), grading.near_value, grading.far_value,
+                                grading.radius, grading.falloff);
+}
+
+GradingPtr distance(Attractor from) { return make_distance_grading({from}); }
+
+}  // namespace
+
+std::span<const GradingBuilder> grading_builders() {
+    using G = GradingRecipe;
+    static const std::vector<GradingBuilder> list{
+        {{"constant", {"value"}, {}}, [](const G& g, Gradings&) { return make_constant_grading(g.value); }},
+        {{"formula", {"formula"}, {}}, [](const G& g, Gradings& others) { return others.of(g.formula); }},
+        {{"volume", {"file"}, {"box", "channel"}}, volume},
+        {{"3mf", {"file", "property|function"}, {"object"}}, package},
+        {{"table", {"along", "rows|file"}, {"smooth"}}, build_table},
+        {{"attribute", {"attribute"}, {"file"}}, attribute},
+        {{std::string(host_kind), {}, {}}, [](const G& g, Gradings&) { return g.host.pointer; }},
+        {{"attractors", {"near", "far", "radius"}, {"points", "segments", "falloff"}}, attractors},
+        {{"point", {"at"}, {}},
+         [](const G& g, Gradings&) {
+             return distance({Attractor::Kind::point, g.at, {}});
+         }},
+        {{"line", {"a", "b"}, {}},
+         [](const G& g, Gradings&) {
+             return distance({Attractor::Kind::segment, g.a, g.b});
+         }},
+        {{"plane", {"at", "normal"}, {}}, [](const G& g, Gradings&) {
+             return distance({Attractor::Kind::plane, g.at, g.normal});
+         }}};
+    return list;
+}
+
+/// What formulas mean by a name besides x, y and z.
+GradingPtr Gradings::named(const std::string& name) {
+    if (const auto made = made_.find(name); made != made_.end()) return made->second;
+    if (name == depth_name) {
+        if (!body_) throw InputError("the depth `d` needs a part whose surface it is measured from");
+        return made_[name] = make_depth_grading(body_);
+    }
+    for (const GradingRecipe& grading : recipe_.gradings) {
+        if (grading.name != name) continue;
+        for (const GradingBuilder& builder : grading_builders()) {
+            if (builder.kind.word != grading.kind) continue;
+            try {
+                return made_[name] = builder.make(grading, *this);
+            } catch (const PlacedError&) {
+                throw;
+            } catch (const InputError& error) {
+                throw PlacedError(grading.where + " `" + name + "`: " + error.what());
+            }
+        }
+    }
+    throw InputError("no [[grading]] is named `" + name + "`");
+}
+
+GradedFormula Gradings::formula_of(const GradedNumber& number,
+                                   const std::map<std::string, GradingPtr>& more) {
+    std::vector<std::string> names{"x", "y", "z"};
+    std::vector<GradingPtr> others;
+    try {
+        for (const std::string& name : names_beyond_place(number.formula())) {
+            const auto extra = more.find(name);
+            others.push_back(extra == more.end() ? named(name) : extra->second);
+            names.push_back(name);
+        }
+        return {parse_formula(number.formula(), names), std::move(others)};
+    } catch (const PlacedError&) {
+        throw;
+    } catch (const InputError& error) {
+        throw PlacedError(number.where + ": " + error.what());
+    }
+}
+
+GradingPtr Gradings::of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more) {
+    if (!number.is_formula()) return make_constant_grading(number.number());
+    GradedFormula graded = formula_of(number, more);
+    return make_formula_grading(std::move(graded.formula), std::move(graded.others));
+}
+
+void Gradings::override_number(const std::string& key, RegionalNumber number) {
+    overrides_[key].push_back(std::move(number));
+}
+
+std::span<const RegionalNumber> Gradings::overrides(const std::string& key) const {
+    const auto found = overrides_.find(key);
+    return found == overrides_.end() ? std::span<const RegionalNumber>() : found->second;
+}
+
+namespace {
+
+/// The key of the recipe that limits another one from above; null where there is none.
+const Setting* upper_limit(const std::string& key) {
+    const std::size_t dot = key.find('.');
+    return find_setting(key.substr(0, dot), key.substr(dot + 1) + "_max");
+}
+
+/// What holds where a formula has no number, for a body that it should have numbers in.
+double greatest_of(const GradedUse& use, const std::string& where, const Field& body) {
+    const Setting* key = upper_limit(use.key);
+    const bool stated = key && use.limits.hi < key->limits.hi;
+    if (stated || use.asked->range(body.bounds()).hi < infinity) return use.limits.hi;
+    const GradingSurvey found = survey_grading(*use.asked, body, use.limits);
+    if (found.undefined == 0) {
+        const double twice = 2 * found.asked.hi;
+        return twice > use.limits.lo ? std::min(use.limits.hi, twice) : use.limits.hi;
+    }
+    const std::string remedy =
+        key ? fmt::format(", or {} / {}, which holds where there is none", key->name(), key->flag) : "";
+    throw PlacedError(
+        fmt::format("{}: {:.3g} % of the part has no number; accepted: a formula with a number "
+                    "at every point of it{}",
+                    where, 100.0 * found.undefined / found.points, remedy));
+}
+
+}  // namespace
+
+GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
+                 const std::map<std::string, GradingPtr>& more) {
+    const Setting* setting = find_setting(key.substr(0, key.find('.')), key.substr(key.find('.') + 1));
+    GradedUse use{key, gradings.of(number, more), nullptr, limits, setting ? setting->unit : ""};
+    std::string where = number.where;
+    for (const RegionalNumber& other : gradings.overrides(key)) {
+        if (!number.is_formula() && other.number.is_formula()) where = other.number.where;
+        use.asked =
+            make_region_grading(use.asked, gradings.of(other.number, more), other.region, other.blend);
+    }
+    use.made = use.asked;
+    if (!number.is_formula() && gradings.overrides(key).empty()) return use;
+    if (gradings.body()) use.limits.hi = greatest_of(use, where, *gradings.body());
+    use.made = make_clamped_grading(use.asked, use.limits);
+    return use;
+}
+
+}  // namespace lamella

@@ -1,0 +1,83 @@
+// Scale first, then in-plane offsets: the outlines that are moved are those that the machine sees.
+#include "recipe/build/build_process.h"
+
+#include "engine/morphology/in_plane_offset.h"
+#include "engine/morphology/mended_outline.h"
+#include "engine/solids/csg.h"
+
+namespace lamella {
+
+namespace {
+
+/// How near to the distance asked for outlines are moved, mm; well below the pixels and tool paths of any
+/// printer.
+constexpr double outline_tolerance = 0.01;
+
+void scale_part(Job& job, dvec3 scale) {
+    if (scale == dvec3(1)) return;
+    const Box before = job.bounds;
+    const dvec3 middle = before.center();
+    const dvec3 fixed{middle.x, middle.y, before.lo.z};
+    const glm::dmat3 linear(dvec3(scale.x, 0, 0), dvec3(0, scale.y, 0), dvec3(0, 0, scale.z));
+    job.part = make_transform(job.part, linear, fixed - scale * fixed);
+    job.bounds = {fixed + (before.lo - fixed) * scale, fixed + (before.hi - fixed) * scale};
+}
+
+/// Lines by which outlines are looked at, in a thickness or a gap.
+constexpr double lines_in_a_thickness = 8;
+
+void grow_bounds(Job& job, double by) {
+    job.bounds.lo -= dvec3(by, by, 0);
+    job.bounds.hi += dvec3(by, by, 0);
+}
+
+void mend_outlines(Job& job, const RepairRecipe& repair) {
+    if (repair.thickness > 0) {
+        job.part = make_thickened(job.part, repair.thickness, repair.thickness / lines_in_a_thickness);
+        grow_bounds(job, repair.thickness / 2);
+    }
+    // What has been made thicker may stand closer now.
+    if (repair.gap > 0) job.part = make_gaps_filled(job.part, repair.gap, repair.gap / lines_in_a_thickness);
+}
+
+void move_outlines(Job& job, const ProcessRecipe& process) {
+    const double everywhere = process.xy_compensation, foot = process.elephant_foot;
+    if (everywhere == 0 && foot == 0) return;
+    const double bed = job.z0(), height = job.layer_height;
+    const auto layers = static_cast<double>(process.elephant_foot_layers);
+    const auto by = [=](double z) {
+        const double layer = std::max(0.0, std::floor((z - bed) / height));
+        return layer < layers ? everywhere - foot * (1 - layer / layers) : everywhere;
+    };
+    job.part = make_in_plane_offset(job.part, {by, {everywhere - foot, everywhere}}, outline_tolerance);
+    grow_bounds(job, std::max(everywhere, 0.0));
+}
+
+}  // namespace
+
+FieldPtr make_scaled(const Recipe& recipe, const Job& designed, const FieldPtr& solid) {
+    Job job = designed;
+    job.part = solid;
+    if (recipe.process) scale_part(job, recipe.process->scale);
+    return job.part;
+}
+
+double designed_layer_height(const Recipe& recipe) {
+    return recipe.process ? recipe.layer_height / recipe.process->scale.z : recipe.layer_height;
+}
+
+Job make_scaled(const Recipe& recipe, const Job& designed) {
+    Job job = designed;
+    job.layer_height = recipe.layer_height;
+    if (recipe.process) scale_part(job, recipe.process->scale);
+    return job;
+}
+
+Job make_processed(const Recipe& recipe, const Job& designed) {
+    Job job = make_scaled(recipe, designed);
+    if (recipe.repair) mend_outlines(job, *recipe.repair);
+    if (recipe.process) move_outlines(job, *recipe.process);
+    return job;
+}
+
+}  // namespace lamella

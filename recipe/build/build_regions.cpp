@@ -1,0 +1,166 @@
+// Fields are made once each, their values turned into distances, and then joined to the part or taken from
+// it.
+#include "recipe/build/build_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/field/solid_search.h"
+#include "engine/solids/csg.h"
+#include "procedural/grading/field_slope.h"
+#include "recipe/build/build_fields.h"
+#include "recipe/recipe_regions.h"
+
+namespace lamella {
+
+namespace {
+
+/// Formulas without bounds end this far outside the part, mm: no blend feels it.
+constexpr double beyond_part = 1e6;
+
+/// The fields of regions, each made when it is first asked for.
+class RegionFields {
+  public:
+    RegionFields(Gradings& gradings, const Box& part, std::vector<std::string>& notes)
+        : gradings_(gradings), part_(part), notes_(notes) {}
+
+    /// The region's field; where it blends, with values that are distances.
+    FieldPtr of(const RegionRecipe& region) {
+        const auto field = std::find_if(gradings_.recipe().fields.begin(), gradings_.recipe().fields.end(),
+                                        [&](const FieldRecipe& f) { return f.name == region.field; });
+        if (field == gradings_.recipe().fields.end()) {
+            throw InputError(region.where + ".field: no [[field]] is named \"" + region.field + "\"");
+        }
+        try {
+            FieldPtr& made = made_[region.field];
+            if (!made) made = make(*field);
+            if (region.blend == 0 || made->metric() != Metric::sign) return made;
+            FieldPtr& even = even_[region.field];
+            if (!even) even = make_unit_slope(made, part_);
+            return even;
+        } catch (const PlacedError&) {
+            throw;
+        } catch (const InputError& error) {
+            throw PlacedError(fmt::format("{}.field `{}`: {}", region.where, region.field, error.what()));
+        }
+    }
+
+  private:
+    FieldPtr make(const FieldRecipe& field) {
+        std::optional<MeshReport> mesh;
+        FieldPtr made = build_field(field, gradings_, grown(part_, beyond_part), mesh);
+        if (!mesh) return made;
+        for (const std::string& note : mesh->notes) notes_.push_back(mesh->path + ": " + note);
+        return made;
+    }
+
+    Gradings& gradings_;
+    Box part_;
+    std::vector<std::string>& notes_;
+    std::map<std::string, FieldPtr> made_, even_;
+};
+
+/// What a region acts on: its inside, and what lies less than `reach` outside it.
+class Reach : public Field {
+  public:
+    Reach(FieldPtr region, double reach, FieldPtr body)
+        : region_(std::move(region)), reach_(reach), body_(std::move(body)) {}
+    double value(dvec3 p) const override { return std::max(region_->value(p) - reach_, body_->value(p)); }
+    Interval range(const Box& box) const override {
+        const Interval region = region_->range(box), body = body_->range(box);
+        return {std::max(region.lo - reach_, body.lo), std::max(region.hi - reach_, body.hi)};
+    }
+    Metric metric() const override { return Metric::sign; }
+    Box bounds() const override { return body_->bounds(); }
+
+  private:
+    FieldPtr region_;
+    double reach_;
+    FieldPtr body_;
+};
+
+bool changes_numbers(const BuiltRegion& region) {
+    return region.make == RegionMake::foam || region.make == RegionMake::skin;
+}
+
+/// Whether it only says where supports may be, which is not within the part.
+bool rules_supports(const BuiltRegion& region) {
+    return region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
+}
+
+void warn_of_idle(const FieldPtr& body, bool filled, BuiltRegions& regions) {
+    for (const BuiltRegion& region : regions.list) {
+        if (rules_supports(region)) continue;
+        const double reach = changes_numbers(region) ? region.blend / 2 : 0;
+        const Reach acted_on(region.field, reach, body);
+        const Box box = intersect(body->bounds(), grown(region.field->bounds(), reach));
+        if (!find_solid_point(acted_on, box)) {
+            regions.warnings.push_back(region.name + " does not touch the part and changes nothing");
+        } else if (region.make == RegionMake::solid && !filled) {
+            regions.warnings.push_back(region.name + " is solid where the part is solid and changes nothing");
+        }
+    }
+}
+
+FieldPtr joined(FieldPtr part, const BuiltRegion& region) {
+    if (region.make == RegionMake::solid) {
+        return region.blend > 0 ? make_smooth_union(std::move(part), region.field, region.blend)
+                                : make_union({std::move(part), region.field});
+    }
+    return region.blend > 0 ? make_smooth_difference(std::move(part), region.field, region.blend)
+                            : make_difference(std::move(part), region.field);
+}
+
+/// The regions one after another; what was joined is cut off by the body before anything is taken away.
+FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regions) {
+    bool beyond_body = false;
+    for (const BuiltRegion& region : regions.list) {
+        if (changes_numbers(region) || rules_supports(region)) continue;
+        if (region.make == RegionMake::empty && beyond_body) {
+            part = make_intersection({body, std::move(part)});
+            beyond_body = false;
+        }
+        part = joined(std::move(part), region);
+        beyond_body = beyond_body || region.make == RegionMake::solid;
+    }
+    return beyond_body ? make_intersection({body, std::move(part)}) : part;
+}
+
+bool has(const BuiltRegions& regions, RegionMake make) {
+    for (const BuiltRegion& region : regions.list) {
+        if (region.make == make) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings) {
+    BuiltRegions built;
+    RegionFields fields(gradings, part, built.warnings);
+    for (const RegionRecipe& region : recipe.regions) {
+        const FieldPtr field = fields.of(region);
+        built.list.push_back({fmt::format("region {} (`{}`)", built.list.size() + 1, region.field),
+                              region.make, region.blend, field});
+        for (const RegionNumber& given : numbers_of(region)) {
+            gradings.override_number(given.key, {field, region.blend, *given.number});
+        }
+    }
+    return built;
+}
+
+FieldPtr with_regions(FieldPtr part, const FieldPtr& body, bool filled, BuiltRegions& regions) {
+    if (regions.list.empty()) return part;
+    warn_of_idle(body, filled, regions);
+    if (has(regions, RegionMake::empty) &&
+        !find_solid_point(*sequence(body, body, regions), body->bounds())) {
+        throw InputError(
+            "region: the empty regions remove the whole part; accepted: regions that leave some of it");
+    }
+    return sequence(std::move(part), body, regions);
+}
+
+}  // namespace lamella

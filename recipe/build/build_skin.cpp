@@ -1,0 +1,137 @@
+// Patterns of the skin, a line each, and holes as cylinders.
+#include "recipe/build/build_skin.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "procedural/skin/image_windows.h"
+#include "procedural/skin/surface_windows.h"
+
+namespace lamella {
+
+namespace {
+
+SurfaceWindowSettings window_settings(const Recipe& recipe, double depth, Gradings& gradings) {
+    const SkinRecipe& skin = *recipe.skin;
+    SurfaceWindowSettings settings;
+    settings.window = skin.window;
+    settings.strut = gradings.of(skin.strut);
+    const auto strut = settings.strut->constant();
+    settings.corner = skin.corner;
+    if (skin.corner < 0) settings.corner = strut ? 0.5 * *strut : 0.125 * skin.window;
+    settings.depth = depth;
+    return settings;
+}
+
+FieldPtr cut_by(const std::shared_ptr<const SurfaceWindows>& windows, FieldPtr shell, PatternReport& report) {
+    report.windows = windows->seed_count();
+    report.closed = windows->closed_count();
+    return make_patterned_shell(std::move(shell), windows);
+}
+
+FieldPtr voronoi(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
+                 PatternReport& report) {
+    const auto windows = make_voronoi_windows(*body, window_settings(recipe, depth, gradings),
+                                              static_cast<std::uint64_t>(recipe.skin->seed));
+    return cut_by(windows, std::move(shell), report);
+}
+
+FieldPtr hexagons(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+                  Gradings& gradings, PatternReport& report) {
+    return cut_by(make_hexagon_windows(*body, window_settings(recipe, depth, gradings)), std::move(shell),
+                  report);
+}
+
+FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
+               PatternReport& report) {
+    const SkinRecipe& skin = *recipe.skin;
+    const auto strut = gradings.of(skin.strut)->constant();
+    if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
+    StrutImage picture(read_volume(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
+    report.islands = picture.islands();
+    report.open_share = picture.open_share();
+    return make_patterned_shell(std::move(shell),
+                                std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
+}
+
+}  // namespace
+
+std::span<const PatternBuilder> pattern_builders() {
+    static const std::vector<PatternBuilder> list{
+        {{"closed", {}, {}}, nullptr},
+        {{"voronoi", {"window", "strut"}, {"corner", "seed"}}, voronoi},
+        {{"hexagons", {"window", "strut"}, {"corner"}}, hexagons},
+        {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image}};
+    return list;
+}
+
+bool has_cut_skin(const Recipe& recipe) {
+    return recipe.skin &&
+           (recipe.skin->pattern != "closed" || recipe.skin->drains > 0 || !recipe.holes.empty());
+}
+
+FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+                     Gradings& gradings, std::optional<PatternReport>& report) {
+    for (const PatternBuilder& builder : pattern_builders()) {
+        if (builder.kind.word != recipe.skin->pattern || !builder.cut) continue;
+        report.emplace().pattern = builder.kind.word;
+        try {
+            return builder.cut(recipe, std::move(shell), body, depth, gradings, *report);
+        } catch (const PlacedError&) {
+            throw;
+        } catch (const InputError& error) {
+            throw PlacedError("skin (" + builder.kind.word + "): " + error.what());
+        }
+    }
+    return shell;
+}
+
+DrilledHole drill(const Field& body, dvec3 at, dvec3 direction, double radius, double deep, double depth) {
+    const auto foot = foot_on_surface(body, at, 1e-4 * radius);
+    if (!foot) {
+        throw InputError(
+            fmt::format("no point of the surface can be told to be the nearest to ({}, {}, {}) "
+                        "mm; accepted: a point nearer to the surface",
+                        at.x, at.y, at.z));
+    }
+    const double given = length(direction);
+    const dvec3 inward = given > 0 ? direction / given : -foot->normal;
+    const double cosine = -glm::dot(inward, foot->normal);
+    constexpr double flattest = 0.1;
+    if (cosine < flattest) {
+        throw InputError(fmt::format(
+            "the direction ({}, {}, {}) does not lead into the body, whose outward normal is "
+            "({:.4g}, {:.4g}, {:.4g}) there; accepted: one within 84 degrees of its opposite",
+            direction.x, direction.y, direction.z, foot->normal.x, foot->normal.y, foot->normal.z));
+    }
+    // A round skin is met later at the hole's rim than in its middle, an oblique one later on one side.
+    const double slant = radius * std::sqrt(1 - std::min(cosine * cosine, 1.0)) / cosine;
+    const double through_skin = depth / cosine + slant + radius;
+    return {foot->place - inward * (slant + radius), foot->place + inward * (deep > 0 ? deep : through_skin),
+            radius, false};
+}
+
+std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, double depth) {
+    std::vector<DrilledHole> holes;
+    for (const HoleRecipe& hole : recipe.holes) {
+        try {
+            holes.push_back(drill(body, hole.at, hole.direction, hole.radius, hole.depth, depth));
+            holes.back().through = hole.through;
+        } catch (const InputError& error) {
+            throw PlacedError(hole.where + ": " + error.what());
+        }
+    }
+    return holes;
+}
+
+FieldPtr without_holes(FieldPtr solid, std::span<const DrilledHole> holes) {
+    if (holes.empty()) return solid;
+    std::vector<FieldPtr> cylinders;
+    cylinders.reserve(holes.size());
+    for (const DrilledHole& hole : holes) cylinders.push_back(make_cylinder(hole.from, hole.to, hole.radius));
+    return make_difference(std::move(solid), make_union(std::move(cylinders)));
+}
+
+}  // namespace lamella

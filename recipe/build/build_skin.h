@@ -1,0 +1,56 @@
+// From the recipe's [skin] and [[hole]] to a shell with windows and holes.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "recipe/build/build_gradings.h"
+
+namespace lamella {
+
+/// What came of a skin's pattern.
+struct PatternReport {
+    std::string pattern;
+    std::size_t windows = 0;  ///< cells of the pattern; 0 for a picture
+    std::size_t closed = 0;   ///< cells too small for a window
+    std::size_t islands = 0;  ///< solid parts of a picture that hang on nothing and were left out
+    double open_share = 0;    ///< of a picture that is window
+};
+
+/// A hole as it is drilled.
+struct DrilledHole {
+    dvec3 from{0}, to{0};  ///< ends of its axis, mm
+    double radius = 0;     ///< mm
+    bool through = false;
+};
+
+/// Whether the recipe's skin is more than a closed one.
+bool has_cut_skin(const Recipe& recipe);
+
+/// The shell cut by the windows of the recipe's pattern. `depth` is the thickest the shell is, mm. Throws
+/// InputError for what the pattern refuses.
+FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+                     Gradings& gradings, std::optional<PatternReport>& report);
+
+/// Where the recipe's holes are drilled through a skin at most `depth` mm thick.
+std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, double depth);
+
+/// A hole of the given radius into the body from the point of its surface nearest to `at`: in `direction`, or
+/// at right angles to the surface where that is zero; `deep` mm, or where that is 0 as deep as a skin of
+/// `depth` mm needs. Throws InputError when the direction points out of the body.
+DrilledHole drill(const Field& body, dvec3 at, dvec3 direction, double radius, double deep, double depth);
+
+/// The solid less the holes.
+FieldPtr without_holes(FieldPtr solid, std::span<const DrilledHole> holes);
+
+/// A pattern of the skin: its keys, and how it is made; null for a closed skin.
+struct PatternBuilder {
+    Kind kind;
+    FieldPtr (*cut)(const Recipe&, FieldPtr shell, const FieldPtr& body, double depth, Gradings&,
+                    PatternReport&);
+};
+std::span<const PatternBuilder> pattern_builders();
+
+}  // namespace lamella

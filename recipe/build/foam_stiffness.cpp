@@ -1,0 +1,250 @@
+// Samples one by one; a law's points by cells of other sizes.
+#include "recipe/build/foam_stiffness.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "procedural/elasticity/field_sample.h"
+#include "recipe/build/build_job.h"
+#include "recipe/build/foam_modulus.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr double elements_in_a_radius = 4;
+constexpr int least_elements = 32, most_elements = 320, elements_step = 16;
+constexpr double most_solid_elements = 1e6;  // for memory below 2 GiB
+
+double constant_of(const GradedUse& use) {
+    const auto number = use.made->constant();
+    if (!number)
+        throw InputError(use.key +
+                         ": it varies in space, and a sample stands for one place; accepted: a number");
+    return *number;
+}
+
+void refuse_formula(const char* key, const GradedNumber& number) {
+    if (!number.is_formula()) return;
+    throw InputError(
+        fmt::format("{}: it varies in space, and a sample stands for one place; accepted: a number",
+                    number.where.empty() ? key : number.where));
+}
+
+/// A kind whose sample would look another way with another seed.
+bool is_random(const FoamRecipe& foam) {
+    const std::vector<std::string>& takes = builder_of(foam).kind.takes;
+    return std::ranges::find(takes, "seed") != takes.end();
+}
+
+/// After how much the foam repeats, mm, once its seeds are made to.
+double period_of(const Recipe& recipe) {
+    const double side = 1;  // of the region: periods do not depend on it
+    const double period = build_foam_alone(recipe, {dvec3(0), dvec3(side)}, 1).period;
+    if (!(period > 0))
+        throw InputError("foam: with this stretch it does not repeat along x, y and z, as a sample has to");
+    return period;
+}
+
+/// Half the thickness of the thinnest walls or the radius of the beams, mm.
+double thinnest_radius(const BuiltFoam& foam) {
+    const bool beams = foam.member.key == "foam.beam";
+    double radius = constant_of(foam.member) / (beams ? 1 : 2);
+    for (const GradedUse& other : foam.others) {
+        if (other.key == "foam.wall") radius = std::min(radius, constant_of(other) / 2);
+    }
+    return radius;
+}
+
+ElementMask sample_of(const BuiltFoam& foam, double period, int elements, int threads) {
+    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
+    return arena.execute([&] { return sample_field(*foam.field, {dvec3(0), dvec3(period)}, elements); });
+}
+
+int suited_elements(const BuiltFoam& foam, double period, int threads) {
+    const double wanted = elements_in_a_radius * period / thinnest_radius(foam);
+    const int steps = static_cast<int>(std::ceil(std::min(wanted, 1e6) / elements_step));
+    constexpr int coarse = 64;
+    const double share = std::max(sample_of(foam, period, coarse, threads).share(), 1e-4);
+    const int bearable = static_cast<int>(std::cbrt(most_solid_elements / share) / elements_step);
+    return std::clamp(std::min(steps, bearable) * elements_step, least_elements, most_elements);
+}
+
+/// The share of the work that is done when the forces that are left have fallen to `left`: they fall by
+/// about the same factor with each iteration.
+double share_done(double left, double tolerance) {
+    return std::clamp(std::log(std::max(left, 1e-300)) / std::log(tolerance), 0.0, 1.0);
+}
+
+Homogenized homogenized(const ElementMask& sample, const StiffnessOptions& options) {
+    HomogenizationOptions given{options.tolerance, 2000, options.threads, {}, options.cancel};
+    if (options.on_progress)
+        given.on_progress = [&](int, double left) {
+            options.on_progress(share_done(left, options.tolerance));
+        };
+    return homogenize(sample, options.material, given);
+}
+
+int samples_of(const FoamRecipe& foam, const StiffnessOptions& options) {
+    return is_random(foam) ? options.samples : 1;
+}
+
+/// The foam of a sample.
+BuiltFoam foam_of(Recipe recipe, int sample, double period) {
+    recipe.foam->seed += sample;
+    return build_foam_alone(recipe, {dvec3(0), dvec3(period)}, 1);
+}
+
+}  // namespace
+
+double FoamStiffness::mean(double (*number)(const Homogenized&)) const {
+    double sum = 0;
+    for (const Homogenized& sample : samples) sum += number(sample);
+    return sum / static_cast<double>(samples.size());
+}
+
+double FoamStiffness::spread(double (*number)(const Homogenized&)) const {
+    if (samples.size() < 2) return 0;
+    const double middle = mean(number);
+    double sum = 0;
+    for (const Homogenized& sample : samples) sum += std::pow(number(sample) - middle, 2);
+    return std::sqrt(sum / static_cast<double>(samples.size() - 1));
+}
+
+ElasticTensor FoamStiffness::stiffness() const {
+    ElasticTensor c{};
+    for (const Homogenized& sample : samples) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t j = 0; j < 6; ++j)
+                c[i][j] += sample.stiffness[i][j] / static_cast<double>(samples.size());
+        }
+    }
+    return c;
+}
+
+double density_of(const Homogenized& sample) { return sample.density; }
+double young_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).young; }
+double poisson_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).poisson; }
+double shear_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).shear(); }
+double bulk_of(const Homogenized& sample) { return closest_isotropic(sample.stiffness).bulk(); }
+
+void check_uniform(const FoamRecipe& foam) {
+    refuse_formula("foam.cell", foam.cell);
+    refuse_formula("foam.beam", foam.beam);
+    refuse_formula("foam.wall", foam.wall);
+    refuse_formula("foam.window", foam.window);
+    refuse_formula("foam.modulus", foam.modulus);
+}
+
+FoamStiffness foam_stiffness(std::span<const SolvedSample> solved) {
+    FoamStiffness all;
+    for (const SolvedSample& sample : solved) {
+        all.period = sample.period;
+        all.elements = sample.elements;
+        all.samples.push_back(sample.found);
+    }
+    return all;
+}
+
+std::vector<StiffnessSolve> foam_solves(const Recipe& recipe, const StiffnessOptions& options) {
+    const int count = samples_of(*recipe.foam, options);
+    std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) solves.push_back({.sample = i, .work = 1.0 / count});
+    return solves;
+}
+
+namespace {
+
+constexpr std::size_t coarse_solves = 3;  // of a law's point: its own material, and two others
+
+/// The recipe with cells so large that the members' ratio to them is as given, in no material.
+Recipe with_ratio(Recipe recipe, double ratio) {
+    FoamRecipe& foam = *recipe.foam;
+    check_uniform(foam);
+    GradedNumber& thickness = member_of(foam) == "beam" ? foam.beam : foam.wall;
+    if (thickness.number() == 0) thickness.value = 1.0;  // a modulus would have chosen it
+    foam.cell.value = thickness.number() / ratio;
+    foam.cell_min = 0;
+    foam.cell_max = infinity;
+    foam.modulus = {};
+    recipe.material.reset();
+    return recipe;
+}
+
+/// Of a sample whose members still hang together.
+int coarse_elements(const FoamRecipe& foam, double period) {
+    constexpr double in_a_radius = 1.5, least = 64;
+    const double radius = member_of(foam) == "beam" ? foam.beam.number() : foam.wall.number() / 2;
+    return static_cast<int>(std::ceil(std::max(least, in_a_radius * period / radius) / elements_step)) *
+           elements_step;
+}
+
+}  // namespace
+
+SolvedSample solve_sample(const Recipe& given, const StiffnessSolve& solve, StiffnessOptions options) {
+    const bool is_of_law = solve.ratio > 0;
+    const Recipe recipe = is_of_law ? with_ratio(given, solve.ratio) : given;
+    if (is_of_law) options.material = {1, solve.poisson};
+    check_uniform(*recipe.foam);
+    check_material(options.material);
+    SolvedSample solved;
+    solved.period = period_of(recipe);
+    const auto fine_elements = [&](int sample) {
+        if (options.elements > 0) return options.elements;
+        return suited_elements(foam_of(recipe, sample, solved.period), solved.period, options.threads);
+    };
+    // A coarse sample is not finer than the last one of the law's point.
+    solved.elements = solve.coarse ? std::min(fine_elements(samples_of(*recipe.foam, options) - 1),
+                                              coarse_elements(*recipe.foam, solved.period))
+                                   : fine_elements(solve.sample);
+    const BuiltFoam foam = foam_of(recipe, solve.sample, solved.period);
+    const ElementMask mask = sample_of(foam, solved.period, solved.elements, options.threads);
+    solved.found = homogenized(mask, options);
+    return solved;
+}
+
+void check_law_point(const Recipe& recipe, double ratio) {
+    try {
+        period_of(with_ratio(recipe, ratio));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("a ratio of {:.4g}: {}", ratio, error.what()));
+    }
+}
+
+std::vector<StiffnessSolve> law_solves(const Recipe& recipe, double ratio, const StiffnessOptions& options) {
+    constexpr double coarse_work = 0.2;
+    const int count = samples_of(*recipe.foam, options);
+    std::vector<StiffnessSolve> solves;
+    solves.reserve(static_cast<std::size_t>(count) + coarse_solves);
+    for (int i = 0; i < count; ++i)
+        solves.push_back({ratio, i, law_poisson, false, (1 - coarse_work) / count});
+    // What the material's Poisson's ratio changes is told by one coarse sample, the same for all three.
+    for (const double poisson : {law_poisson, low_poisson, high_poisson})
+        solves.push_back({ratio, 0, poisson, true, coarse_work / coarse_solves});
+    return solves;
+}
+
+FoamLawPoint law_point(double ratio, std::span<const SolvedSample> solved) {
+    const auto coarse = solved.last(coarse_solves);
+    const FoamStiffness found = foam_stiffness(solved.first(solved.size() - coarse_solves));
+    FoamLawPoint point;
+    point.ratio = ratio;
+    point.density = found.mean(density_of);
+    point.young = closest_isotropic(found.stiffness()).young;
+    point.poisson = closest_isotropic(found.stiffness()).poisson;
+    point.spread = found.spread(young_of) / found.mean(young_of);
+    point.anisotropy = anisotropy(found.stiffness());
+    point.elements = found.elements;
+    point.samples = static_cast<int>(found.samples.size());
+    const double middle = young_of(coarse[0].found);
+    point.low_factor = young_of(coarse[1].found) / middle;
+    point.high_factor = young_of(coarse[2].found) / middle;
+    return point;
+}
+
+}  // namespace lamella

@@ -1,0 +1,105 @@
+// A survey of the void, and a hole or two for each cavity.
+#include "recipe/build/place_drains.h"
+#include "recipe/build/json_triple.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/surveys/island_survey.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::size_t most_cavities = 1000;
+
+double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
+    const Interval suited = island_pitches(job);
+    const double given = recipe.skin->drain_pitch;
+    if (given == 0) return std::min(std::max(depth / 3, suited.lo), suited.hi);
+    if (!suited.contains(given)) {
+        throw PlacedError(
+            fmt::format("skin.drain_pitch / --drain-pitch: {} mm does not suit the part; accepted: {:.4g} to "
+                        "{:.4g} mm, the latter being 16 layers",
+                        given, suited.lo, suited.hi));
+    }
+    return given;
+}
+
+DrilledHole drain(const Field& body, dvec3 at, double radius, double depth) {
+    DrilledHole hole = drill(body, at, dvec3(0), radius, 0, depth);
+    // The hole leads through the point itself and somewhat beyond, however deep that lies.
+    const dvec3 axis = hole.to - hole.from;
+    const double length = std::sqrt(glm::dot(axis, axis));
+    const double way = glm::dot(at - hole.from, axis) / length + radius;
+    if (way > length) hole.to = hole.from + axis * (way / length);
+    return hole;
+}
+
+}  // namespace
+
+DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body, double depth) {
+    const SkinRecipe& skin = *recipe.skin;
+    constexpr double least_radius = 0.5;
+    const double radius = skin.drain_radius > 0 ? skin.drain_radius : std::max(0.5 * depth, least_radius);
+    CavitySurveyOptions options;
+    options.pitch = survey_pitch(recipe, job, depth);
+    options.most = most_cavities + 1;
+    CavitySurvey survey = survey_cavities(job, options);
+    DrainReport report;
+    report.cavities = survey.count;
+    report.volume = survey.volume;
+    const double least = 4.0 / 3 * pi * radius * radius * radius;
+    for (Cavity& cavity : survey.cavities) {
+        if (cavity.volume >= least) report.drained.push_back(cavity);
+    }
+    if (report.drained.size() > most_cavities) {
+        throw PlacedError(
+            fmt::format("skin.drains / --drains: the part has more than {} closed cavities to drain, {} in "
+                        "all; accepted: a foam of open cells, or no drains",
+                        most_cavities, report.cavities));
+    }
+    report.small = survey.count - report.drained.size();
+    for (const Cavity& cavity : report.drained) {
+        report.holes.push_back(drain(body, cavity.lowest, radius, depth));
+        if (skin.drains > 1) report.holes.push_back(drain(body, cavity.highest, radius, depth));
+    }
+    return report;
+}
+
+nlohmann::ordered_json drains_json(const DrainReport& report) {
+    auto cavities = nlohmann::ordered_json::array();
+    for (const Cavity& cavity : report.drained) {
+        cavities.push_back({{"volume_mm3", cavity.volume},
+                            {"lowest_mm", json_triple(cavity.lowest)},
+                            {"highest_mm", json_triple(cavity.highest)}});
+    }
+    auto holes = nlohmann::ordered_json::array();
+    for (const DrilledHole& hole : report.holes) {
+        holes.push_back({{"from_mm", json_triple(hole.from)},
+                         {"to_mm", json_triple(hole.to)},
+                         {"radius_mm", hole.radius}});
+    }
+    return {{"cavities", report.cavities},
+            {"volume_mm3", report.volume},
+            {"too_small_to_drain", report.small},
+            {"drained", std::move(cavities)},
+            {"holes", std::move(holes)}};
+}
+
+std::string drains_text(const DrainReport& report) {
+    if (report.cavities == 0) return "no cavity is closed";
+    std::string text = fmt::format("{} closed {} of {:.1f} mm3, {} {} drilled", report.cavities,
+                                   report.cavities == 1 ? "cavity" : "cavities", report.volume,
+                                   report.holes.size(), report.holes.size() == 1 ? "hole" : "holes");
+    if (!report.drained.empty()) {
+        const Cavity& cavity = report.drained.front();
+        text += fmt::format("; the largest, of {:.1f} mm3, lowest at ({:.2f}, {:.2f}, {:.2f}) mm",
+                            cavity.volume, cavity.lowest.x, cavity.lowest.y, cavity.lowest.z);
+    }
+    if (report.small > 0) text += fmt::format("; {} too small to drain", report.small);
+    return text;
+}
+
+}  // namespace lamella

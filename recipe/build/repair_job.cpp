@@ -1,0 +1,122 @@
+// Surveys of what is to be mended, and struts between pieces.
+#include "recipe/build/repair_job.h"
+#include "recipe/build/json_triple.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+#include "engine/surveys/island_survey.h"
+#include "recipe/build/build_process.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr double pitches_in_a_strut = 4;
+
+/// The least pitch that suits a job for what is `size` mm thick.
+double pitch_for(const Job& job, double size) {
+    const Interval suited = island_pitches(job);
+    return std::min(std::max(size / pitches_in_a_strut, suited.lo), suited.hi);
+}
+
+/// A strut that reaches into what it joins by its own radius.
+FieldPtr strut(const PieceJoin& join, double radius) {
+    const double length = join.length();
+    const dvec3 into = length > 0 ? (join.b - join.a) * (radius / length) : dvec3(0);
+    return make_round_cone({join.a - into, radius, join.b + into, radius});
+}
+
+void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, const RepairOptions& options) {
+    // Struts have their diameter as printed only where nothing is scaled; they are no thinner than that.
+    const dvec3 scale = recipe.process ? recipe.process->scale : dvec3(1);
+    const double radius = 0.5 * recipe.repair->join / std::min({scale.x, scale.y, scale.z});
+    JoinSurveyOptions survey;
+    survey.pitch = pitch_for(built.designed, 2 * radius);
+    survey.threads = options.threads;
+    survey.on_progress = options.on_progress;
+    survey.cancel = options.cancel;
+    report.joins = survey_joins(built.designed, survey);
+    if (report.joins->joins.empty()) return;
+    std::vector<FieldPtr> solids{built.designed.part};
+    for (const PieceJoin& join : report.joins->joins) solids.push_back(strut(join, radius));
+    built.designed.part = make_union(std::move(solids));
+    built.job = make_processed(recipe, built.designed);
+}
+
+/// What a check finds in the job before its outlines are mended.
+CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check check, double limit,
+                         const RepairOptions& options) {
+    const Job job = make_scaled(recipe, built.designed);
+    PrintCheckOptions checked;
+    checked.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    checked.limits.thickness = checked.limits.gap = limit;
+    checked.pitch = check_pitch(job, checked.limits);
+    PrintCheck surveyor(job, checked);
+    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    return surveyor.report().results.front();
+}
+
+nlohmann::ordered_json mended_json(const CheckResult& result) {
+    auto largest = nlohmann::ordered_json::array();
+    for (const Fault& fault : result.worst)
+        largest.push_back({{"at_mm", json_triple(fault.at)}, {"volume_mm3", fault.size}});
+    return {{"to_mm", result.limit},
+            {"places", result.count},
+            {"volume_mm3", result.total},
+            {"largest", std::move(largest)}};
+}
+
+std::string mended_text(const char* name, const CheckResult& result, const char* found, const char* done) {
+    if (result.count == 0) return fmt::format("{}nothing {} than {} mm\n", name, found, result.limit);
+    const Fault& worst = result.worst.front();
+    return fmt::format(
+        "{}{} {} {} than {} mm, {:.2f} mm3 in all, {}; the largest at ({:.2f}, {:.2f}, {:.2f}) mm\n", name,
+        result.count, result.count == 1 ? "place" : "places", found, result.limit, result.total, done,
+        worst.at.x, worst.at.y, worst.at.z);
+}
+
+}  // namespace
+
+void repair_job(const Recipe& recipe, BuiltJob& built, const RepairOptions& options) {
+    if (!recipe.repair) return;
+    const RepairRecipe& repair = *recipe.repair;
+    RepairReport report;
+    if (repair.join > 0) join_pieces(recipe, built, report, options);
+    if (repair.thickness > 0)
+        report.thickened = count_faults(recipe, built, Check::thickness, repair.thickness, options);
+    if (repair.gap > 0) report.filled = count_faults(recipe, built, Check::gaps, repair.gap, options);
+    built.repairs = std::move(report);
+}
+
+nlohmann::ordered_json repairs_json(const RepairReport& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    if (report.joins) {
+        auto joins = nlohmann::ordered_json::array();
+        for (const PieceJoin& join : report.joins->joins)
+            joins.push_back({{"from_mm", json_triple(join.a)}, {"to_mm", json_triple(join.b)}});
+        json["joined"] = {{"pieces", report.joins->pieces}, {"struts", std::move(joins)}};
+    }
+    if (report.thickened) json["thickened"] = mended_json(*report.thickened);
+    if (report.filled) json["filled"] = mended_json(*report.filled);
+    return json;
+}
+
+std::string repairs_text(const RepairReport& report) {
+    std::string text;
+    if (report.joins && report.joins->pieces < 2) text += "join       the part is one piece\n";
+    if (report.joins && report.joins->pieces > 1) {
+        double longest = 0;
+        for (const PieceJoin& join : report.joins->joins) longest = std::max(longest, join.length());
+        text += fmt::format("join       {} pieces, by {} {}, the longest over {:.2f} mm\n",
+                            report.joins->pieces, report.joins->joins.size(),
+                            report.joins->joins.size() == 1 ? "strut" : "struts", longest);
+    }
+    if (report.thickened) text += mended_text("thickness  ", *report.thickened, "thinner", "made thicker");
+    if (report.filled) text += mended_text("gaps       ", *report.filled, "narrower", "filled");
+    return text;
+}
+
+}  // namespace lamella

@@ -1,0 +1,127 @@
+// Names, limits and advice, check by check.
+#include "recipe/keys/check_words.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+namespace {
+
+struct Words {
+    const char* name;
+    const char* fault;
+    const char* advice;
+    const char* unit;
+};
+
+/// By Check.
+constexpr std::array<Words, check_count> table{{
+    {"connectivity", "a piece is not joined to the rest of the part",
+     "Join it to the part, or leave loose pieces of foam out with --drop-islands.", "mm3"},
+    {"sheets", "a layer falls into several pieces",
+     "Join them in the design, or have bars put between them: --printer-ties join.", "mm2"},
+    {"islands", "something begins with nothing below it",
+     "Supports hold it (--support bridges or pillars), or another way up needs none.", "mm2"},
+    {"overhangs", "a layer stands out too far over the one below",
+     "Supports hold it (--support bridges or pillars), or a gentler slope or thinner layers need none.",
+     "mm2"},
+    {"bridges", "a stretch between two holds is too long",
+     "Shorten it, turn the part, or add supports (--support bridges or pillars).", "mm"},
+    {"thickness", "a wall or strut is too thin",
+     "Make it thicker there: a thicker skin (--skin) or beam (--beam), or a machine that makes finer things.",
+     "mm3"},
+    {"necks", "large parts are joined by something thin",
+     "Make the neck thicker, or expect it to break there.", "mm3"},
+    {"gaps", "a void is too narrow and closes up", "Widen it, or fill it.", "mm3"},
+    {"cavities", "a void is closed off",
+     "Open it: --drains 1 for a hollow part, a [[hole]], or a foam of open cells.", "mm3"},
+    {"cups", "a void is closed off by the vat's film while it is printed",
+     "Give it a hole near the plate (--drains 2, or a [[hole]]), or turn the part over.", "mm3"},
+    {"build_volume", "the part sticks out of the machine's reach",
+     "Scale or turn the part, or take a larger machine.", "mm"},
+    {"empty_layers", "a layer holds nothing of the part", "Join what lies above it to what lies below.",
+     "mm"},
+}};
+
+const Words& words_of(Check check) { return table[static_cast<std::size_t>(check)]; }
+
+std::string with_upright(double within, double up) {
+    std::string text = fmt::format("at least {:.4g} mm", within);
+    if (up > 0) text += up == within ? ", also upright" : fmt::format(", {:.4g} mm upright", up);
+    return text;
+}
+
+std::string room_text(dvec3 room) {
+    if (!std::isfinite(room.x) || !std::isfinite(room.y)) return "the machine's size is not known";
+    std::string text = fmt::format("within {:.6g} x {:.6g}", room.x, room.y);
+    if (std::isfinite(room.z)) text += fmt::format(" x {:.6g}", room.z);
+    return text + " mm";
+}
+
+}  // namespace
+
+std::string process_name(Process process) { return words(process)[static_cast<std::size_t>(process)]; }
+std::string check_name(Check check) { return words_of(check).name; }
+std::string check_fault(Check check) { return words_of(check).fault; }
+std::string check_advice(Check check) { return words_of(check).advice; }
+const char* size_unit(Check check) { return words_of(check).unit; }
+
+std::string check_limit(Check check, const PrintLimits& limits) {
+    switch (check) {
+        case Check::connectivity:
+            return "the part is one piece";
+        case Check::sheets:
+            return "each layer is one piece";
+        case Check::islands:
+            return "nothing begins in the air";
+        case Check::overhangs:
+            return fmt::format("at most {:.4g} mm over the layer below", limits.overhang);
+        case Check::bridges:
+            return fmt::format("at most {:.4g} mm from hold to hold", limits.bridge);
+        case Check::thickness:
+            return with_upright(limits.thickness, limits.thickness_up);
+        case Check::necks:
+            return fmt::format("at least {:.4g} mm between parts over {:.4g} mm3", limits.neck,
+                               limits.large_part);
+        case Check::gaps:
+            return with_upright(limits.gap, limits.gap_up);
+        case Check::cavities:
+            return fmt::format("no closed void over {:.4g} mm3", limits.cavity);
+        case Check::cups:
+            return fmt::format("no suction cup over {:.4g} mm3", limits.cup);
+        case Check::build_volume:
+            return room_text(limits.build_volume);
+        case Check::empty_layers:
+            return "something in every layer";
+    }
+    return "";
+}
+
+std::string size_text(Check check, double size) {
+    const char* unit = size_unit(check);
+    if (size < 0.001) return fmt::format("below 0.001 {}", unit);
+    const int digits = size < 1 ? 3 : size < 10 ? 2 : size < 100 ? 1 : 0;
+    return fmt::format("{:.{}f} {}", size, digits, unit);
+}
+
+const char* outcome_word(const CheckResult& result) {
+    if (result.passed()) return "pass";
+    return result.verdict == Verdict::fail ? "FAIL" : "warn";
+}
+
+std::string layers_text(const Fault& fault) {
+    if (fault.end_layer - fault.first_layer <= 1) return fmt::format("layer {}", fault.layer);
+    return fmt::format("layers {} to {}", fault.first_layer, fault.end_layer - 1);
+}
+
+std::string place_text(dvec3 at) {
+    // A rounded -0.00 is 0.
+    const auto rounded = [](double v) { return std::round(v * 100) / 100 + 0.0; };
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) mm", rounded(at.x), rounded(at.y), rounded(at.z));
+}
+
+}  // namespace lamella

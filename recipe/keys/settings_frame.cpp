@@ -1,0 +1,41 @@
+// The rows of the settings table about the frame under the surface.
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+namespace {
+
+constexpr Limits radii{0.005, 500};
+
+template <auto member>
+void add_frame_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+    t.push_back(optional_row<&Recipe::frame, member>("frame", key, flag, std::move(facts)));
+}
+
+}  // namespace
+
+void add_frame_settings(std::vector<Setting>& table) {
+    add_frame_row<&FrameRecipe::beam>(
+        table, "beam", "--frame",
+        {.unit = "mm",
+         .limits = radii,
+         .fallback = "required in [frame]",
+         .help = "Radius of the frame's beams; where the foam's are thicker, theirs."});
+    add_frame_row<&FrameRecipe::beam_min>(
+        table, "beam_min", "--frame-min",
+        {.unit = "mm",
+         .limits = radii,
+         .fallback = "0.005",
+         .help = "Least radius that is made: graded beams of the frame are kept above it."});
+    add_frame_row<&FrameRecipe::beam_max>(
+        table, "beam_max", "--frame-max",
+        {.unit = "mm",
+         .limits = radii,
+         .fallback = "500",
+         .help = "Greatest radius that is made: graded beams of the frame are kept below it."});
+    add_frame_row<&FrameRecipe::interior>(
+        table, "interior", "--frame-interior",
+        {.fallback = "true",
+         .help = "Whether the foam itself is made; without it there is the frame alone."});
+}
+
+}  // namespace lamella

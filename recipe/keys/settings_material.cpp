@@ -1,0 +1,59 @@
+// The rows of the settings table about how stiff a foam is wanted, and what it is made of.
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+
+void add_stiffness_settings(std::vector<Setting>& t) {
+    t.push_back(optional_row<&Recipe::foam, &FoamRecipe::modulus>(
+        "foam", "modulus", "--modulus",
+        {.unit = "MPa",
+         .limits = {1e-6, 1e6},
+         .fallback = "cells and members are given",
+         .help = "Young's modulus that the foam is to have: cells are chosen for it where beams (or walls) "
+                 "are given, and these where cells are. Needs [material]."}));
+    t.push_back(optional_row<&Recipe::foam, &FoamRecipe::law>(
+        "foam", "law", "--foam-law",
+        {.fallback = "those that ship with the program",
+         .help = "File of foams' stiffness against the size of their members, as `homogenize --table` writes "
+                 "it; in a recipe, relative to the recipe's folder.",
+         .is_path = true}));
+}
+
+void add_material_settings(std::vector<Setting>& t) {
+    const auto add = [&]<auto member>(const char* key, const char* flag, Facts facts) {
+        t.push_back(optional_row<&Recipe::material, member>("material", key, flag, std::move(facts)));
+    };
+    using M = MaterialRecipe;
+    add.operator()<&M::name>(
+        "name", "--material",
+        {.fallback = "none", .help = "Name of a material that `lamella materials` lists: pla, petg, ..."});
+    add.operator()<&M::table>(
+        "table", "--material-table",
+        {.fallback = "the materials that ship with the program",
+         .help = "File of materials, as `lamella materials --toml` writes them; in a recipe, relative to the "
+                 "recipe's folder.",
+         .is_path = true});
+    add.operator()<&M::young>("young", "--young",
+                              {.unit = "MPa",
+                               .limits = {1e-6, 1e6},
+                               .fallback = "the named material's",
+                               .help = "Young's modulus of the solid, as printed."});
+    add.operator()<&M::poisson>("poisson", "--poisson",
+                                {.limits = {0, 0.49},
+                                 .fallback = "the named material's, or 1/3",
+                                 .help = "Poisson's ratio of the solid."});
+    add.operator()<&M::density>("density", "--density",
+                                {.unit = "g/cm3",
+                                 .limits = {1e-3, 100},
+                                 .fallback = "the named material's",
+                                 .help = "Density of the solid, from which the part's mass is told."});
+    add.operator()<&M::tests>(
+        "tests", "--material-tests",
+        {.fallback = "none",
+         .help =
+             "File of compression tests of printed foams that the law is fitted to: a cell, a member (mm) "
+             "and the modulus (MPa) a line; in a recipe, relative to the recipe's folder.",
+         .is_path = true});
+}
+
+}  // namespace lamella

@@ -1,0 +1,18 @@
+// The rows of the settings table about the plate: how many of a part are made at once.
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+
+void add_plate_settings(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.plate.copies; }>(
+        "plate", "copies", "--copies",
+        {.limits = {1, 10000},
+         .fallback = "1",
+         .help = "How many of the part stand on the plate, in rows."}));
+    t.push_back(row<[](Recipe & r) -> auto& {
+        return r.plate.gap;
+    }>("plate", "gap", "--plate-gap",
+       {.unit = "mm", .limits = {0, 1000}, .fallback = "5", .help = "Gap between neighbours on the plate."}));
+}
+
+}  // namespace lamella

@@ -1,0 +1,129 @@
+// The rows of the settings table about solids by name and the regions that they make.
+#include "recipe/keys/settings_rows.h"
+#include "recipe/recipe_kinds.h"
+
+namespace lamella {
+
+const std::vector<std::string>& words(RegionMake) {
+    static const std::vector<std::string> list{"solid", "empty", "foam", "skin", "blocker", "enforcer"};
+    return list;
+}
+
+namespace {
+
+template <auto member>
+void add_field_row(std::vector<Setting>& t, const char* key, Facts facts) {
+    t.push_back(list_row<&Recipe::fields, member>("field", key, std::move(facts)));
+}
+
+void add_formulas(std::vector<Setting>& t) {
+    add_field_row<&FieldRecipe::formula>(
+        t, "formula",
+        {.fallback = "required by formula",
+         .help = "Formula over x, y, z (mm): the solid is where it is below zero.",
+         .is_formula = true});
+    add_field_row<&FieldRecipe::file>(
+        t, "file",
+        {.fallback = "required by vm, mesh, 3mf",
+         .help = "Program of one operation a line (.vm), a mesh (STL, OBJ, PLY, 3MF), or a 3MF with level "
+                 "sets or functions, relative to the recipe's folder.",
+         .is_path = true});
+    add_field_row<&FieldRecipe::object>(
+        t, "object",
+        {.fallback = "all that the 3MF builds", .help = "Number or name of an object in a 3MF."});
+    add_field_row<&FieldRecipe::function>(
+        t, "function",
+        {.fallback = "none",
+         .help = "Number or name of a function in a 3MF, with .output where it has several: the solid is "
+                 "where it is below zero."});
+    add_field_row<&FieldRecipe::bounds>(
+        t, "bounds",
+        {.unit = "mm",
+         .limits = place_limits,
+         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+         .fallback = "found by search; of a region, a box about the part",
+         .help = "Box that the solid lies in; outside it the solid is cut off."});
+}
+
+void add_shapes(std::vector<Setting>& t) {
+    const auto length = [&]<auto member>(const char* key, const char* needed_by, const char* help) {
+        add_field_row<member>(t, key,
+                              {.unit = "mm",
+                               .limits = extent_limits,
+                               .fallback = std::string("required by ") + needed_by,
+                               .help = help});
+    };
+    length.operator()<&FieldRecipe::radius>("radius", "sphere, cylinder, capsule, torus",
+                                            "Radius; of a torus, of the circle in the middle of its tube.");
+    length.operator()<&FieldRecipe::size>("size", "box", "Edge lengths along x, y and z.");
+    length.operator()<&FieldRecipe::height>("height", "cylinder, capsule",
+                                            "Height from end to end, along z.");
+    length.operator()<&FieldRecipe::tube>("tube", "torus", "Radius of the tube of a torus.");
+    add_field_row<&FieldRecipe::unit>(
+        t, "unit", {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."});
+    add_field_row<&FieldRecipe::scale>(
+        t, "scale",
+        {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Factor on a mesh's size, after the unit."});
+}
+
+}  // namespace
+
+void add_field_settings(std::vector<Setting>& t) {
+    add_field_row<&FieldRecipe::name>(
+        t, "name",
+        {.fallback = "required", .help = "Name, for part.field and regions to use: letters, digits and _."});
+    add_field_row<&FieldRecipe::kind>(t, "kind",
+                                      {.choices = kind_words("field"),
+                                       .fallback = "formula",
+                                       .help = "Where the field's values come from."});
+    add_formulas(t);
+    add_shapes(t);
+    add_field_row<&FieldRecipe::at>(
+        t, "at",
+        {.unit = "mm",
+         .limits = place_limits,
+         .fallback = "0, 0, 0",
+         .help = "Centre of a shape; of a mesh or formula, where its origin goes."});
+    add_field_row<&FieldRecipe::turn>(
+        t, "turn",
+        {.unit = "degrees",
+         .limits = {-360, 360},
+         .fallback = "0, 0, 0",
+         .help = "Turns the solid about x, then y, then z, before it is placed."});
+}
+
+void add_region_settings(std::vector<Setting>& t) {
+    const auto add = [&]<auto member>(const char* key, Facts facts) {
+        t.push_back(list_row<&Recipe::regions, member>("region", key, std::move(facts)));
+    };
+    add.operator()<&RegionRecipe::field>(
+        "field", {.fallback = "required", .help = "Name of the [[field]] that the region is the inside of."});
+    add.operator()<&RegionRecipe::make>("make", {.fallback = "required",
+                                                 .help = "What the body is made of there; foam and skin "
+                                                         "change numbers. A blocker keeps supports away, an "
+                                                         "enforcer wants them under all that stands out."});
+    add.operator()<&RegionRecipe::blend>(
+        "blend", {.unit = "mm",
+                  .limits = {0, 1000},
+                  .fallback = "0",
+                  .help = "Width over which the region passes into what is about it: of fillets, rounded "
+                          "edges, the change of numbers."});
+    const auto number = [&]<auto member>(const char* key, const char* unit, Limits limits, const char* other,
+                                         const char* help) {
+        add.operator()<member>(key, {.unit = unit, .limits = limits, .fallback = other, .help = help});
+    };
+    number.operator()<&RegionRecipe::cell>("cell", "mm", {0.05, 1000}, "the foam's",
+                                           "Cells of the foam there.");
+    number.operator()<&RegionRecipe::beam>("beam", "mm", {0.005, 500}, "the foam's",
+                                           "Radius of the foam's beams there.");
+    number.operator()<&RegionRecipe::wall>("wall", "mm", {0.01, 500}, "the foam's",
+                                           "Thickness of the foam's walls there.");
+    number.operator()<&RegionRecipe::window>("window", "", {0, 1}, "the foam's",
+                                             "Share of a closed foam's walls that is a window there.");
+    number.operator()<&RegionRecipe::modulus>("modulus", "MPa", {1e-6, 1e6}, "the foam's",
+                                              "Young's modulus of the foam there.");
+    number.operator()<&RegionRecipe::thickness>("thickness", "mm", {0, 1000}, "required by skin",
+                                                "Thickness of the skin there; 0 for none.");
+}
+
+}  // namespace lamella

@@ -1,0 +1,31 @@
+// The rows of the settings table about what is mended before a part is printed.
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+
+namespace {
+
+template <auto member>
+void add_repair_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+    facts.unit = "mm";
+    facts.limits = {0, 100};
+    facts.fallback = format_value(RepairRecipe{}.*member);
+    t.push_back(optional_row<&Recipe::repair, member>("repair", key, flag, std::move(facts)));
+}
+
+}  // namespace
+
+void add_repair_settings(std::vector<Setting>& table) {
+    using R = RepairRecipe;
+    add_repair_row<&R::thickness>(
+        table, "thickness", "--repair-thickness",
+        {.help = "What is thinner than this within a layer is made so thick; 0: it stays."});
+    add_repair_row<&R::gap>(table, "gap", "--repair-gap",
+                            {.help = "Void narrower than this within a layer is filled; 0: it stays."});
+    add_repair_row<&R::join>(
+        table, "join", "--repair-join",
+        {.help = "Diameter of the struts that join pieces of the part which float free; 0: none "
+                 "are joined."});
+}
+
+}  // namespace lamella

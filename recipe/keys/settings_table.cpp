@@ -1,0 +1,408 @@
+// The rows of the settings table about the part, its gradings, foam, skin and layers.
+#include "recipe/keys/settings_rows.h"
+#include "recipe/recipe_kinds.h"
+
+namespace lamella {
+
+const std::vector<std::string>& words(Shape) {
+    static const std::vector<std::string> list{"none",    "sphere", "box",   "cylinder",
+                                               "capsule", "torus",  "gyroid"};
+    return list;
+}
+const std::vector<std::string>& words(LengthUnit) {
+    static const std::vector<std::string> list{"mm", "cm", "m", "inch"};
+    return list;
+}
+const std::vector<std::string>& words(Falloff) {
+    static const std::vector<std::string> list{"linear", "smooth", "gaussian", "inverse"};
+    return list;
+}
+
+namespace {
+
+constexpr Limits any_number{-1e9, 1e9};
+
+void add_part(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.mesh; }>(
+        "part", "mesh", "--mesh",
+        {.fallback = "a mesh, a shape or a field must be given",
+         .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder.",
+         .is_path = true}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.field; }>(
+        "part", "field", "--field",
+        {.fallback = "the only [[field]] there is", .help = "Name of the [[field]] that is the body."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.shape; }>(
+        "part", "shape", "--shape",
+        {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.radius; }>(
+        "part", "radius", "--shape-radius",
+        {.unit = "mm",
+         .limits = extent_limits,
+         .fallback = "required by sphere, cylinder, capsule, torus",
+         .help = "Radius; of a torus, of the circle in the middle of its tube."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.size; }>("part", "size", "--shape-size",
+                                                             {.unit = "mm",
+                                                              .limits = extent_limits,
+                                                              .fallback = "required by box, gyroid",
+                                                              .help = "Edge lengths along x, y and z."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.height; }>("part", "height", "--shape-height",
+                                                               {.unit = "mm",
+                                                                .limits = extent_limits,
+                                                                .fallback = "required by cylinder, capsule",
+                                                                .help = "Height from end to end, along z."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.tube; }>("part", "tube", "--shape-tube",
+                                                             {.unit = "mm",
+                                                              .limits = extent_limits,
+                                                              .fallback = "required by torus",
+                                                              .help = "Radius of the tube of a torus."}));
+    t.push_back(
+        row<[](Recipe & r) -> auto& { return r.part.period; }>("part", "period", "--shape-period",
+                                                               {.unit = "mm",
+                                                                .limits = extent_limits,
+                                                                .fallback = "required by gyroid",
+                                                                .help = "Length of one gyroid cell."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.thickness; }>(
+        "part", "thickness", "--shape-thickness",
+        {.unit = "mm",
+         .limits = length_limits,
+         .fallback = "required by gyroid",
+         .help = "Thickness of the gyroid's sheet."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.unit; }>(
+        "part", "unit", "--unit",
+        {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.scale; }>(
+        "part", "scale", "--scale",
+        {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Factor on the part's size, after the unit."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
+        "part", "name", "--name",
+        {.fallback = "the input's name", .help = "Short name for file names and headers."}));
+}
+
+template <auto member>
+void add_grading_row(std::vector<Setting>& t, const char* key, Facts facts) {
+    t.push_back(list_row<&Recipe::gradings, member>("grading", key, std::move(facts)));
+}
+
+void add_gradings(std::vector<Setting>& t) {
+    using G = GradingRecipe;
+    add_grading_row<&G::name>(
+        t, "name", {.fallback = "required", .help = "Name, for formulas to use: letters, digits and _."});
+    add_grading_row<&G::kind>(
+        t, "kind",
+        {.choices = kind_words("grading"), .fallback = "required", .help = "Where the number comes from."});
+    add_grading_row<&G::value>(
+        t, "value",
+        {.limits = any_number, .fallback = "required by constant", .help = "The number everywhere."});
+    add_grading_row<&G::formula>(t, "formula",
+                                 {.fallback = "required by formula",
+                                  .help = "Formula over x, y, z, the depth d (mm) and other gradings.",
+                                  .is_formula = true});
+    add_grading_row<&G::file>(
+        t, "file",
+        {.fallback = "required by volume, 3mf; of an attribute, part.mesh",
+         .help = "Volume (.nrrd, .tif or a folder of images), PLY mesh, table (.csv) or 3MF, relative to the "
+                 "recipe's folder.",
+         .is_path = true});
+    add_grading_row<&G::property>(t, "property",
+                                  {.fallback = "3mf has a property or a function",
+                                   .help = "Property of an object in a 3MF: density, modulus, ...; of a "
+                                           "vector with .x, .y or .z."});
+    add_grading_row<&G::function>(t, "function",
+                                  {.fallback = "3mf has a property or a function",
+                                   .help = "Number or name of a function in a 3MF, with .output where it "
+                                           "has several."});
+    add_grading_row<&G::object>(t, "object",
+                                {.fallback = "the only one that has the property",
+                                 .help = "Number or name of the object in a 3MF whose property is meant."});
+    add_grading_row<&G::box>(t, "box",
+                             {.unit = "mm",
+                              .limits = place_limits,
+                              .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+                              .fallback = "the file's",
+                              .help = "Box that a volume's voxels fill."});
+    add_grading_row<&G::channel>(
+        t, "channel", {.limits = {0, 255}, .fallback = "0", .help = "Channel of a volume's images, from 0."});
+    add_grading_row<&G::along>(t, "along",
+                               {.fallback = "required by table",
+                                .help = "Formula whose value the table is looked up with: \"z\", \"d\", ...",
+                                .is_formula = true});
+    add_grading_row<&G::rows>(t, "rows",
+                              {.limits = any_number,
+                               .shape = {2, 0, "pairs [[position, number], ...]"},
+                               .fallback = "a table has rows or a file",
+                               .help = "Rows of a table, in order of position."});
+    add_grading_row<&G::smooth>(
+        t, "smooth",
+        {.fallback = "false", .help = "Pass through a table's rows smoothly instead of straight."});
+    add_grading_row<&G::attribute>(
+        t, "attribute",
+        {.fallback = "required by attribute", .help = "Property of a PLY's vertices: red, quality, ..."});
+    add_grading_row<&G::points>(t, "points",
+                                {.unit = "mm",
+                                 .limits = place_limits,
+                                 .shape = {3, 0, "points [[x, y, z], ...]"},
+                                 .fallback = "attractors have points or segments",
+                                 .help = "Points that attract."});
+    add_grading_row<&G::segments>(t, "segments",
+                                  {.unit = "mm",
+                                   .limits = place_limits,
+                                   .shape = {6, 0, "segments [[[x, y, z], [x, y, z]], ...]"},
+                                   .fallback = "attractors have points or segments",
+                                   .help = "Straight segments that attract."});
+    add_grading_row<&G::near_value>(
+        t, "near",
+        {.limits = any_number, .fallback = "required by attractors", .help = "The number at an attractor."});
+    add_grading_row<&G::far_value>(t, "far",
+                                   {.limits = any_number,
+                                    .fallback = "required by attractors",
+                                    .help = "The number beyond the radius."});
+    add_grading_row<&G::radius>(t, "radius",
+                                {.unit = "mm",
+                                 .limits = extent_limits,
+                                 .fallback = "required by attractors",
+                                 .help = "Distance over which the number changes."});
+    add_grading_row<&G::falloff>(t, "falloff",
+                                 {.fallback = "smooth", .help = "How the number changes from near to far."});
+    add_grading_row<&G::at>(t, "at",
+                            {.unit = "mm",
+                             .limits = place_limits,
+                             .fallback = "required by point, plane",
+                             .help = "The point, or a point of the plane."});
+    add_grading_row<&G::a>(t, "a",
+                           {.unit = "mm",
+                            .limits = place_limits,
+                            .fallback = "required by line",
+                            .help = "One end of the line."});
+    add_grading_row<&G::b>(t, "b",
+                           {.unit = "mm",
+                            .limits = place_limits,
+                            .fallback = "required by line",
+                            .help = "The other end of the line."});
+    add_grading_row<&G::normal>(t, "normal",
+                                {.limits = place_limits,
+                                 .fallback = "required by plane",
+                                 .help = "Direction in which the distance from a plane is positive."});
+}
+
+template <auto member>
+void add_foam_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+    t.push_back(optional_row<&Recipe::foam, member>("foam", key, flag, std::move(facts)));
+}
+
+constexpr Limits cells{0.05, 1000};
+constexpr Limits beams{0.005, 500};
+constexpr Limits walls{0.01, 500};
+
+void add_foam(std::vector<Setting>& t) {
+    using F = FoamRecipe;
+    add_foam_row<&F::kind>(t, "kind", "--foam",
+                           {.choices = kind_words("foam"),
+                            .fallback = FoamRecipe{}.kind,
+                            .help = "What the body is filled with."});
+    add_foam_row<&F::cell>(
+        t, "cell", "--cell",
+        {.unit = "mm",
+         .limits = cells,
+         .fallback = "required in [foam]",
+         .help = "Mean diameter of a cell: one seed to every cell cubed; side or period of what repeats."});
+    add_foam_row<&F::beam>(t, "beam", "--beam",
+                           {.unit = "mm",
+                            .limits = beams,
+                            .fallback = "required in [foam]",
+                            .help = "Radius of the foam's beams."});
+    const auto bound = [&]<auto member>(const char* key, const char* flag, Limits limits, double fallback,
+                                        const char* help) {
+        add_foam_row<member>(
+            t, key, flag, {.unit = "mm", .limits = limits, .fallback = format_value(fallback), .help = help});
+    };
+    bound.operator()<&F::cell_min>("cell_min", "--cell-min", cells, cells.lo,
+                                   "Least cell that is made: graded cells are kept above it.");
+    bound.operator()<&F::cell_max>("cell_max", "--cell-max", cells, cells.hi,
+                                   "Greatest cell that is made: graded cells are kept below it.");
+    bound.operator()<&F::beam_min>("beam_min", "--beam-min", beams, beams.lo,
+                                   "Least radius that is made: graded beams are kept above it.");
+    bound.operator()<&F::beam_max>("beam_max", "--beam-max", beams, beams.hi,
+                                   "Greatest radius that is made: graded beams are kept below it.");
+    add_foam_row<&F::wall>(t, "wall", "--wall",
+                           {.unit = "mm",
+                            .limits = walls,
+                            .fallback = "required by periodic surfaces, closed",
+                            .help = "Thickness of the walls, at least; of a network, of its struts."});
+    bound.operator()<&F::wall_min>("wall_min", "--wall-min", walls, walls.lo,
+                                   "Least thickness that is made: graded walls are kept above it.");
+    bound.operator()<&F::wall_max>("wall_max", "--wall-max", walls, walls.hi,
+                                   "Greatest thickness that is made: graded walls are kept below it.");
+    add_foam_row<&F::window>(
+        t, "window", "--window",
+        {.limits = {0, 1},
+         .fallback = "0",
+         .help = "Share of a closed foam's walls that is a window: 0 is closed, 1 has no walls."});
+    add_foam_row<&F::network>(
+        t, "network", "--network",
+        {.fallback = "false", .help = "Struts on one side of a periodic surface instead of a wall on it."});
+    add_foam_row<&F::unit_cell>(t, "unit_cell", "--unit-cell",
+                                {.choices = {"cubic", "bcc", "fcc", "octet"},
+                                 .fallback = "a lattice has unit_cell or struts",
+                                 .help = "Struts that a lattice repeats, by name."});
+    add_foam_row<&F::struts>(t, "struts", "--struts",
+                             {.limits = {0, 1},
+                              .shape = {6, 0, "struts [[[x, y, z], [x, y, z]], ...]"},
+                              .fallback = "a lattice has unit_cell or struts",
+                              .help = "Struts that a lattice repeats, by their ends in the unit cube."});
+    add_foam_row<&F::seed>(t, "seed", "--seed",
+                           {.limits = {0, 9223372036854775807.0},
+                            .fallback = "1",
+                            .help = "Number that picks one foam among all."});
+    add_foam_row<&F::jitter>(
+        t, "jitter", "--jitter",
+        {.limits = {0, 1},
+         .fallback = format_value(F{}.jitter),
+         .help = "Disorder of Kelvin's foam: share of the spacing that seeds are moved by."});
+    add_foam_row<&F::neighbours>(t, "neighbours", "--neighbours",
+                                 {.limits = {1, 26},
+                                  .fallback = format_value(F{}.neighbours),
+                                  .help = "Nearest seeds that a beam goes to from each seed (k-nearest)."});
+    add_foam_row<&F::stretch>(t, "stretch", "--stretch",
+                              {.limits = {0.05, 20},
+                               .fallback = "1, 1, 1",
+                               .help = "Factors on the cells along x, y and z, or along these axes turned; "
+                                       "formulas for k-nearest alone."});
+    add_foam_row<&F::turn>(t, "turn", "--turn",
+                           {.unit = "degrees",
+                            .limits = {-360, 360},
+                            .fallback = "0, 0, 0",
+                            .help = "Turns the axes of stretch about x, then y, then z; formulas for "
+                                    "k-nearest alone."});
+    add_foam_row<&F::drop_islands>(
+        t, "drop_islands", "--drop-islands",
+        {.fallback = "false",
+         .help = "Leave out what floats free of the part; the layers are surveyed first."});
+    add_foam_row<&F::islands_pitch>(
+        t, "islands_pitch", "--islands-pitch",
+        {.unit = "mm",
+         .limits = {0.001, 100},
+         .fallback = "a third of the thinnest beam's radius, at most 16 layers",
+         .help = "Distance of the rows in which that survey looks; what lies within two counts as "
+                 "connected."});
+    add_stiffness_settings(t);
+}
+
+void add_layers(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
+        "layers", "height", "--layer-height",
+        {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
+}
+
+void add_output(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.output.beams; }>(
+        "output", "beams", "--output-beams",
+        {.fallback = "none",
+         .help = "File for the foam's beams as a 3MF beam lattice, written by `slice`; in a recipe, relative "
+                 "to the recipe's folder.",
+         .is_path = true}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.output.beams_box; }>(
+        "output", "beams_box", "--output-beams-box",
+        {.unit = "mm",
+         .limits = place_limits,
+         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+         .fallback = "the part's bounds",
+         .help = "Box whose beams are written: all that touch it, uncut."}));
+}
+
+std::vector<Setting> make_table() {
+    std::vector<Setting> table;
+    add_part(table);
+    add_field_settings(table);
+    add_gradings(table);
+    add_foam(table);
+    add_material_settings(table);
+    add_frame_settings(table);
+    add_skin_settings(table);
+    add_region_settings(table);
+    add_cavity_settings(table);
+    add_layers(table);
+    add_process_settings(table);
+    add_repair_settings(table);
+    add_support_settings(table);
+    add_shield_settings(table);
+    add_check_settings(table);
+    add_plate_settings(table);
+    add_output(table);
+    add_printer_settings(table);
+    for (Setting& setting : table) {
+        if (setting.fallback.empty()) setting.fallback = "the profile's";
+    }
+    return table;
+}
+
+}  // namespace
+
+double millimetres(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::mm:
+            return 1;
+        case LengthUnit::cm:
+            return 10;
+        case LengthUnit::m:
+            return 1000;
+        case LengthUnit::inch:
+            return 25.4;
+    }
+    return 1;
+}
+
+Box box_of(const NumberRows& corners) {
+    const auto corner = [&](std::size_t i) { return dvec3(corners[i][0], corners[i][1], corners[i][2]); };
+    return {corner(0), corner(1)};
+}
+
+std::optional<dvec3> constant(const GradedTriple& triple) {
+    dvec3 numbers{0};
+    for (std::size_t i = 0; i < triple.size(); ++i) {
+        if (triple[i].is_formula()) return std::nullopt;
+        numbers[static_cast<glm::length_t>(i)] = triple[i].number();
+    }
+    return numbers;
+}
+
+std::span<const Setting> settings() {
+    static const std::vector<Setting> table = make_table();
+    return table;
+}
+
+std::span<const Section> sections() {
+    static const std::vector<Section> list{
+        {"part", "the body: a mesh file, a shape or a field"},
+        {"field", "a solid by name, for the part or a region",
+         [](const Recipe& r) { return r.fields.size(); }},
+        {"grading", "a number that varies in space, for formulas to use by its name",
+         [](const Recipe& r) { return r.gradings.size(); }},
+        {"foam", "foam inside the body; without this section the part has none"},
+        {"material", "what the part is made of, where it matters how stiff it gets"},
+        {"frame",
+         "beams along the surface that the foam grows out of; without this section the part has none"},
+        {"skin",
+         "skin at the body's surface, closed or with windows; without this section the part has none"},
+        {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
+        {"region", "a part of the body that is made otherwise; later ones win",
+         [](const Recipe& r) { return r.regions.size(); }},
+        {"cavity",
+         "cavities inside the part whose roofs print without supports; without this section there are none"},
+        {"layers", "how the part is cut"},
+        {"process", "what makes up for the way a machine prints"},
+        {"repair", "what is mended before the part is printed; without this section nothing is"},
+        {"support", "what holds up what would hang in the air; without this section there are none"},
+        {"shield", "a wall close about the print, taken off later; without this section there is none"},
+        {"check",
+         "how small the machine makes things, and which faults matter to `check` and `slice --check`",
+         nullptr, false},
+        {"plate", "how many of the part are made at once"},
+        {"output", "what is written besides the layers", nullptr, false},
+        {"printer", "the machine: a profile, and what differs from it"}};
+    return list;
+}
+
+}  // namespace lamella

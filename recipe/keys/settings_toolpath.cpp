@@ -1,0 +1,50 @@
+// The rows of the settings table about where an extruder's beads go: walls, infill, seam, brim and skirt.
+#include "recipe/keys/settings_rows.h"
+
+namespace lamella {
+
+const std::vector<std::string>& words(InfillPattern) {
+    static const std::vector<std::string> list{"lines", "concentric"};
+    return list;
+}
+const std::vector<std::string>& words(Seam) {
+    static const std::vector<std::string> list{"nearest", "rear", "corner"};
+    return list;
+}
+
+void add_toolpath_settings(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.walls; }>(
+        "printer", "walls", "--printer-walls",
+        {.unit = "beads",
+         .limits = {1, 1000},
+         .help =
+             "Beads round each island, the outermost included. What is too thin for two gets one along its "
+             "middle."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.top_layers; }>(
+        "printer", "top_layers", "--printer-top-layers",
+        {.unit = "layers",
+         .limits = {0, 1000},
+         .help = "Layers that are solid under what is open above, where infill is sparse."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.bottom_layers; }>(
+        "printer", "bottom_layers", "--printer-bottom-layers",
+        {.unit = "layers",
+         .limits = {0, 1000},
+         .help = "Layers that are solid over what is open below, where infill is sparse."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.infill; }>(
+        "printer", "infill", "--printer-infill", {.help = "Pattern of the beads inside the walls."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.seam; }>(
+        "printer", "seam", "--printer-seam", {.help = "Where loops begin and end."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.brim; }>(
+        "printer", "brim", "--printer-brim",
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .help = "Width of loops round the first layer that hold it to the bed."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.skirt; }>(
+        "printer", "skirt", "--printer-skirt",
+        {.unit = "loops", .limits = {0, 1000}, .help = "Loops round the first layer that fill the nozzle."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.skirt_distance; }>(
+        "printer", "skirt_distance", "--printer-skirt-distance",
+        {.unit = "mm", .limits = {0, 1000}, .help = "From the first layer, or its brim, to the skirt."}));
+}
+
+}  // namespace lamella

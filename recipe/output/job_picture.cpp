@@ -1,0 +1,46 @@
+// What of a job is drawn.
+#include "recipe/output/job_picture.h"
+
+#include "recipe/build/build_process.h"
+
+namespace lamella {
+namespace {
+
+/// Fields and bounds to draw.
+struct Scenery {
+    FieldPtr part, supports;
+    Box bounds;
+};
+
+Scenery scenery(const Recipe& recipe, const BuiltJob& built, const std::optional<BuiltSupports>& added) {
+    // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
+    const FieldPtr supports = added ? added->before_offsets : nullptr;
+    if (!supports) return {built.designed.part, nullptr, built.designed.bounds};
+    // Supports are planned for the part as scaled for the machine.
+    return {make_scaled(recipe, built.designed, built.designed.part), supports,
+            unite(built.designed.bounds, supports->bounds())};
+}
+
+}  // namespace
+
+Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optional<BuiltSupports>& supports,
+                   const PreviewOptions& options) {
+    const Scenery drawn = scenery(recipe, built, supports);
+    return render_preview(drawn.part, drawn.supports, drawn.bounds, options);
+}
+
+void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
+                 int threads) {
+    // Foam is looked at roughly: its distances would take longer than its layers. Smooth walls would show it.
+    built.job.picture = [drawn = scenery(recipe, built, supports), has_foam = recipe.foam.has_value(),
+                         threads](int size) {
+        PreviewOptions options;
+        options.width = options.height = size;
+        options.cut = '-';
+        options.quick = has_foam;
+        options.threads = threads;
+        return render_preview(drawn.part, drawn.supports, drawn.bounds, options);
+    };
+}
+
+}  // namespace lamella

@@ -1,0 +1,90 @@
+// Parts side by side on a plate: none overlap, each is what it is alone, and one alone stays where it is.
+#include "engine/layers/plate.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+
+using namespace lamella;
+
+namespace {
+
+Job job_of(FieldPtr part, double layer_height = 0.5) {
+    Job job;
+    job.bounds = part->bounds();
+    job.part = std::move(part);
+    job.layer_height = layer_height;
+    job.layer_count = count_layers(job.bounds.size().z, layer_height);
+    job.identity = "job";
+    return job;
+}
+
+Job box(dvec3 lo, dvec3 size, double layer_height = 0.5) {
+    return job_of(make_box({lo, lo + size}), layer_height);
+}
+
+/// Area of a layer by its contours, mm^2.
+double area_of(const Job& job, int layer) {
+    const Layer cut(job, layer);
+    double area = 0;
+    for (const Contour& contour : cut.contours(0.01)) area += signed_area(contour.points);
+    return area;
+}
+
+}  // namespace
+
+TEST_CASE("a part alone keeps its place and its identity", "[plate]") {
+    const Job alone = box({3, 4, 5}, {2, 2, 2});
+    const Job plate = arrange_plate(std::vector<PlateItem>{{alone, 1}}, 5, {100, 100});
+    CHECK(plate.part == alone.part);
+    CHECK(plate.identity == alone.identity);
+    CHECK(plate.bounds.lo == alone.bounds.lo);
+}
+
+TEST_CASE("copies stand in rows with gaps, and none overlap", "[plate]") {
+    const Job plate =
+        arrange_plate(std::vector<PlateItem>{{box({3, 4, 5}, {10, 5, 2}), 7}}, 2, {infinity, infinity});
+    // Two rows of four would be 46 mm long, three of three 34 x 19 mm, four of two 22 x 26 mm: the squarest.
+    CHECK(plate.bounds.lo == dvec3(3, 4, 5));
+    CHECK(plate.bounds.size().x == Approx(22));
+    CHECK(plate.bounds.size().y == Approx(4 * 5 + 3 * 2));
+    CHECK(plate.layer_count == 4);
+    for (const int layer : {0, 3}) CHECK(area_of(plate, layer) == Approx(7 * 50).epsilon(1e-4));
+    int inside = 0;
+    for (int copy = 0; copy < 8; ++copy) {
+        const dvec3 middle(3 + 5 + 12 * (copy % 2), 4 + 2.5 + 7 * (copy / 2), 6);
+        inside += plate.part->value(middle) < 0 ? 1 : 0;
+    }
+    CHECK(inside == 7);
+}
+
+TEST_CASE("rows are as long as it takes to fit the machine", "[plate]") {
+    const std::vector<PlateItem> bars{{box({0, 0, 0}, {10, 1, 1}), 4}};
+    const auto size_on = [&](dvec2 machine) { return dvec2(arrange_plate(bars, 1, machine).bounds.size()); };
+    CHECK(size_on({21, 3}) == dvec2(21, 3));
+    CHECK(size_on({43, 1}) == dvec2(43, 1));
+    CHECK(size_on({10, 7}) == dvec2(10, 7));
+    CHECK(size_on({5, 100}).x == Approx(10));
+}
+
+TEST_CASE("parts of several heights stand on one bed, with their supports", "[plate]") {
+    Job tall = box({0, 0, -3}, {4, 4, 10});
+    tall.supports = make_box({{0, 0, -3}, {1, 1, -2}});
+    const Job low = box({50, 50, 20}, {6, 3, 1});
+    const Job plate = arrange_plate(std::vector<PlateItem>{{tall, 1}, {low, 2}}, 1, {infinity, infinity});
+    CHECK(plate.z0() == -3);
+    CHECK(plate.layer_count == 20);
+    CHECK(area_of(plate, 0) == Approx(16 + 2 * 18).epsilon(1e-4));
+    CHECK(area_of(plate, 2) == Approx(16).epsilon(1e-4));
+    CHECK(plate.supports);
+    CHECK(plate.identity != tall.identity);
+}
+
+TEST_CASE("plates that make no sense are refused", "[plate]") {
+    CHECK_THROWS_AS(arrange_plate({}, 1, {100, 100}), InputError);
+    const std::vector<PlateItem> mixed{{box({0, 0, 0}, {1, 1, 1}, 0.5), 1},
+                                       {box({0, 0, 0}, {1, 1, 1}, 0.25), 1}};
+    CHECK_THROWS_WITH(arrange_plate(mixed, 1, {100, 100}), Catch::Contains("0.25") && Catch::Contains("0.5"));
+}

@@ -1,0 +1,93 @@
+// Elements against the field's own values.
+#include "procedural/elasticity/field_sample.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "engine/solids/primitives.h"
+#include "procedural/foam/voronoi_foam.h"
+
+using namespace lamella;
+
+namespace {
+
+std::size_t count(const ElementMask& sample) {
+    std::size_t sum = 0;
+    for (const std::uint8_t p : sample.present) sum += p;
+    return sum;
+}
+
+int difference(const ElementMask& a, const ElementMask& b) {
+    int differ = 0;
+    for (std::size_t i = 0; i < a.present.size(); ++i) differ += a.present[i] != b.present[i];
+    return differ;
+}
+
+FoamSettings repeating(std::uint64_t seed, SeedPattern pattern = SeedPattern::jittered) {
+    FoamSettings settings;
+    settings.cell = 1.0;
+    settings.beam_radius = 0.12;
+    settings.seed = seed;
+    settings.pattern = pattern;
+    settings.repeats_after = 1;
+    settings.region = {dvec3(-12), dvec3(22)};
+    return settings;
+}
+
+}  // namespace
+
+TEST_CASE("an element is there where its middle is solid", "[elasticity]") {
+    const Box box{{-1, 2, 3}, {2, 4, 4}};
+    const FieldPtr ball = make_sphere({0.5, 3, 3.5}, 0.93);
+    const ElementMask sample = sample_field(*ball, box, 24);
+    REQUIRE(sample.size == glm::ivec3(24, 16, 8));
+    int differ = 0;
+    for (int z = 0; z < 8; ++z) {
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 24; ++x) {
+                const dvec3 middle = box.lo + (dvec3(x, y, z) + 0.5) * 0.125;
+                if (std::abs(ball->value(middle)) > 0.001)
+                    differ += sample.at(x, y, z) != (ball->value(middle) < 0);
+            }
+        }
+    }
+    CHECK(differ == 0);
+    CHECK_THROWS_AS(sample_field(*ball, {}, 8), InputError);
+    CHECK_THROWS_AS(sample_field(*ball, box, 0), InputError);
+    CHECK_THROWS_AS(sample_field(*ball, box, 5000), InputError);
+}
+
+TEST_CASE("a foam that repeats is the same a period further along every axis", "[elasticity]") {
+    for (const SeedPattern pattern : {SeedPattern::jittered, SeedPattern::bcc}) {
+        const FoamSettings settings = repeating(3, pattern);
+        const double period = prepare_foam(settings).tree->coarse_side();
+        CAPTURE(static_cast<int>(pattern), period);
+        const auto foam = make_voronoi_foam(settings);
+        const auto cube = [&](dvec3 lo) { return Box{lo, lo + period}; };
+        const ElementMask sample = sample_field(*foam, cube(dvec3(0)), 32);
+        CHECK(count(sample) > 1000);
+        for (const dvec3 way : {dvec3(1, 0, 0), dvec3(0, -1, 0), dvec3(0, 0, 1), dvec3(-2, 3, 1)})
+            CHECK(difference(sample_field(*foam, cube(way * period), 32), sample) == 0);
+        // Moved by half of it, what goes out at one side comes in at the other.
+        const ElementMask half = sample_field(*foam, cube({period / 2, 0, 0}), 32);
+        int differ = 0;
+        for (int z = 0; z < 32; ++z) {
+            for (int y = 0; y < 32; ++y) {
+                for (int x = 0; x < 32; ++x) differ += half.at(x, y, z) != sample.at((x + 16) % 32, y, z);
+            }
+        }
+        CHECK(differ == 0);
+    }
+}
+
+TEST_CASE("a foam that repeats is another one by another seed, and none where nobody asks", "[elasticity]") {
+    const auto elements = [](const FoamSettings& settings) {
+        return sample_field(*make_voronoi_foam(settings), {dvec3(0), dvec3(4)}, 32).present;
+    };
+    FoamSettings free = repeating(3);
+    free.repeats_after = 0;
+    CHECK(elements(repeating(3)) != elements(repeating(4)));
+    const auto foam = make_voronoi_foam(free);
+    CHECK(sample_field(*foam, {dvec3(4, 0, 0), dvec3(8, 4, 4)}, 32).present !=
+          sample_field(*foam, {dvec3(0), dvec3(4)}, 32).present);
+}

@@ -1,0 +1,96 @@
+// What [repair] does to a part, and what it tells of it.
+#include "recipe/build/repair_job.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "recipe/identity.h"
+#include "tests/app/commands/recipes.h"
+
+using namespace lamella;
+
+namespace {
+
+// Bare foam of struts 0.3 mm thick: they are too thin for a bead, and some are cut off at the box.
+const std::string foam =
+    "[part]\nshape = \"box\"\nsize = [12, 12, 8]\n[foam]\ncell = 4\nbeam = 0.15\n[layers]\nheight = 0.2\n";
+// A comb: seven slots 0.4 mm wide between walls of 0.8, and a step at either end.
+const std::string comb =
+    "[part]\nfield = \"comb\"\n[[field]]\nname = \"comb\"\nformula = \"max(max(max(abs(x) - 5, abs(y) - "
+    "5), abs(z) - 2), min(0.2 - abs(x - 1.2 * floor(x / 1.2 + 0.5)), 4 - y))\"\n"
+    "bounds = [[-5.1, -5.1, -2.1], [5.1, 5.1, 2.1]]\n";
+
+BuiltJob repaired(const std::string& text) {
+    const Recipe recipe = recipe_of(text);
+    BuiltJob built = build_job(recipe);
+    repair_job(recipe, built, {});
+    return built;
+}
+
+CheckResult found(const Job& job, Check check, double limit) {
+    PrintCheckOptions options;
+    options.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    options.limits.thickness = options.limits.gap = limit;
+    options.pitch = 0.06;
+    PrintCheck checks(job, options);
+    survey_layers(job, checks, 0, {}, nullptr);
+    return checks.report().results.front();
+}
+
+}  // namespace
+
+TEST_CASE("without [repair] a part stays as it is", "[repair]") {
+    const BuiltJob built = repaired(foam);
+    CHECK(!built.repairs);
+    CHECK(job_identity(recipe_of(foam)) == built.job.identity);
+    CHECK(job_identity(recipe_of(foam + "[repair]\njoin = 0.5\n")) != built.job.identity);
+}
+
+TEST_CASE("pieces of a foam are joined to one", "[repair]") {
+    const std::size_t loose = found(repaired(foam).job, Check::connectivity, 0.4).count;
+    REQUIRE(loose > 0);
+    const BuiltJob built = repaired(foam + "[repair]\njoin = 0.6\n");
+    REQUIRE(built.repairs->joins);
+    CHECK(built.repairs->joins->pieces > loose / 2);
+    CHECK(built.repairs->joins->joins.size() == built.repairs->joins->pieces - 1);
+    CHECK(found(built.job, Check::connectivity, 0.4).count == 0);
+    const auto json = repairs_json(*built.repairs);
+    CHECK(json["joined"]["struts"].size() == built.repairs->joins->joins.size());
+    CHECK(!json.contains("thickened"));
+    CHECK_THAT(repairs_text(*built.repairs), Catch::StartsWith("join "));
+}
+
+TEST_CASE("struts too thin are counted and made thicker", "[repair]") {
+    const CheckResult before = found(repaired(foam).job, Check::thickness, 0.5);
+    REQUIRE(before.total > 10);
+    const BuiltJob built = repaired(foam + "[repair]\nthickness = 0.5\n");
+    CHECK(built.repairs->thickened->total == Approx(before.total).epsilon(0.2));
+    CHECK(built.repairs->thickened->limit == 0.5);
+    const CheckResult after = found(built.job, Check::thickness, 0.5);
+    // Only what is cut off at the part's ends, where a layer may hold a speck alone, can be left.
+    CHECK(after.total < 0.02 * before.total);
+    CHECK(built.job.bounds.size().x == Approx(12.5));
+}
+
+TEST_CASE("gaps too narrow are counted and filled", "[repair]") {
+    REQUIRE(found(repaired(comb).job, Check::gaps, 0.6).count == 7);
+    const BuiltJob built = repaired(comb + "[repair]\ngap = 0.6\n");
+    CHECK(built.repairs->filled->count == 7);
+    CHECK(found(built.job, Check::gaps, 0.6).count == 0);
+    CHECK(repairs_json(*built.repairs)["filled"]["places"] == 7);
+    CHECK(repaired(comb + "[repair]\ngap = 0.2\n").repairs->filled->count == 0);
+}
+
+TEST_CASE("repairs are in mm as printed", "[repair]") {
+    const BuiltJob built =
+        repaired(foam + "[process]\nscale = [2, 2, 2]\n[repair]\nthickness = 0.5\njoin = 1\n");
+    // Twice as large its struts are thick enough, but for those that the box cuts lengthwise.
+    CHECK(built.repairs->thickened->total <
+          0.1 * repaired(foam + "[repair]\nthickness = 0.5\n").repairs->thickened->total * 8);
+    CHECK(found(built.job, Check::connectivity, 0.5).count == 0);
+}
+
+TEST_CASE("repairs that make no sense are refused", "[repair]") {
+    CHECK_THAT(complaint_about(foam + "[repair]\nthickness = -1\n"), Catch::Contains("repair.thickness"));
+    CHECK_THAT(complaint_about(foam + "[repair]\nholes = 1\n"), Catch::Contains("holes"));
+}
