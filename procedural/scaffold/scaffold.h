@@ -31,6 +31,8 @@ struct ScaffoldShape {
     double bar_height = 0.6;   ///< a scaffold has the next whole number of layers
     double foot = 6;           ///< diameter of a pillar's foot on the bed; less under low pillars
     double foot_height = 0.2;  ///< in whole layers, too; a brim sticks by its area
+
+    friend bool operator==(const ScaffoldShape&, const ScaffoldShape&) = default;
 };
 
 /// A horizontal bar; its upper side lies at the height of its ends.

@@ -81,15 +81,6 @@ void check_points(std::span<const SupportPoint> points) {
     }
 }
 
-/// The shape with the heights of bars and feet in whole layers.
-ScaffoldShape in_layers(ScaffoldShape shape) {
-    constexpr double share_of_layer = 1e-6;
-    for (double* height : {&shape.bar_height, &shape.foot_height}) {
-        *height = std::ceil(*height / shape.layer_height - share_of_layer) * shape.layer_height;
-    }
-    return shape;
-}
-
 class Synthesis {
   public:
     Synthesis(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
@@ -360,11 +351,19 @@ void Synthesis::stand() {
 
 }  // namespace
 
+ScaffoldShape in_whole_layers(ScaffoldShape shape) {
+    constexpr double share_of_layer = 1e-6;
+    for (double* height : {&shape.bar_height, &shape.foot_height}) {
+        *height = std::ceil(*height / shape.layer_height - share_of_layer) * shape.layer_height;
+    }
+    return shape;
+}
+
 Scaffold build_scaffold(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
                         const SynthesisOptions& options) {
     check_shape(shape);
     check_points(points);
-    return Synthesis(points, part, in_layers(shape), options).run();
+    return Synthesis(points, part, in_whole_layers(shape), options).run();
 }
 
 }  // namespace lamella

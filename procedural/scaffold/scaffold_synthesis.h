@@ -16,6 +16,9 @@ struct SynthesisOptions {
     const CancelToken* cancel = nullptr;             ///< may be null
 };
 
+/// Returns the shape with the heights of bars and feet in whole layers, as `build_scaffold` uses it.
+ScaffoldShape in_whole_layers(ScaffoldShape shape);
+
 /// Holds the points. The part is asked for the way (see FreeSpace); what is nearer to it than the clearance
 /// are contacts only. A pure function of points, part and shape, the same by any number of threads. Throws
 /// InputError for a shape or points that make no sense, Interrupted when cancelled.

@@ -200,7 +200,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     const std::string hash = plan_hash(recipe, job);
     if (auto known = read_plan(options.plans, hash)) {
         supports.plan = std::move(*known);
-        supports.plan.scaffold.shape = shape_of(recipe, surveyed);
+        supports.plan.scaffold.shape = in_whole_layers(shape_of(recipe, surveyed));
         supports.was_planned = true;
     } else {
         supports.plan = make_plan(recipe, built, surveyed, std::move(blocked), options);

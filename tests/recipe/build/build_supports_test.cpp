@@ -8,6 +8,8 @@
 #include "tests/app/commands/supported.h"
 #include "tests/engine/runs/plane_runs.h"
 
+namespace build_supports_test {
+
 using namespace lamella;
 
 namespace {
@@ -351,6 +353,18 @@ TEST_CASE("points on a thin-layered ball lie on it") {
     check_apart(s.job());
 }
 
+TEST_CASE("a plan that is found again makes feet and bars as high as it did at first") {
+    const Folder plans, parts;
+    write(parts / "part.obj", boxes_obj(table()));
+    // Feet of 0.2 mm take one layer of 0.3 mm, whose whole height they have.
+    const std::string text = mesh_recipe(parts / "part.obj") +
+                             "[layers]\nheight = 0.3\n[printer]\nprofile = \"marlin\"\n[support]\n";
+    const Supported first = supported(text, plans.path()), again = supported(text, plans.path());
+    REQUIRE(again.supports->was_planned);
+    CHECK(first.supports->plan.scaffold.shape.foot_height == Approx(0.3));
+    CHECK(again.supports->plan.scaffold.shape == first.supports->plan.scaffold.shape);
+}
+
 TEST_CASE("a plan is found again by the same job alone") {
     const Folder plans, parts;
     const auto recipe = [&](const std::vector<Box>& boxes) {
@@ -415,3 +429,5 @@ TEST_CASE("one thread plans what four do") {
         CHECK(same_plan(one.supports->plan, four.supports->plan));
     }
 }
+
+}  // namespace build_supports_test
