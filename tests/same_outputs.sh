@@ -16,6 +16,7 @@ trap 'rm -rf "$scratch"' EXIT
 hash_outputs() {
     local lamella=$1 recipe=$2 hashes=$3 folder
     folder=$(mktemp -d -p "$scratch")
+    export XDG_CACHE_HOME=$scratch/$(basename "$folder")_cache  # no plan of an earlier run
     for output in masks:png out.sl1:sl1 out.svg:svg out.gcode:marlin out.3mf:3mf; do
         echo "$output" "$("$lamella" slice "$recipe" --printer "${output#*:}" --layer-height 0.4 --quiet --threads 1 \
             -o "$folder/${output%%:*}" 2>&1 | sed "s#$folder##g"; echo "exit ${PIPESTATUS[0]}")"

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+namespace border_test {
+
 using namespace lamella;
 
 namespace {
@@ -147,3 +149,5 @@ TEST_CASE("what is set comes before what texts say, and texts add to each other"
     CHECK(lamella_job_build(caller, recipe.get(), nullptr, &none) == LAMELLA_BAD_INPUT);
     CHECK_THAT(caller.error().message, Catch::StartsWith("part.radius: "));
 }
+
+}  // namespace border_test

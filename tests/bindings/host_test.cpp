@@ -10,6 +10,8 @@
 #include "tests/app/commands/folder.h"
 #include "tests/bindings/handles_by_call.h"
 
+namespace host_test {
+
 using namespace lamella;
 
 namespace {
@@ -502,3 +504,5 @@ TEST_CASE("a run by a call writes what the command writes", "[bindings]") {
     CHECK(lamella_run(caller, job.get(), (folder / "x@nothing").c_str(), nullptr, nullptr) ==
           LAMELLA_BAD_INPUT);
 }
+
+}  // namespace host_test

@@ -9,6 +9,8 @@
 #include "recipe/recipe_draft.h"
 #include "tests/bindings/handles_by_call.h"
 
+namespace section_test {
+
 using namespace lamella;
 
 namespace {
@@ -246,3 +248,5 @@ TEST_CASE("rasters that are none are refused", "[bindings]") {
     CHECK(lamella_section_contours(caller, section.get(), LAMELLA_PART, 0, &contours) == LAMELLA_BAD_CALL);
     CHECK(contours == nullptr);
 }
+
+}  // namespace section_test

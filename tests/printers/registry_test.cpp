@@ -7,6 +7,8 @@
 #include "engine/base/error.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace registry_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -46,3 +48,5 @@ TEST_CASE("an unknown back-end gets the nearest one and the list", "[registry]")
     profile.backend = "nothing";
     CHECK_THROWS_AS(make_backend(profile, "out", false), InputError);
 }
+
+}  // namespace registry_test

@@ -18,6 +18,8 @@
 #include "tests/app/commands/folder.h"
 #include "tests/app/commands/recipes.h"
 
+namespace machine_profiles_test {
+
 using namespace lamella;
 
 namespace {
@@ -346,3 +348,5 @@ TEST_CASE("the command finds profiles in the user's folder, in one that is named
     CHECK(sliced.code == 0);
     CHECK(mentions(sliced.err, "show a plain box instead of the part"));
 }
+
+}  // namespace machine_profiles_test

@@ -6,6 +6,8 @@
 #include "engine/base/error.h"
 #include "recipe/recipe_draft.h"
 
+namespace recipe_formulas_test {
+
 using namespace lamella;
 
 namespace {
@@ -172,3 +174,5 @@ TEST_CASE("a flag takes formulas like its key") {
         CHECK(mentions(error.what(), "--beam: column 1: unknown name `three`"));
     }
 }
+
+}  // namespace recipe_formulas_test

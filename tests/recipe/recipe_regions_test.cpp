@@ -7,6 +7,8 @@
 #include "recipe/recipe_formulas.h"
 #include "tests/app/commands/recipes.h"
 
+namespace recipe_regions_test {
+
 using namespace lamella;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("every key of a region is part of the job's identity") {
         CHECK(identity(other) != plain);
     }
 }
+
+}  // namespace recipe_regions_test

@@ -10,6 +10,8 @@
 #include "recipe/recipe_draft.h"
 #include "recipe/settings.h"
 
+namespace recipe_test {
+
 using namespace lamella;
 
 namespace {
@@ -430,3 +432,5 @@ TEST_CASE("scripts are lists of lines or texts of several lines") {
     CHECK_THAT(complaint(printer + "flavour = \"grbl\"\n" + wide),
                Catch::StartsWith("folder/test.toml:7: printer.layer_script: line 1: it has up to 85 bytes"));
 }
+
+}  // namespace recipe_test

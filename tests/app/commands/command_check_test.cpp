@@ -8,6 +8,8 @@
 #include "tests/app/commands/boxes_mesh.h"
 #include "tests/app/commands/command_run.h"
 
+namespace command_check_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -317,3 +319,5 @@ TEST_CASE("help says what is checked, by which keys, and with which exit code", 
     CHECK(mentions(run_lamella("--help").out, "  check "));
     CHECK(mentions(run_lamella("keys").out, "[check]"));
 }
+
+}  // namespace command_check_test

@@ -6,6 +6,8 @@
 
 #include "tests/app/commands/command_run.h"
 
+namespace command_extract_test {
+
 using namespace lamella;
 
 namespace {
@@ -131,3 +133,5 @@ TEST_CASE("what a pipe cannot take is refused, and a reader that goes is a fault
     CHECK(shell(line) == 3);
     CHECK(mentions(contents(folder / "err"), "standard output: its reader has gone"));
 }
+
+}  // namespace command_extract_test

@@ -8,6 +8,8 @@
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/folder.h"
 
+namespace command_homogenize_test {
+
 using namespace lamella;
 using Json = nlohmann::json;
 
@@ -107,3 +109,5 @@ TEST_CASE("foams without a stiffness of their own are refused with what would be
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--young 0", "--young: 0 is too small");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--rve 2000", "--rve");
 }
+
+}  // namespace command_homogenize_test

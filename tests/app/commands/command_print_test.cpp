@@ -8,6 +8,8 @@
 #include "tests/app/commands/command_run.h"
 #include "tests/printers/serial/pty_machine.h"
 
+namespace command_print_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -326,3 +328,5 @@ TEST_CASE("a GRBL job that moves in z is not taken up in the midst of it") {
     CHECK(again.code == 2);
     CHECK(mentions(again.err, "in z"));
 }
+
+}  // namespace command_print_test

@@ -9,6 +9,8 @@
 #include "tests/app/commands/boxes_mesh.h"
 #include "tests/app/commands/command_run.h"
 
+namespace command_supports_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -344,3 +346,5 @@ TEST_CASE("memory with supports does not grow with the number of layers") {
     }
     CHECK(peak[5000] < 1.08 * peak[500]);
 }
+
+}  // namespace command_supports_test

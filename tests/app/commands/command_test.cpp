@@ -10,6 +10,8 @@
 #include "recipe/settings.h"
 #include "tests/app/commands/command_run.h"
 
+namespace command_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -357,3 +359,5 @@ TEST_CASE("entries that nothing uses are told in one line") {
     CHECK(mentions(run_lamella(slice + "-o " + folder / "one").err, note));
     CHECK(run_lamella(slice + "--quiet -o " + folder / "two").err.empty());
 }
+
+}  // namespace command_test

@@ -7,6 +7,8 @@
 #include "recipe/build/build_job.h"
 #include "recipe/recipe_draft.h"
 
+namespace examples_test {
+
 using namespace lamella;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_CASE("every example is a recipe whose layers hold material, but not everywh
         CHECK(middle < 0.9 * whole);
     }
 }
+
+}  // namespace examples_test

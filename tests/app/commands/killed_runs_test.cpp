@@ -7,6 +7,8 @@
 
 #include "tests/app/commands/command_run.h"
 
+namespace killed_runs_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -137,3 +139,5 @@ TEST_CASE("several outputs of one run are those of several runs, continued too")
     CHECK(unknown.code == 2);
     CHECK(mentions(unknown.err, "did you mean `prusa-sl1`"));
 }
+
+}  // namespace killed_runs_test

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+namespace large_blocks_test {
+
 namespace {
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20;
@@ -117,3 +119,5 @@ TEST_CASE("Large blocks serve several threads at once") {
     for (std::thread& thread : threads) thread.join();
     CHECK(wrong == std::vector<int>(4, 0));
 }
+
+}  // namespace large_blocks_test

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+namespace layer_turns_test {
+
 using namespace lamella;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("turns are told a little ahead, and none behind the last layer", "[ran
     CHECK(turns.owner_of(89) == 1);
     CHECK(firsts == std::vector<int>{10, 26, 42, 58, 74});
 }
+
+}  // namespace layer_turns_test

@@ -4,6 +4,8 @@
 
 #include "tests/app/ranks/mpirun.h"
 
+namespace spread_commands_test {
+
 #ifdef LAMELLA_MPIRUN
 using namespace lamella;
 
@@ -137,3 +139,5 @@ TEST_CASE("tables and samples of a foam by several processes are those of one", 
     }
 }
 #endif
+
+}  // namespace spread_commands_test

@@ -12,6 +12,8 @@
 #include "tests/app/ranks/mpirun.h"
 #include "tests/app/ranks/ranks_inside.h"
 
+namespace spread_layers_test {
+
 using namespace lamella;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("what mpirun is given wrongly is told once, with the exit code", "[ran
     CHECK(wrong.err.find("--beam: ") == wrong.err.rfind("--beam: "));
 }
 #endif
+
+}  // namespace spread_layers_test

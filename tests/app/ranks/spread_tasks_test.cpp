@@ -8,6 +8,8 @@
 #include "engine/base/error.h"
 #include "tests/app/ranks/ranks_inside.h"
 
+namespace spread_tasks_test {
+
 using namespace lamella;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("who waits for tasks of others can be stopped", "[ranks]") {
     cancel.cancel();
     CHECK_THROWS_AS(tasks.result(0), Interrupted);
 }
+
+}  // namespace spread_tasks_test

@@ -6,6 +6,8 @@
 #include "tests/app/commands/boxes_mesh.h"
 #include "tests/app/commands/command_run.h"
 
+namespace check_page_test {
+
 using namespace lamella;
 
 namespace {
@@ -91,3 +93,5 @@ TEST_CASE("a page is the same by any number of threads", "[check]") {
     CHECK(page_of(folder, part + "--threads 4", "four.html") == one);
     CHECK(page_of(folder, part + "--check-places 1", "few.html").size() < one.size());
 }
+
+}  // namespace check_page_test

@@ -8,6 +8,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace fault_picture_test {
+
 using namespace lamella;
 
 namespace {
@@ -149,3 +151,5 @@ TEST_CASE("from the side a fault is red, and nothing is where nothing is wrong",
     CHECK(reds(quarter) > 128 * 96 / 40);
     CHECK(reds(quarter) < 128 * 96 / 4);
 }
+
+}  // namespace fault_picture_test

@@ -8,6 +8,8 @@
 #include "tests/printers/masks/decode_image.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace section_writer_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -60,3 +62,5 @@ TEST_CASE("a section's pixels show supports in their grey", "[section]") {
     CHECK(both.at(both.width / 2 + 15, both.height / 2) == 128);
     CHECK(both.at(both.width / 2 - 15, both.height / 2) == 255);
 }
+
+}  // namespace section_writer_test

@@ -11,6 +11,8 @@
 
 #include "engine/base/simd_target.h"
 
+namespace deterministic_math_test {
+
 using namespace lamella;
 
 namespace {
@@ -181,3 +183,5 @@ TEST_CASE("sines and cosines of many angles are those of one, to the bit, on eve
     force_simd_target("");
     sines_cosines({}, {});
 }
+
+}  // namespace deterministic_math_test

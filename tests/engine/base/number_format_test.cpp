@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 
+namespace number_format_test {
+
 using namespace lamella;
 
 TEST_CASE("numbers keep no needless digits", "[number_format]") {
@@ -49,3 +51,5 @@ TEST_CASE("numbers read back within half a unit of the last place", "[number_for
         CHECK(std::abs(std::stod(text) - v) <= 0.5000001 * std::pow(10, -decimals));
     }
 }
+
+}  // namespace number_format_test

@@ -13,6 +13,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace print_check_test {
+
 using namespace lamella;
 
 namespace {
@@ -587,3 +589,5 @@ TEST_CASE("limits that make no sense are refused", "[check]") {
     PrintCheck checks(job, filament());
     CHECK_THROWS_AS(checks.begin(job, {3, 10}, false), InputError);
 }
+
+}  // namespace print_check_test

@@ -7,6 +7,8 @@
 
 #include "engine/runs/row_sets.h"
 
+namespace support_hold_test {
+
 using namespace lamella;
 
 namespace {
@@ -95,3 +97,5 @@ TEST_CASE("supports hold all that lies near enough, at their height or above", "
         CHECK(hold.unheld(empty_rows(row_count)) == empty_rows(row_count));
     }
 }
+
+}  // namespace support_hold_test

@@ -8,6 +8,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace contour_index_test {
+
 using namespace lamella;
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("an index of nothing finds nothing") {
     REQUIRE_FALSE(index.distance({0, 0}, 100));
     REQUIRE(index.way_through({0, 0}, {1, 0}, 2) == 2);
 }
+
+}  // namespace contour_index_test

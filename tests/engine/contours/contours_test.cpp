@@ -10,6 +10,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace contours_test {
+
 using namespace lamella;
 
 namespace {
@@ -294,3 +296,5 @@ TEST_CASE("an empty slice has no contours") {
     REQUIRE(contours_of(make_sphere({0, 0, 0}, 1), 2, 0.1).empty());
     REQUIRE(contours_of(make_empty(), 0, 0.1).empty());
 }
+
+}  // namespace contours_test

@@ -8,6 +8,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace coverage_test {
+
 using namespace lamella;
 
 namespace {
@@ -269,3 +271,5 @@ TEST_CASE("random runs are covered as pixel by pixel, in runs as long as they ca
         REQUIRE(next == runs.size());
     }
 }
+
+}  // namespace coverage_test

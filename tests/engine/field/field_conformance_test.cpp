@@ -26,6 +26,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace field_conformance_test {
+
 using namespace lamella;
 
 namespace {
@@ -582,3 +584,5 @@ TEST_CASE("a value that is not a number is outside") {
         for (const Run& run : rows.runs()) REQUIRE(band.along(run.begin) > -0.01);
     }
 }
+
+}  // namespace field_conformance_test

@@ -10,6 +10,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace grading_test {
+
 using namespace lamella;
 
 namespace {
@@ -109,3 +111,5 @@ TEST_CASE("a length that is not one everywhere is refused by name", "[grading]")
     CHECK_THROWS_AS(positive_range(Undefined(), box, "the width"), InputError);
     CHECK_THROWS_AS(positive_range(Linear(0.5, dvec3(-1, 0, 0)), box, "the width"), InputError);
 }
+
+}  // namespace grading_test

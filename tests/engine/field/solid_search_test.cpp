@@ -7,6 +7,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace solid_search_test {
+
 using namespace lamella;
 
 TEST_CASE("a ball a thousandth of the box wide is found wherever it is") {
@@ -37,3 +39,5 @@ TEST_CASE("a thin shell that is left over is found") {
     REQUIRE(found);
     CHECK(shell->value(*found) < 0);
 }
+
+}  // namespace solid_search_test

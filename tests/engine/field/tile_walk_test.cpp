@@ -10,6 +10,8 @@
 
 #include "engine/field/range_about.h"
 
+namespace tile_walk_test {
+
 using namespace lamella;
 
 namespace {
@@ -139,3 +141,5 @@ TEST_CASE("tiles that need not be walked one by one are sampled by the hundred p
         CHECK(*std::max_element(many.asked.begin(), many.asked.end()) < 20'000);
     }
 }
+
+}  // namespace tile_walk_test

@@ -11,6 +11,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace formula_field_test {
+
 using namespace lamella;
 
 namespace {
@@ -137,3 +139,5 @@ TEST_CASE("impossible bounds are refused") {
     REQUIRE_THROWS_AS(make_formula_field(formula("x"), {}, {dvec3(0), dvec3(infinity)}), InputError);
     REQUIRE_THROWS_AS(make_formula_field(formula("x"), {}, {dvec3(0), dvec3(1, 0, 1)}), InputError);
 }
+
+}  // namespace formula_field_test

@@ -5,6 +5,8 @@
 
 #include "engine/base/error.h"
 
+namespace formula_parser_test {
+
 using namespace lamella;
 
 namespace {
@@ -121,3 +123,5 @@ TEST_CASE("hostile text is refused without falling over") {
     for (int i = 0; i < 100'000; ++i) sum += "+y";
     REQUIRE(value(sum) == 300'002);
 }
+
+}  // namespace formula_parser_test

@@ -11,6 +11,8 @@
 #include "engine/formula/formula_parser.h"
 #include "tests/engine/formula/formula_samples.h"
 
+namespace formula_slope_test {
+
 using namespace lamella;
 
 namespace {
@@ -177,3 +179,5 @@ TEST_CASE("runs of formulas are those of sampling every quarter, however they ar
         }
     }
 }
+
+}  // namespace formula_slope_test

@@ -10,6 +10,8 @@
 #include "engine/formula/formula_prune.h"
 #include "tests/engine/formula/formula_samples.h"
 
+namespace formula_test {
+
 using namespace lamella;
 using samples::awkward_number;
 using samples::random_formula;
@@ -299,3 +301,5 @@ TEST_CASE("a formula makes equal parts once and keeps only what it uses") {
     REQUIRE_FALSE(fixed.reads(1));
     REQUIRE(fixed.at(at) == 169);
 }
+
+}  // namespace formula_test

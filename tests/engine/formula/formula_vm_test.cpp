@@ -6,6 +6,8 @@
 
 #include "engine/base/error.h"
 
+namespace formula_vm_test {
+
 using namespace lamella;
 
 namespace {
@@ -88,3 +90,5 @@ TEST_CASE("mistakes are named with their line") {
     REQUIRE(complaint("a\n") == "t.vm:1: expected `_label operation arguments`, found `a` alone");
     REQUIRE(complaint("a b\x01\n") == "t.vm:1: unknown operation `b?`");
 }
+
+}  // namespace formula_vm_test

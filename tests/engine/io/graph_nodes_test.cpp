@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <random>
 
+namespace graph_nodes_test {
+
 using namespace lamella;
 
 namespace {
@@ -220,3 +222,5 @@ TEST_CASE("whether a number is NaN is known of intervals that cannot be", "[impl
     const double below[] = {-4.0};
     CHECK(formula.at(below) == -1);
 }
+
+}  // namespace graph_nodes_test

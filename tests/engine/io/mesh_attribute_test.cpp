@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 
+namespace mesh_attribute_test {
+
 using namespace lamella;
 
 namespace {
@@ -177,3 +179,5 @@ TEST_CASE("a binary file cut off anywhere is refused") {
         if (message_of(whole.substr(0, length)).empty()) FAIL("read whole from " << length << " bytes");
     }
 }
+
+}  // namespace mesh_attribute_test

@@ -12,6 +12,8 @@
 #include "tests/engine/io/package_samples.h"
 #include "tests/engine/mesh/mesh_samples.h"
 
+namespace mesh_reader_test {
+
 using namespace lamella;
 using namespace lamella::samples;
 
@@ -474,3 +476,5 @@ TEST_CASE("a file cut off anywhere is read in part or refused, and closes or is 
     }
     CHECK((read > 0 || name == "a.3mf"));
 }
+
+}  // namespace mesh_reader_test

@@ -6,6 +6,8 @@
 #include "engine/base/error.h"
 #include "tests/engine/io/implicit_samples.h"
 
+namespace volumetric_3mf_test {
+
 using namespace lamella;
 using namespace lamella::samples;
 
@@ -214,3 +216,5 @@ TEST_CASE("calls that multiply are given up, long chains are not", "[implicit]")
     CHECK(read(graph("5", "", chain, "<i:scalarref identifier=\"shape\" ref=\"n49999.result\"/>"))
               .functions.size() == 1);
 }
+
+}  // namespace volumetric_3mf_test

@@ -9,6 +9,8 @@
 #include "engine/base/error.h"
 #include "engine/solids/primitives.h"
 
+namespace layer_stream_test {
+
 using namespace lamella;
 
 namespace {
@@ -195,3 +197,5 @@ TEST_CASE("a part that is a whole number of layers high gets no sliver on top") 
     REQUIRE_THROWS_AS(count_layers(10, NAN), InputError);
     REQUIRE_THROWS_AS(count_layers(1e9, 1e-9), InputError);
 }
+
+}  // namespace layer_stream_test

@@ -7,6 +7,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace plate_test {
+
 using namespace lamella;
 
 namespace {
@@ -88,3 +90,5 @@ TEST_CASE("plates that make no sense are refused", "[plate]") {
                                        {box({0, 0, 0}, {1, 1, 1}, 0.25), 1}};
     CHECK_THROWS_WITH(arrange_plate(mixed, 1, {100, 100}), Catch::Contains("0.25") && Catch::Contains("0.5"));
 }
+
+}  // namespace plate_test

@@ -5,6 +5,8 @@
 
 #include "engine/solids/primitives.h"
 
+namespace survey_rows_test {
+
 using namespace lamella;
 
 TEST_CASE("rows of a part of a band are those of the whole band", "[surveys]") {
@@ -26,3 +28,5 @@ TEST_CASE("rows of a part of a band are those of the whole band", "[surveys]") {
         CHECK(all_rows(slice, part, scratch) == expected);
     }
 }
+
+}  // namespace survey_rows_test

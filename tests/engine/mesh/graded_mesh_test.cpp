@@ -8,6 +8,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace graded_mesh_test {
+
 using namespace lamella;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("a spot on a large triangle is found") {
     // The tip and the foot of the cone are creases; there the triangles only get small.
     CHECK(worst_share(graded, *spot) < 0.1);
 }
+
+}  // namespace graded_mesh_test

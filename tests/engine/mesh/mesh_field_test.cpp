@@ -10,6 +10,8 @@
 #include "engine/solids/shell.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace mesh_field_test {
+
 using namespace lamella;
 
 namespace {
@@ -159,3 +161,5 @@ TEST_CASE("a grown mesh is everything within the distance, reflex edges and thin
         }
     }
 }
+
+}  // namespace mesh_field_test

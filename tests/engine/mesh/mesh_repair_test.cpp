@@ -10,6 +10,8 @@
 #include "engine/io/mesh_reader.h"
 #include "tests/engine/mesh/mesh_samples.h"
 
+namespace mesh_repair_test {
+
 using namespace lamella;
 using namespace lamella::samples;
 
@@ -427,3 +429,5 @@ TEST_CASE("meshes that are no meshes are refused, not crashed on") {
     CHECK(solid.mesh.triangles == unit_box().triangles);
     CHECK(mentions(solid.notes, "2 triangles without three usable corners"));
 }
+
+}  // namespace mesh_repair_test

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+namespace ball_reaches_test {
+
 using namespace lamella;
 
 namespace {
@@ -57,3 +59,5 @@ TEST_CASE("balls of very many lines have no table", "[morphology]") {
     const BallReaches reaches({1, 1, 1}, 1e6 * 1e6);
     REQUIRE_FALSE(reaches.are_of(1e6 * 1e6));
 }
+
+}  // namespace ball_reaches_test

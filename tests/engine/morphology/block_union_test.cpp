@@ -7,6 +7,8 @@
 
 #include "engine/base/simd_target.h"
 
+namespace block_union_test {
+
 using namespace lamella;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("the runs of a block's lines are the union of all that grow onto them"
         }
     }
 }
+
+}  // namespace block_union_test

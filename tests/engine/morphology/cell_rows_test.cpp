@@ -7,6 +7,8 @@
 
 #include "engine/base/simd_target.h"
 
+namespace cell_rows_test {
+
 using namespace lamella;
 
 namespace {
@@ -186,3 +188,5 @@ TEST_CASE("cells grow alike where few are, where all are, and in lines of many w
         }
     }
 }
+
+}  // namespace cell_rows_test

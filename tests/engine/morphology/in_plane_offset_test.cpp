@@ -12,6 +12,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace in_plane_offset_test {
+
 using namespace lamella;
 
 namespace {
@@ -346,3 +348,5 @@ TEST_CASE("outlines far beyond the lattice, and offsets that are none, are refus
     const RowBand band{Axis::x, 99998, pitch, 0, pitch, 0, 10, 1, 0, 60};
     CHECK_THROWS_AS(runs_of(*far, 0, band), InputError);
 }
+
+}  // namespace in_plane_offset_test

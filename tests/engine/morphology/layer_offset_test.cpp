@@ -9,6 +9,8 @@
 #include "engine/morphology/layer_remainder.h"
 #include "tests/engine/morphology/through_layers.h"
 
+namespace layer_offset_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -369,3 +371,5 @@ TEST_CASE("a layer that does not fit what was said of the stack is refused", "[m
     REQUIRE(growing.pop(out));
     CHECK(out.line(1).size() == 1);
 }
+
+}  // namespace layer_offset_test

@@ -7,6 +7,8 @@
 
 #include "tests/engine/morphology/through_layers.h"
 
+namespace layer_opening_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -145,3 +147,5 @@ TEST_CASE("opening and closing are each other's mirror", "[morphology]") {
     CHECK(both <= ends);
     CHECK(neither <= ends + 40.0 * 40 * 2 * run_unit);
 }
+
+}  // namespace layer_opening_test

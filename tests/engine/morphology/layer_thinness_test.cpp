@@ -7,6 +7,8 @@
 
 #include "tests/engine/morphology/through_layers.h"
 
+namespace layer_thinness_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -236,3 +238,5 @@ TEST_CASE("slack excuses edges and keeps fins", "[morphology]") {
     // All of the fin but what the slack excuses.
     CHECK(static_cast<double>(thin.total_length()) / run_unit == Approx(6 * (100 - 1.2 * 6)).epsilon(0.06));
 }
+
+}  // namespace layer_thinness_test

@@ -10,6 +10,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace mended_outline_test {
+
 using namespace lamella;
 
 namespace {
@@ -156,3 +158,5 @@ TEST_CASE("mending refuses what makes no sense", "[mended]") {
     CHECK_THROWS_AS(make_thickened(box(dvec3(0), dvec3(1)), 0.1, pitch), InputError);
     CHECK_THROWS_AS(make_gaps_filled(box(dvec3(0), dvec3(1)), 0.8, 0), InputError);
 }
+
+}  // namespace mended_outline_test

@@ -7,6 +7,8 @@
 
 #include "engine/runs/run_union.h"
 
+namespace sight_limits_test {
+
 using namespace lamella;
 
 namespace {
@@ -121,3 +123,5 @@ TEST_CASE("sight ends where a ball on the next line reaches as far", "[morpholog
     CHECK_FALSE(sight.reaches(LinesAside(Beside::line_before, 1)));
     CHECK(sight.reaches(LinesAside(Beside::layer_above, 126)));
 }
+
+}  // namespace sight_limits_test

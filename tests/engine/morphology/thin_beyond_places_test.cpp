@@ -12,6 +12,8 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "tests/engine/morphology/through_layers.h"
 
+namespace thin_beyond_places_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -154,3 +156,5 @@ TEST_CASE("layers at random are thin where no place near has room for the ball",
         }
     }
 }
+
+}  // namespace thin_beyond_places_test

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+namespace kept_lines_test {
+
 using namespace lamella;
 
 namespace {
@@ -83,3 +85,5 @@ TEST_CASE("lines that lie elsewhere or are told otherwise are not kept", "[kept_
         CHECK(kept.rows() == nullptr);
     }
 }
+
+}  // namespace kept_lines_test

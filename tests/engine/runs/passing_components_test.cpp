@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace passing_components_test {
+
 using namespace lamella;
 
 namespace {
@@ -123,3 +125,5 @@ TEST_CASE("a patch keeps so many runs at most and counts them all", "[components
     CHECK(patch.runs.size() == LayerPatch::most_kept);
     CHECK(patch.across / static_cast<double>(patch.length) == Approx(4999.5));
 }
+
+}  // namespace passing_components_test

@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+namespace passing_parts_test {
+
 using namespace lamella;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("parts that pass by are those of the whole, and what is not used can b
         for (const auto& [mine, theirs] : known) CHECK(back.emplace(theirs, mine).second);
     }
 }
+
+}  // namespace passing_parts_test

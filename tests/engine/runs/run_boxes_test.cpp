@@ -9,6 +9,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace run_boxes_test {
+
 using namespace lamella;
 
 namespace {
@@ -200,3 +202,5 @@ TEST_CASE("without boxes to take, the solid is itself") {
     REQUIRE_THROWS_AS(make_without_boxes(nullptr, plan), InputError);
     REQUIRE_THROWS_AS(make_without_boxes(sphere, nullptr), InputError);
 }
+
+}  // namespace run_boxes_test

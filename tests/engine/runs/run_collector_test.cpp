@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace run_collector_test {
+
 using namespace lamella;
 
 TEST_CASE("runs that overlap, touch, miss and stick out merge to what bits say") {
@@ -54,3 +56,5 @@ TEST_CASE("runs that overlap, touch, miss and stick out merge to what bits say")
         }
     }
 }
+
+}  // namespace run_collector_test

@@ -6,6 +6,8 @@
 #include <random>
 #include <string>
 
+namespace run_components_test {
+
 using namespace lamella;
 
 namespace {
@@ -173,3 +175,5 @@ TEST_CASE("random grids have the components of a flood fill") {
         REQUIRE(components.numbers().size() == by_number.size());
     }
 }
+
+}  // namespace run_components_test

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace runs_test {
+
 using namespace lamella;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("a band with a step holds the lines whose numbers are multiples of it"
         CHECK(band.line_pitch() == Approx(-0.05 / sub * step));
     }
 }
+
+}  // namespace runs_test

@@ -8,6 +8,8 @@
 #include "engine/field/slice_context.h"
 #include "engine/solids/beam_slice.h"
 
+namespace beam_test {
+
 using namespace lamella;
 
 namespace {
@@ -151,3 +153,5 @@ TEST_CASE("every SIMD target gives the same bits") {
         REQUIRE(results[k] == results[0]);
     }
 }
+
+}  // namespace beam_test

@@ -6,6 +6,8 @@
 #include "engine/contours/contours.h"
 #include "engine/field/slice_context.h"
 
+namespace polygon_slice_test {
+
 using namespace lamella;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("values of polygons are distances with the side's sign", "[polygon_sli
     CHECK(PolygonSlice({}).bounds().empty());
     CHECK(trace_contours(PolygonSlice({}), 0.01, scratch).empty());
 }
+
+}  // namespace polygon_slice_test

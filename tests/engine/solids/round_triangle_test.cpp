@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace round_triangle_test {
+
 using namespace lamella;
 
 namespace {
@@ -228,3 +230,5 @@ TEST_CASE("the box of a round triangle is that of its three balls") {
     CHECK(box.lo == dvec3(-1, -1, -1));
     CHECK(box.hi == dvec3(3.5, 2, 5));
 }
+
+}  // namespace round_triangle_test

@@ -12,6 +12,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace shell_test {
+
 using namespace lamella;
 
 namespace {
@@ -395,3 +397,5 @@ TEST_CASE("graded skins that cannot be are refused") {
     CHECK_THROWS_AS(make_outer_shell(body, NAN), InputError);
     CHECK_THROWS_AS(make_outer_shell(body, 0), InputError);
 }
+
+}  // namespace shell_test

@@ -11,6 +11,8 @@
 #include "engine/solids/shell.h"
 #include "tests/engine/field/gradings.h"
 
+namespace skin_thickness_test {
+
 using namespace lamella;
 
 namespace {
@@ -171,3 +173,5 @@ TEST_CASE("a skin thicker than the part fills it and goes no farther") {
         CHECK(counts.creased > points / 4);
     }
 }
+
+}  // namespace skin_thickness_test

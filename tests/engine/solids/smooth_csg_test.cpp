@@ -7,6 +7,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/runs/plane_runs.h"
 
+namespace smooth_csg_test {
+
 using namespace lamella;
 
 namespace {
@@ -89,3 +91,5 @@ TEST_CASE("rounded seams need two solids and a positive, finite radius") {
     }
     CHECK_THROWS_AS(make_smooth_difference(floor_slab, nullptr, 1), InputError);
 }
+
+}  // namespace smooth_csg_test

@@ -7,6 +7,8 @@
 #include "engine/base/simd_target.h"
 #include "engine/solids/beam_slice.h"
 
+namespace wedge_rows_test {
+
 using namespace lamella;
 
 namespace {
@@ -104,3 +106,5 @@ TEST_CASE("the rows of many round triangles are the same bits on every SIMD targ
         }
     }
 }
+
+}  // namespace wedge_rows_test

@@ -9,6 +9,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace cavity_survey_test {
+
 using namespace lamella;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("a pitch that does not suit the part is refused") {
     CHECK_THROWS_WITH(surveyed(ball, 0), Catch::Contains("accepted"));
     CHECK_THROWS_WITH(surveyed(ball, 50), Catch::Contains("accepted"));
 }
+
+}  // namespace cavity_survey_test

@@ -14,6 +14,8 @@
 #include "tests/engine/morphology/bonding.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace hollow_survey_test {
+
 using namespace lamella;
 
 namespace {
@@ -220,3 +222,5 @@ TEST_CASE("hollowing out refuses what makes no sense", "[enclosure]") {
     options.cancel = &cancel;
     REQUIRE_THROWS_AS(hollow_out(job, options), Interrupted);
 }
+
+}  // namespace hollow_survey_test

@@ -14,6 +14,8 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace island_survey_test {
+
 using namespace lamella;
 
 namespace {
@@ -405,3 +407,5 @@ TEST_CASE("a part without a solid has no components and no islands") {
     REQUIRE(survey.report.part_volume == 0);
     REQUIRE(survey.dropped->empty());
 }
+
+}  // namespace island_survey_test

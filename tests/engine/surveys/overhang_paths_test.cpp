@@ -8,6 +8,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/overhang_scenes.h"
 
+namespace overhang_paths_test {
+
 using namespace lamella;
 using overhangs::disc_meets;
 using overhangs::height;
@@ -127,3 +129,5 @@ TEST_CASE("by brute force, all that hangs in random scenes is held, and nothing 
     REQUIRE(points > 100);
     REQUIRE(left_hanging > 0);
 }
+
+}  // namespace overhang_paths_test

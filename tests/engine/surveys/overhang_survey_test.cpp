@@ -9,6 +9,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/overhang_scenes.h"
 
+namespace overhang_survey_test {
+
 using namespace lamella;
 using overhangs::height;
 using overhangs::near_point;
@@ -372,3 +374,5 @@ TEST_CASE("an empty part needs nothing") {
     REQUIRE(survey.hanging_length == 0);
     REQUIRE_FALSE(survey.topples_at);
 }
+
+}  // namespace overhang_survey_test

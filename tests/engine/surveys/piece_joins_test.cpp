@@ -10,6 +10,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace piece_joins_test {
+
 using namespace lamella;
 
 namespace {
@@ -129,3 +131,5 @@ TEST_CASE("what cannot be joined is refused", "[joins]") {
     options.pitch = 100;
     CHECK_THROWS_AS(survey_joins(job, options), InputError);
 }
+
+}  // namespace piece_joins_test

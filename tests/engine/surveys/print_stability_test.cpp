@@ -9,6 +9,8 @@
 #include "engine/surveys/overhang_survey.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace print_stability_test {
+
 using namespace lamella;
 
 namespace {
@@ -226,3 +228,5 @@ TEST_CASE("a thin tower without a face to hold says where it topples") {
     limits.least_height = 30.5;
     REQUIRE_FALSE(surveyed(tower, bounds, limits).topples_at);
 }
+
+}  // namespace print_stability_test

@@ -8,6 +8,8 @@
 #include "engine/base/error.h"
 #include "tests/engine/morphology/bonding.h"
 
+namespace printable_enclosure_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -205,3 +207,5 @@ TEST_CASE("an enclosure has no more room than it is given, and stops when told t
     cancel.cancel();
     REQUIRE_THROWS_AS(enclose(layers, {step, corner, run_unit}, &cancel), Interrupted);
 }
+
+}  // namespace printable_enclosure_test

@@ -7,6 +7,8 @@
 
 #include "tests/engine/morphology/bonding.h"
 
+namespace printable_roof_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -137,3 +139,5 @@ TEST_CASE("a wall between cavities that meet is no thinner than asked for, and t
     }
     REQUIRE(above == room);
 }
+
+}  // namespace printable_roof_test

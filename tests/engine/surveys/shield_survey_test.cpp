@@ -12,6 +12,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/surveys/island_scenes.h"
 
+namespace shield_survey_test {
+
 using namespace lamella;
 
 namespace {
@@ -137,3 +139,5 @@ TEST_CASE("a shield refuses what makes no sense", "[enclosure]") {
     refused([](ShieldOptions& o) { o.layers_at_once = 0; });
     refused([](ShieldOptions& o) { o.most_bytes = 100000; });
 }
+
+}  // namespace shield_survey_test

@@ -7,6 +7,8 @@
 
 #include "engine/solids/primitives.h"
 
+namespace support_placer_test {
+
 using namespace lamella;
 
 TEST_CASE("a place is held by a point within the spacing that is not above it") {
@@ -43,3 +45,5 @@ TEST_CASE("a blocked point is counted, and holds what is blocked alone") {
     REQUIRE(placer.held({-1, 0, 0}));
     REQUIRE(placer.points() == std::vector<SupportPoint>{{{-0.5, 0, 0}, SupportReason::island}});
 }
+
+}  // namespace support_placer_test

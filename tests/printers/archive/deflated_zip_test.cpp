@@ -8,6 +8,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace deflated_zip_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -66,3 +68,5 @@ TEST_CASE("an archive of pieces is taken up from its bytes", "[zip]") {
     CHECK_THROWS_AS(again.entry("", "text"), FaultError);
     CHECK_THROWS_AS(again.entry(std::string(2000, 'n'), "text"), FaultError);
 }
+
+}  // namespace deflated_zip_test

@@ -6,6 +6,8 @@
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/folder.h"
 
+namespace shard_file_test {
+
 using namespace lamella;
 
 namespace {
@@ -123,3 +125,5 @@ TEST_CASE("a parcel that is cut or stretched is refused", "[shard]") {
         }
     }
 }
+
+}  // namespace shard_file_test

@@ -9,6 +9,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace stored_zip_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -108,3 +110,5 @@ TEST_CASE("files beyond 4 GiB are found", "[stored_zip]") {
     std::ofstream(path, std::ios::binary | std::ios::app) << bytes;
     CHECK(read_zip(path) == Files{{"far", "hello"}});
 }
+
+}  // namespace stored_zip_test

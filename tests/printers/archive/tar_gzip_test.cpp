@@ -8,6 +8,8 @@
 #include "engine/base/error.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace tar_gzip_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -38,3 +40,5 @@ TEST_CASE("members of a tape archive are whole blocks", "[tar-gzip]") {
     CHECK_THROWS_AS(tar_member(std::string(100, 'n'), ""), FaultError);
     CHECK_THROWS_AS(tar_member("", ""), FaultError);
 }
+
+}  // namespace tar_gzip_test

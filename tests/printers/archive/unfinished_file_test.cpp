@@ -9,6 +9,8 @@
 #include "engine/base/error.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace unfinished_file_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -129,3 +131,5 @@ TEST_CASE("journals of hostile content do not mislead", "[unfinished_file]") {
         CHECK(fs::file_size(folder / "out.partial") == 0);
     }
 }
+
+}  // namespace unfinished_file_test

@@ -12,6 +12,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace zip_writer_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -91,3 +93,5 @@ TEST_CASE("an archive that outgrows the disk is a fault, and is removed", "[zip]
     signal(SIGXFSZ, SIG_DFL);
     CHECK(fs::is_empty(folder / ""));
 }
+
+}  // namespace zip_writer_test

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace layer_areas_test {
+
 using namespace lamella;
 
 namespace {
@@ -97,3 +99,5 @@ TEST_CASE("a black mask has no islands and no extent", "[layer-areas]") {
     CHECK(f.total + f.largest + f.smallest == 0);
     CHECK((f.min_x == 0 && f.max_x == 0 && f.min_y == 0 && f.max_y == 0));
 }
+
+}  // namespace layer_areas_test

@@ -9,6 +9,8 @@
 #include "printers/registry.h"
 #include "tests/app/commands/folder.h"
 
+namespace process_limits_test {
+
 using namespace lamella;
 
 namespace {
@@ -144,3 +146,5 @@ TEST_CASE("a machine's room is what its back-end takes, to a hundredth of a mill
     for (const char* open : {"svg", "dxf", "cli", "3mf"})
         CHECK(build_room(machine(open), 0.2) == dvec3(infinity));
 }
+
+}  // namespace process_limits_test

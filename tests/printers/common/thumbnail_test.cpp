@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace thumbnail_test {
+
 using namespace lamella;
 
 TEST_CASE("a shrunk picture has the means of what its pixels cover", "[thumbnail]") {
@@ -32,3 +34,5 @@ TEST_CASE("sixteen bits a pixel keep the highest bits of each colour", "[thumbna
     // 11111 000000 11111 and 00010 001101 01010
     CHECK(rgb565(picture) == std::string("\xf8\x1f\x11\xaa"));
 }
+
+}  // namespace thumbnail_test

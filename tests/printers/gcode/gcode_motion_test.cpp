@@ -10,6 +10,8 @@
 #include "tests/printers/gcode/gcode_lines.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace gcode_motion_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -392,3 +394,5 @@ TEST_CASE("pictures stand in comments that are base64 of PNG files", "[gcode][th
     profile.gcode.thumbnails = false;
     CHECK(print(job, profile, {0, 1}).find("thumbnail") == std::string::npos);
 }
+
+}  // namespace gcode_motion_test

@@ -9,6 +9,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace gcode_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -385,3 +387,5 @@ TEST_CASE("supports must fit the bed, and their speed the printer", "[gcode]") {
     CHECK_NOTHROW(make_gcode(profile, folder / "a", false)->begin(puck(), {0, 1}, false));
     CHECK(print_whole(puck(), filament_printer(), {0, 2}).find("upport") == std::string::npos);
 }
+
+}  // namespace gcode_test

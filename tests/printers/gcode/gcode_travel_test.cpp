@@ -7,6 +7,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/gcode/gcode_lines.h"
 
+namespace gcode_travel_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -327,3 +329,5 @@ TEST_CASE("lines a second hold over the seams of layers of few moves, too", "[gc
     CHECK(meter.worst() > 0);
     CHECK(meter.worst() <= profile.gcode.lines_per_second * 1.01);  // positions are rounded
 }
+
+}  // namespace gcode_travel_test

@@ -10,6 +10,8 @@
 #include "tests/printers/gcode/gcode_lines.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace laser_gcode_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -175,3 +177,5 @@ TEST_CASE("what a laser cannot do is refused", "[gcode][laser]") {
                       Catch::Contains("start_script, line 1"));
     CHECK_NOTHROW(begin(nothing, plate()));
 }
+
+}  // namespace laser_gcode_test

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <random>
 
+namespace motion_model_test {
+
 using namespace lamella;
 
 namespace {
@@ -177,3 +179,5 @@ TEST_CASE("the worst rate is that of the fullest window", "[motion]") {
     for (int i = 0; i < 15; ++i) few.add(1e-6);
     CHECK(few.worst() == 0);  // the planner holds them all
 }
+
+}  // namespace motion_model_test

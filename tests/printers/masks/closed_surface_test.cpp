@@ -6,6 +6,8 @@
 #include "printers/gcode/gcode.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace closed_surface_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -191,3 +193,5 @@ TEST_CASE("walls that stand out over the void are overhangs", "[skins]") {
     }
     CHECK(std::ranges::any_of(layers[5], [](const Line& line) { return line.role == "Overhang perimeter"; }));
 }
+
+}  // namespace closed_surface_test

@@ -9,6 +9,8 @@
 #include "recipe/machine_profiles.h"
 #include "tests/printers/masks/resin_job.h"
 
+namespace ember_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -88,3 +90,5 @@ TEST_CASE("what an Ember cannot print is refused", "[ember]") {
                       Catch::Contains("1280 x 800"));
     CHECK(!std::filesystem::exists(folder / "a.partial"));
 }
+
+}  // namespace ember_test

@@ -10,6 +10,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/masks/decode_image.h"
 
+namespace goo_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -206,3 +208,5 @@ TEST_CASE("a stopped GOO file is continued to the same bytes", "[goo]") {
         CHECK(read_text(part) == read_text(folder / "whole.goo"));
     }
 }
+
+}  // namespace goo_test

@@ -11,6 +11,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace image3d_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -163,3 +165,5 @@ TEST_CASE("sheets that are too large, or whose greys are no shares, are refused"
     CHECK_THAT(refusal(profile), Catch::Contains("accepted: format = \"png\""));
     CHECK_THAT(refusal(printer(0)), Catch::Contains("pixel"));
 }
+
+}  // namespace image3d_test

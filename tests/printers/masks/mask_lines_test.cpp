@@ -8,6 +8,8 @@
 #include "printers/masks/mask.h"
 #include "procedural/foam/voronoi_foam.h"
 
+namespace mask_lines_test {
+
 using namespace lamella;
 
 namespace {
@@ -95,3 +97,5 @@ TEST_CASE("masks that are made of more than lines keep none", "[mask]") {
     small.width = 300;
     CHECK_FALSE(mask_lines(small, job.bounds).has_value());
 }
+
+}  // namespace mask_lines_test

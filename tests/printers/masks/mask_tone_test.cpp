@@ -7,6 +7,8 @@
 #include "printers/masks/mask.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace mask_tone_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -156,3 +158,5 @@ TEST_CASE("greys that make no sense are refused", "[mask]") {
     refused([](ImageProfile& image) { image.margin = -1; });
     refused([](ImageProfile& image) { image.sub_layers = 2, image.antialiasing = Antialiasing::off; });
 }
+
+}  // namespace mask_tone_test

@@ -9,6 +9,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/masks/resin_job.h"
 
+namespace nanodlp_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -148,3 +150,5 @@ TEST_CASE("a range of layers is numbered from 1 as well", "[nanodlp]") {
     CHECK(some.count("5.png") == 0);
     CHECK(nlohmann::json::parse(some.at("info.json"))[0] == nlohmann::json::parse(whole.at("info.json"))[4]);
 }
+
+}  // namespace nanodlp_test

@@ -15,6 +15,8 @@
 #include "tests/printers/masks/decode_image.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace png_stack_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -509,3 +511,5 @@ TEST_CASE("a grey that is none is refused where there are supports", "[png_stack
         Catch::Contains("grey of supports"));
     CHECK_NOTHROW(make_png_stack(profile, folder / "out", false)->begin(cone(), {0, 12}, false));
 }
+
+}  // namespace png_stack_test

@@ -15,6 +15,8 @@
 #include "printers/archive/deflate_runs.h"
 #include "tests/printers/masks/decode_image.h"
 
+namespace png_writer_test {
+
 using namespace lamella;
 
 namespace {
@@ -275,3 +277,5 @@ TEST_CASE("the pixel pitch stands in the file", "[png]") {
     CHECK(image.pixels_per_metre_x == 20000);
     CHECK(image.pixels_per_metre_y == 25000);
 }
+
+}  // namespace png_writer_test

@@ -11,6 +11,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace sl1_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -182,3 +184,5 @@ TEST_CASE("senseless exposures are refused", "[sl1]") {
                         InputError);
     }
 }
+
+}  // namespace sl1_test

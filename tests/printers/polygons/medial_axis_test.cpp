@@ -7,6 +7,8 @@
 
 #include "printers/toolpath/thin_parts.h"
 
+namespace medial_axis_test {
+
 using namespace lamella;
 
 namespace {
@@ -160,3 +162,5 @@ TEST_CASE("where walls meet, one passes and the others end at its flank", "[thin
     CHECK(std::max(width(parts.lines[0]), width(parts.lines[1])) > 5.4);
     CHECK(std::min(width(parts.lines[0]), width(parts.lines[1])) < 0.01);
 }
+
+}  // namespace medial_axis_test

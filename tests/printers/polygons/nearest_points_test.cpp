@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace nearest_points_test {
+
 using namespace lamella;
 
 TEST_CASE("tours equal those of brute force", "[nearest_points]") {
@@ -39,3 +41,5 @@ TEST_CASE("tours equal those of brute force", "[nearest_points]") {
     CHECK(tree.empty());
     CHECK(NearestPoints({}).empty());
 }
+
+}  // namespace nearest_points_test

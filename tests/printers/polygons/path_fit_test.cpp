@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace path_fit_test {
+
 using namespace lamella;
 
 namespace {
@@ -175,3 +177,5 @@ TEST_CASE("corners and straight lines do not become arcs", "[path_fit]") {
     CHECK(pieces.size() == 8);
     CHECK(deviation(round, pieces) <= 0.005 + 2 * unit);
 }
+
+}  // namespace path_fit_test

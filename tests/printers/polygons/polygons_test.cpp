@@ -5,6 +5,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace polygons_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -82,3 +84,5 @@ TEST_CASE("the longest chord of a turned bar runs along it", "[polygons]") {
         CHECK(std::abs(glm::dot(chord.b - chord.a, along)) == Approx(6).epsilon(1e-3));
     }
 }
+
+}  // namespace polygons_test

@@ -8,6 +8,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace shortest_way_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -226,3 +228,5 @@ TEST_CASE("points a little outside are let in, others are not", "[shortest_way]"
     CHECK_FALSE(sight.enter(units({5, 5}), reach).has_value());
     CHECK_FALSE(PolygonSight({}).enter(units({5, 5}), reach).has_value());
 }
+
+}  // namespace shortest_way_test

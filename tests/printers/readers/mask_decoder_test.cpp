@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 
+namespace mask_decoder_test {
+
 using namespace lamella;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_CASE("images of another size or kind are refused with their place", "[mask-
         CHECK_THROWS_AS(decoded(".png", file.substr(0, size), {2, 2}), InputError);
     }
 }
+
+}  // namespace mask_decoder_test

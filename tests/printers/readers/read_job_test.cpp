@@ -13,6 +13,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/masks/resin_job.h"
 
+namespace read_job_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -388,3 +390,5 @@ TEST_CASE("content decides what a file is, then its name", "[read-job]") {
     write_zip(folder / "model.3mf", {{"[Content_Types].xml", "<Types/>"}});
     CHECK(open_if_job(folder / "model.3mf") == nullptr);
 }
+
+}  // namespace read_job_test

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace grbl_modes_test {
+
 using namespace lamella;
 
 namespace {
@@ -57,3 +59,5 @@ TEST_CASE("cuts take their time, and fast moves none that is known") {
     CHECK(modes.apply("G1X0Y0F600") == Approx(5));
     CHECK(modes.apply("X10") == Approx(1));
 }
+
+}  // namespace grbl_modes_test

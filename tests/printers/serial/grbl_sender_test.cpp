@@ -5,6 +5,8 @@
 
 #include "tests/printers/serial/simulated_grbl.h"
 
+namespace grbl_sender_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -133,3 +135,5 @@ TEST_CASE("GRBL's M0 is a wait for a person, told and ended, and no other hold i
     CHECK(!bench.sender.user_wait());
     CHECK(bench.sender.answered() == 200);
 }
+
+}  // namespace grbl_sender_test

@@ -3,6 +3,8 @@
 
 #include "tests/printers/serial/marlin_bench.h"
 
+namespace marlin_person_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -130,3 +132,5 @@ TEST_CASE("a line that is not kept any more is believed lost only when it is ask
     if (again) CHECK(bench.sender.stopped()->why.find("line 3 ") != std::string::npos);
     if (!again) CHECK(first_difference(job_lines(bench.printer.executed()), moves(3000)) == "");
 }
+
+}  // namespace marlin_person_test

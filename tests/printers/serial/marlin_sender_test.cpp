@@ -3,6 +3,8 @@
 
 #include "tests/printers/serial/marlin_bench.h"
 
+namespace marlin_sender_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -72,3 +74,5 @@ TEST_CASE("spoilt replies end in the whole job or in a plain stop, never in a wr
         CHECK(first_difference(executed, lines) == "");
     }
 }
+
+}  // namespace marlin_sender_test

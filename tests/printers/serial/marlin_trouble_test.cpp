@@ -3,6 +3,8 @@
 
 #include "tests/printers/serial/marlin_bench.h"
 
+namespace marlin_trouble_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -155,3 +157,5 @@ TEST_CASE("held, no line of the job is sent, but the host's own are") {
     REQUIRE(bench.run(20, [&] { return bench.sender.finished(); }));
     CHECK(bench.sender.answered() == 400);
 }
+
+}  // namespace marlin_trouble_test

@@ -9,6 +9,8 @@
 #include "printers/serial/serial_output.h"
 #include "tests/printers/serial/pty_machine.h"
 
+namespace print_link_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -290,3 +292,5 @@ TEST_CASE("the densest stretch of a job tells what the link has to carry") {
     CHECK(maker.seconds() == Approx(1 + 0 + 9).margin(0.05));
     CHECK(maker.need().lines == Approx(104).margin(2));
 }
+
+}  // namespace print_link_test

@@ -9,6 +9,8 @@
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"
 
+namespace reply_test {
+
 using namespace lamella;
 
 TEST_CASE("answers of Marlin are told apart") {
@@ -151,3 +153,5 @@ TEST_CASE("no noise makes a sender crash, send without end, or take an answer fr
     }
     CHECK(!deaf.connected());
 }
+
+}  // namespace reply_test

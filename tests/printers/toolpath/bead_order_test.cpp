@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+namespace bead_order_test {
+
 using namespace lamella;
 
 namespace {
@@ -106,3 +108,5 @@ TEST_CASE("loops begin where the seam is to be, with their widths", "[bead_order
     // The sharpest corners are those beside the dent.
     CHECK(first(Seam::corner, {5, -5}).first.y == 4);
 }
+
+}  // namespace bead_order_test

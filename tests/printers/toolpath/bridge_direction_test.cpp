@@ -5,6 +5,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace bridge_direction_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -47,3 +49,5 @@ TEST_CASE("a bridge with no hold at all has a direction", "[bridge]") {
     const dvec2 along = bridge_direction(box({0, 0}, {20, 5}, 0), Footing({}, 0.1), 0.45);
     CHECK(glm::length(along) == Approx(1));
 }
+
+}  // namespace bridge_direction_test

@@ -6,6 +6,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace center_lines_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -196,3 +198,5 @@ TEST_CASE("lines through any tangle of walls lie in it and carry its area", "[ce
     }
     CHECK(found > 100);
 }
+
+}  // namespace center_lines_test

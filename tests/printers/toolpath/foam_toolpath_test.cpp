@@ -7,6 +7,8 @@
 #include "printers/toolpath/toolpath.h"
 #include "procedural/foam/voronoi_foam.h"
 
+namespace foam_toolpath_test {
+
 using namespace lamella;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_CASE("no strut of a foam is left out, nor any part of one", "[toolpath]") {
     CHECK(laid == Approx(area * height).epsilon(0.01));
     CHECK(covered > 0.95 * sampled);
 }
+
+}  // namespace foam_toolpath_test

@@ -6,6 +6,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace footing_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -45,3 +47,5 @@ TEST_CASE("polygons near a place are all that can matter there", "[footing]") {
     CHECK(area_of(subtract_polygons(region, near)) == Approx(area_of(subtract_polygons(region, many))));
     CHECK(box_of(Polygons{}).empty());
 }
+
+}  // namespace footing_test

@@ -8,6 +8,8 @@
 #include "tests/printers/polygons/hand_made_contours.h"
 #include "tests/printers/toolpath/bead_length.h"
 
+namespace hanging_beads_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -90,3 +92,5 @@ TEST_CASE("a bead that hangs or is held as a whole stays whole", "[hanging]") {
     marked.hangs = true;
     CHECK(cut_hanging({marked}, footing).front().hangs);
 }
+
+}  // namespace hanging_beads_test

@@ -5,6 +5,8 @@
 
 #include "tests/printers/polygons/hand_made_contours.h"
 
+namespace inner_regions_test {
+
 using namespace lamella;
 using namespace lamella::test;
 using Fill = InnerRegion::Fill;
@@ -89,3 +91,5 @@ TEST_CASE("what hangs is bridged the short way and anchored on both sides", "[in
     // Sparse infill bridges nothing.
     CHECK(area_of_kind(divide_inside(region, {&footing, nullptr}, 0.2, line), Fill::bridge) == 0);
 }
+
+}  // namespace inner_regions_test

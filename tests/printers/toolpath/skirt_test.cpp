@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace skirt_test {
+
 using namespace lamella;
 
 namespace {
@@ -53,3 +55,5 @@ TEST_CASE("a brim touches and a skirt keeps its distance, from the outside in", 
     CHECK(least == Approx(-5 - line.width / 2).margin(0.01));
     CHECK(skirt_reach(profile, line) == Approx(5 + line.width + line.spacing()));
 }
+
+}  // namespace skirt_test

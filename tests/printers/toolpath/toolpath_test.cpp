@@ -10,6 +10,8 @@
 #include "tests/printers/polygons/hand_made_contours.h"
 #include "tests/printers/toolpath/bead_length.h"
 
+namespace toolpath_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -217,3 +219,5 @@ TEST_CASE("the pieces of a scaffold get their volume, thin walls in single lines
         CHECK(plan(disc_contour({3, 4}, diameter / 2)).beads.size() == 1);
     }
 }
+
+}  // namespace toolpath_test

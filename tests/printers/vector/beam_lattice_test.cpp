@@ -13,6 +13,8 @@
 #include "tests/printers/archive/read_zip.h"
 #include "tests/printers/common/plane_solids.h"
 
+namespace beam_lattice_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -233,3 +235,5 @@ TEST_CASE("beams that no file can hold are refused, and an older file stays", "[
     CHECK(read_text(folder / "a.3mf") == before);
     CHECK_FALSE(fs::exists(folder / "a.3mf.tmp"));
 }
+
+}  // namespace beam_lattice_test

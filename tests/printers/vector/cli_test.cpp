@@ -11,6 +11,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace cli_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -317,3 +319,5 @@ TEST_CASE("names cannot break a CLI header, and units must fit the part", "[cli]
         make_cli(printer(CliFormat::ascii, 1e-5), folder / "a.cli", false)->begin(job, {0, 10}, false),
         Catch::Contains("cli_units"));
 }
+
+}  // namespace cli_test

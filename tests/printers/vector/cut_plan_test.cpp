@@ -7,6 +7,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/vector/cut_raster.h"
 
+namespace cut_plan_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -243,3 +245,5 @@ TEST_CASE("an empty layer has nothing to cut", "[cut]") {
     CHECK(!found.unnumbered);
     CHECK(found.pieces == 0);
 }
+
+}  // namespace cut_plan_test

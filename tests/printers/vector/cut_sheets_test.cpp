@@ -12,6 +12,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace cut_sheets_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -400,3 +402,5 @@ TEST_CASE("Slic3r's dialect is a stack of white contours and black holes", "[she
     run_layers(cone(), *make_backend(profile, folder / "parts.svg", false), {0, 24}, true);
     CHECK(read_text(folder / "parts.svg") == text);
 }
+
+}  // namespace cut_sheets_test

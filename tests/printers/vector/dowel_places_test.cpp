@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+namespace dowel_places_test {
+
 using namespace lamella;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("pins avoid holes and are refused where there is no room", "[dowels]")
     const Polygons thin{to_polygon({{0, 0}, {0.01, 0}, {40.01, 25}, {40, 25}})};
     CHECK(dowel_places(thin, {20, 30}, 2, 3).size() == 2);
 }
+
+}  // namespace dowel_places_test

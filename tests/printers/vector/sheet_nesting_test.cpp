@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace sheet_nesting_test {
+
 using namespace lamella;
 
 TEST_CASE("no two rectangles of a sheet come nearer than the margin, whatever their sizes", "[nesting]") {
@@ -61,3 +63,5 @@ TEST_CASE("a sheet is filled from the top left, and gaps in upper shelves are us
     CHECK(*sheet.place({100, 20}) == dvec2(0, 0));
     CHECK(!sheet.empty());
 }
+
+}  // namespace sheet_nesting_test

@@ -9,6 +9,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace slice_3mf_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -220,3 +222,5 @@ TEST_CASE("senseless settings of a 3MF package are refused, and names cannot bre
     CHECK(count_of(package(folder / "out.3mf").at("3D/3dmodel.model"),
                    "name=\"a &quot;&lt;b>&quot; &amp; c\"") == 1);
 }
+
+}  // namespace slice_3mf_test

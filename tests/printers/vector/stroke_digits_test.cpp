@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+namespace stroke_digits_test {
+
 using namespace lamella;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("a number's digits stand beside each other and fill its size", "[digit
     CHECK(lo == Approx(-size.x / 2));
     CHECK(hi == Approx(size.x / 2));
 }
+
+}  // namespace stroke_digits_test

@@ -8,6 +8,8 @@
 #include "tests/printers/common/plane_solids.h"
 #include "tests/printers/toolpath/supported_table.h"
 
+namespace svg_test {
+
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
@@ -247,3 +249,5 @@ TEST_CASE("the areas of part and supports are told apart", "[svg]") {
     CHECK(product->area == Approx(4.03 * 6).epsilon(1e-3));
     CHECK(product->support_area == Approx(3 * 2).epsilon(5e-3));
 }
+
+}  // namespace svg_test

@@ -6,6 +6,8 @@
 
 #include "tests/printers/vector/cut_raster.h"
 
+namespace tie_bars_test {
+
 using namespace lamella;
 using namespace lamella::test;
 
@@ -108,3 +110,5 @@ TEST_CASE("scattered pieces become one, by the tree of least length", "[ties]") 
     const double length = area_of(bars) / width - static_cast<double>(bars.size()) * width / 2;
     CHECK(length == Approx(least).epsilon(0.02));
 }
+
+}  // namespace tie_bars_test

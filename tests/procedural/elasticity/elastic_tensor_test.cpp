@@ -6,6 +6,8 @@
 
 #include "engine/base/error.h"
 
+namespace elastic_tensor_test {
+
 using namespace lamella;
 
 TEST_CASE("an isotropic tensor is its own closest one", "[elasticity]") {
@@ -61,3 +63,5 @@ TEST_CASE("what gives way for nothing has no compliance", "[elasticity]") {
     CHECK_THROWS_AS(compliance_of(ElasticTensor{}), FaultError);
     CHECK_THROWS_AS(check_material({-1, 0.3}), InputError);
 }
+
+}  // namespace elastic_tensor_test

@@ -7,6 +7,8 @@
 #include "engine/solids/primitives.h"
 #include "procedural/foam/voronoi_foam.h"
 
+namespace field_sample_test {
+
 using namespace lamella;
 
 namespace {
@@ -91,3 +93,5 @@ TEST_CASE("a foam that repeats is another one by another seed, and none where no
     CHECK(sample_field(*foam, {dvec3(4, 0, 0), dvec3(8, 4, 4)}, 32).present !=
           sample_field(*foam, {dvec3(0), dvec3(4)}, 32).present);
 }
+
+}  // namespace field_sample_test

@@ -7,6 +7,8 @@
 
 #include "engine/base/error.h"
 
+namespace foam_law_test {
+
 using namespace lamella;
 
 namespace {
@@ -103,3 +105,5 @@ TEST_CASE("what is no law's file is refused with its line", "[elasticity]") {
     CHECK(refusal(law_heading() + "open,0.1,0.2,0,1,1,1,1,1,1,1\n").find("law.csv:2: a ratio or modulus") ==
           0);
 }
+
+}  // namespace foam_law_test

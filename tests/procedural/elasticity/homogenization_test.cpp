@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 
+namespace homogenization_test {
+
 using namespace lamella;
 
 namespace {
@@ -271,3 +273,5 @@ TEST_CASE("what is no sample or no material is refused", "[elasticity]") {
     CHECK_THROWS_AS(homogenize(solid, {1, -1}), InputError);
     CHECK_THROWS_AS(homogenize(solid, {NAN, 0.3}), InputError);
 }
+
+}  // namespace homogenization_test

@@ -8,6 +8,8 @@
 #include "engine/base/error.h"
 #include "procedural/elasticity/modulus_grading.h"
 
+namespace law_fit_test {
+
 using namespace lamella;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_CASE("cells and members that follow from a modulus have it", "[elasticity]"
         make_cell_for_modulus(make_constant_grading(40), make_constant_grading(0.3), foam);
     CHECK(same->constant().value() == Approx(3).epsilon(1e-3));
 }
+
+}  // namespace law_fit_test

@@ -5,6 +5,8 @@
 
 #include "procedural/voronoi/counter_hash.h"
 
+namespace beam_box_test {
+
 using namespace lamella;
 
 TEST_CASE("a beam passes a box's corner at its radius", "[beam_box]") {
@@ -44,3 +46,5 @@ TEST_CASE("touching agrees with the distance sampled over the box", "[beam_box]"
     CHECK(both > 50);
     CHECK(neither > 50);
 }
+
+}  // namespace beam_box_test

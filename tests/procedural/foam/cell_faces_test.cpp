@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+namespace cell_faces_test {
+
 using namespace lamella;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("faces lie halfway between their seeds, and turn as seen from outside 
         CHECK(glm::dot(area, higher - lower) >= 0);
     }
 }
+
+}  // namespace cell_faces_test

@@ -9,6 +9,8 @@
 #include "tests/procedural/voronoi/brute_voronoi.h"
 #include "tests/procedural/voronoi/graded_densities.h"
 
+namespace cell_units_test {
+
 using namespace lamella;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("two threads get the beams that one gets", "[cell_units]") {
     CHECK(first == alone);
     CHECK(second == alone);
 }
+
+}  // namespace cell_units_test

@@ -11,6 +11,8 @@
 #include "procedural/voronoi/counter_hash.h"
 #include "tests/engine/field/gradings.h"
 
+namespace closed_foam_test {
+
 using namespace lamella;
 
 namespace {
@@ -298,3 +300,5 @@ TEST_CASE("walls and windows out of range are refused with a sentence", "[closed
     CHECK_THROWS_WITH(ClosedFoam(settings(1.4)), Catch::Contains("at most 1.35 mm"));
     CHECK(make_closed_foam(settings(0.1))->metric() == Metric::bound);
 }
+
+}  // namespace closed_foam_test

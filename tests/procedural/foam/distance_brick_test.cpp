@@ -6,6 +6,8 @@
 #include "procedural/foam/beam_box.h"
 #include "procedural/voronoi/counter_hash.h"
 
+namespace distance_brick_test {
+
 using namespace lamella;
 
 TEST_CASE("a brick's distance is the minimum over all beams", "[distance_brick]") {
@@ -37,3 +39,5 @@ TEST_CASE("a brick's distance is the minimum over all beams", "[distance_brick]"
         }
     }
 }
+
+}  // namespace distance_brick_test

@@ -6,6 +6,8 @@
 
 #include "tests/procedural/voronoi/brute_voronoi.h"
 
+namespace foam_beams_test {
+
 using namespace lamella;
 
 namespace {
@@ -161,3 +163,5 @@ TEST_CASE("beams of random seeds are the edges found by brute force", "[foam_bea
         CHECK(places(beams_of_list(seeds, 20), inside) == expected);
     }
 }
+
+}  // namespace foam_beams_test

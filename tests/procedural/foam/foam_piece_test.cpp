@@ -6,6 +6,8 @@
 #include "procedural/foam/distance_brick.h"
 #include "procedural/voronoi/counter_hash.h"
 
+namespace foam_piece_test {
+
 using namespace lamella;
 
 namespace {
@@ -84,3 +86,5 @@ TEST_CASE("a brick of beams and walls gives the minimum over all of them", "[foa
         }
     }
 }
+
+}  // namespace foam_piece_test

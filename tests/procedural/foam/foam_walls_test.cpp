@@ -8,6 +8,8 @@
 #include "procedural/voronoi/counter_hash.h"
 #include "tests/engine/field/gradings.h"
 
+namespace foam_walls_test {
+
 using namespace lamella;
 
 namespace {
@@ -190,3 +192,5 @@ TEST_CASE("a window that its rim would close is not made", "[foam_walls]") {
     CHECK(area(walls_in(pieces_of_list(cubic(5), walls(0.1, 0.19), 0.2), inside)) == Approx(108));
     CHECK(area(walls_in(pieces_of_list(cubic(5), walls(0.1, 0.21), 0.2), inside)) < 107);
 }
+
+}  // namespace foam_walls_test

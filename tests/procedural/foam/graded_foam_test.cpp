@@ -12,6 +12,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/procedural/voronoi/brute_voronoi.h"
 
+namespace graded_foam_test {
+
 using namespace lamella;
 
 namespace {
@@ -310,3 +312,5 @@ TEST_CASE("graded settings that make no foam are refused", "[graded_foam]") {
                       Catch::Contains("beam radius goes down to 0 mm"));
     CHECK_THROWS_AS(VoronoiFoam(settings(ramp(1, std::nan("")), 0.1, region)), InputError);
 }
+
+}  // namespace graded_foam_test

@@ -10,6 +10,8 @@
 #include "procedural/foam/beam_box.h"
 #include "tests/engine/field/gradings.h"
 
+namespace nearest_foam_test {
+
 using namespace lamella;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("settings of a k-nearest foam out of range are refused", "[nearest_foa
     s.foam.stretch = Stretch(turned_axes(dvec3(0)), {1, 2, 1});
     CHECK_THROWS_AS(NearestFoam(s), InputError);
 }
+
+}  // namespace nearest_foam_test

@@ -10,6 +10,8 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "tests/engine/field/gradings.h"
 
+namespace piece_slabs_test {
+
 using namespace lamella;
 
 namespace {
@@ -109,3 +111,5 @@ TEST_CASE("a query that fails is asked again", "[piece_slabs]") {
     };
     CHECK(slabs.at(0, left, 0.5, query).beams.size() == 1);
 }
+
+}  // namespace piece_slabs_test

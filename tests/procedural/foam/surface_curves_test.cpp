@@ -8,6 +8,8 @@
 #include "engine/formula/formula_parser.h"
 #include "engine/solids/primitives.h"
 
+namespace surface_curves_test {
+
 using namespace lamella;
 
 namespace {
@@ -125,3 +127,5 @@ TEST_CASE("a simplified curve keeps its ends and stays within the tolerance", "[
         CHECK(nearest <= 0.02);
     }
 }
+
+}  // namespace surface_curves_test

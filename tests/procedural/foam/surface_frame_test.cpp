@@ -16,6 +16,8 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "tests/engine/field/gradings.h"
 
+namespace surface_frame_test {
+
 using namespace lamella;
 
 namespace {
@@ -256,3 +258,5 @@ TEST_CASE("a frame's radius must be a length", "[surface_frame]") {
     CHECK_THROWS_WITH(make_voronoi_foam(framed(body, 2, 0.2, 0)),
                       Catch::Contains("the frame's beam radius is 0 mm"));
 }
+
+}  // namespace surface_frame_test

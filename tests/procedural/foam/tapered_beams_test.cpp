@@ -7,6 +7,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace tapered_beams_test {
+
 using namespace lamella;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("beams of one radius are not divided", "[tapered_beams]") {
     CHECK(same(made[0], {{0, 0, 0}, 0.25, {1, 2, 3}, 0.25}));
     CHECK(same(made[1], {{4, 0, 0}, 0.25, {1, 2, 3}, 0.25}));
 }
+
+}  // namespace tapered_beams_test

@@ -9,6 +9,8 @@
 #include "procedural/foam/beam_box.h"
 #include "procedural/voronoi/counter_hash.h"
 
+namespace voronoi_foam_test {
+
 using namespace lamella;
 
 namespace {
@@ -152,3 +154,5 @@ TEST_CASE("settings out of range are refused with a sentence", "[voronoi_foam]")
     CHECK_THROWS_WITH(VoronoiFoam(settings(1, 0.6)), Catch::Contains("less than 0.5 mm"));
     CHECK(make_voronoi_foam(settings(1, 0.1))->metric() == Metric::bound);
 }
+
+}  // namespace voronoi_foam_test

@@ -6,6 +6,8 @@
 #include "engine/base/error.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace attractors_test {
+
 using namespace lamella;
 using Kind = Attractor::Kind;
 
@@ -186,3 +188,5 @@ TEST_CASE("a falloff stays undefined where its distance is") {
     CHECK_THROWS_AS(make_falloff_grading(undefined, 1, 2, 0, Falloff::linear), InputError);
     CHECK_THROWS_AS(make_falloff_grading(undefined, 1, infinity, 1, Falloff::linear), InputError);
 }
+
+}  // namespace attractors_test

@@ -10,6 +10,8 @@
 #include "tests/procedural/grading/grading_checks.h"
 #include "tests/procedural/volume/scratch_folder.h"
 
+namespace attribute_grading_test {
+
 using namespace lamella;
 
 namespace {
@@ -204,3 +206,5 @@ TEST_CASE("an attribute is read from a file and scaled") {
     CHECK_THROWS_AS(make_attribute_grading(path, "red", 0, 1), InputError);
     CHECK_THROWS_AS(make_attribute_grading(AttributedMesh{}), InputError);
 }
+
+}  // namespace attribute_grading_test

@@ -7,6 +7,8 @@
 #include "engine/formula/formula_field.h"
 #include "engine/formula/formula_parser.h"
 
+namespace field_slope_test {
+
 using namespace lamella;
 
 namespace {
@@ -42,3 +44,5 @@ TEST_CASE("values that jump at the surface make no distance") {
     CHECK_THROWS_WITH(slope_at_surface(*formula("x < 1 ? -1 : 1"), box), Catch::Contains("jump"));
     CHECK_NOTHROW(slope_at_surface(*formula("z - sqrt(4 - x*x - y*y)"), box));
 }
+
+}  // namespace field_slope_test

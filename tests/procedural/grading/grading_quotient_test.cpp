@@ -7,6 +7,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace grading_quotient_test {
+
 using namespace lamella;
 
 TEST_CASE("a quotient's range encloses its numbers", "[grading_quotient]") {
@@ -32,3 +34,5 @@ TEST_CASE("a quotient's range encloses its numbers", "[grading_quotient]") {
     CHECK(half->range({dvec3(0), dvec3(9)}).hi == 5);
     CHECK(tight_range(*half, {dvec3(0), dvec3(9)}).hi < 0.51);
 }
+
+}  // namespace grading_quotient_test

@@ -8,6 +8,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/field/gradings.h"
 
+namespace region_grading_test {
+
 using namespace lamella;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_CASE("a region needs its numbers, its field and a width") {
         CHECK_THROWS_AS(make_region_grading(one, one, ball, width), InputError);
     }
 }
+
+}  // namespace region_grading_test

@@ -10,6 +10,8 @@
 #include "procedural/grading/attractors.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace table_grading_test {
+
 using namespace lamella;
 
 namespace {
@@ -144,3 +146,5 @@ TEST_CASE("text that is no table is refused with its line") {
     CHECK(message_of("0,1\n0,2\n").find("t.csv:2: positions must increase") == 0);
     CHECK(message_of("0,nan\n").find("t.csv:1: both numbers must be finite") == 0);
 }
+
+}  // namespace table_grading_test

@@ -8,6 +8,8 @@
 #include "engine/base/error.h"
 #include "tests/engine/field/gradings.h"
 
+namespace cell_octree_test {
+
 using namespace lamella;
 
 namespace {
@@ -106,3 +108,5 @@ TEST_CASE("cell sizes out of range are refused", "[cell_octree]") {
     const CellOctree octree(make_constant_grading(1e-3), region, cache);
     REQUIRE_THROWS_AS(cells_in(octree, region), InputError);
 }
+
+}  // namespace cell_octree_test

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace line_walk_test {
+
 using namespace lamella;
 
 namespace {
@@ -115,3 +117,5 @@ TEST_CASE("many lines are each walked as if alone", "[line_walk]") {
     walk_lines(Shifted(wave, 0.02, shift), 0, 0, hi * run_unit, none);
     CHECK(none.lines() == 0);
 }
+
+}  // namespace line_walk_test

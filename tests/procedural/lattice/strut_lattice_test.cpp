@@ -12,6 +12,8 @@
 #include "procedural/foam/beam_box.h"
 #include "tests/engine/field/gradings.h"
 
+namespace strut_lattice_test {
+
 using namespace lamella;
 
 namespace {
@@ -298,3 +300,5 @@ TEST_CASE("a lattice out of range is refused", "[strut_lattice]") {
     s.beam = nullptr;
     REQUIRE_THROWS_AS(StrutLattice(s), InputError);
 }
+
+}  // namespace strut_lattice_test

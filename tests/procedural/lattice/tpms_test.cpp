@@ -11,6 +11,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace tpms_test {
+
 using namespace lamella;
 
 namespace {
@@ -331,3 +333,5 @@ TEST_CASE("a periodic solid out of range is refused", "[tpms]") {
     s.thickness = std::make_shared<Linear>(0.2, dvec3(0.2, 0, 0));
     REQUIRE_NOTHROW(make_tpms(s));
 }
+
+}  // namespace tpms_test

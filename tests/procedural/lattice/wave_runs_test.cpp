@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+namespace wave_runs_test {
+
 using namespace lamella;
 
 namespace {}
@@ -55,3 +57,5 @@ TEST_CASE("a flat wave is between its levels everywhere or nowhere", "[wave_runs
     CHECK(intervals[0].lo == 2);
     CHECK(intervals[0].hi == 5);
 }
+
+}  // namespace wave_runs_test

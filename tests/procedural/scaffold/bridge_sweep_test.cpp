@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace bridge_sweep_test {
+
 using namespace lamella;
 
 namespace {
@@ -126,3 +128,5 @@ TEST_CASE("bars lie along eight directions of a half circle", "[bridge_sweep]") 
         CHECK(std::atan2(u.y, u.x) == Approx(d * 3.14159265358979323846 / 8).margin(1e-12));
     }
 }
+
+}  // namespace bridge_sweep_test

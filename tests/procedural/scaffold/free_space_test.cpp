@@ -9,6 +9,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace free_space_test {
+
 using namespace lamella;
 
 namespace {
@@ -111,3 +113,5 @@ TEST_CASE("a part without distances is felt for", "[free_space]") {
     CHECK(space.clear_from_contact({0, 0, 2}, {0, 0, -2}, 1));
     CHECK(!space.clear_from_contact({0, 0, 2}, {0, 0, 8}, 1));
 }
+
+}  // namespace free_space_test

@@ -8,6 +8,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/engine/runs/plane_runs.h"
 
+namespace scaffold_field_test {
+
 using namespace lamella;
 
 namespace {
@@ -153,3 +155,5 @@ TEST_CASE("layers of a bar and of a foot are as many as their heights have", "[s
         CHECK(length_at(layer) == Approx(expected).margin(0.01));
     }
 }
+
+}  // namespace scaffold_field_test

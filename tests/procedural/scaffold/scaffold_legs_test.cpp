@@ -7,6 +7,8 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
+namespace scaffold_legs_test {
+
 using namespace lamella;
 
 namespace {
@@ -242,3 +244,5 @@ TEST_CASE("a strut's lower side leans no more than layers can follow, whatever i
     }
     CHECK(leaning > 10);
 }
+
+}  // namespace scaffold_legs_test

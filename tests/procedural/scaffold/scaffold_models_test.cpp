@@ -11,6 +11,8 @@
 #include "tests/procedural/scaffold/part_walk.h"
 #include "tests/procedural/scaffold/scaffold_walk.h"
 
+namespace scaffold_models_test {
+
 using namespace lamella;
 
 namespace {
@@ -135,3 +137,5 @@ TEST_CASE("a model's scaffold does not depend on the number of threads", "[scaff
         CHECK(many.unheld == one.unheld);
     }
 }
+
+}  // namespace scaffold_models_test

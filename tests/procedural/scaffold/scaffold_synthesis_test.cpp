@@ -10,6 +10,8 @@
 #include "engine/solids/primitives.h"
 #include "tests/procedural/scaffold/scaffold_walk.h"
 
+namespace scaffold_synthesis_test {
+
 using namespace lamella;
 
 namespace {
@@ -280,3 +282,5 @@ TEST_CASE("a part of which signs alone are known is kept clear of", "[scaffold]"
     CHECK(scaffold.connectors.size() >= points.size() - 2);
     walk(scaffold, *part);
 }
+
+}  // namespace scaffold_synthesis_test

@@ -9,6 +9,8 @@
 #include "tests/engine/surveys/overhang_scenes.h"
 #include "tests/procedural/scaffold/part_walk.h"
 
+namespace scaffold_walk_test {
+
 using namespace lamella;
 
 namespace {
@@ -168,3 +170,5 @@ TEST_CASE("dense support fills the columns under what hangs", "[scaffold]") {
     long_bridges.free_stretch = 40;
     CHECK(DenseSupport(grid, layers, long_bridges).volume() == 0);
 }
+
+}  // namespace scaffold_walk_test

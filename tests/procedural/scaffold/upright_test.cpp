@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+namespace upright_test {
+
 using namespace lamella;
 
 namespace {
@@ -78,3 +80,5 @@ TEST_CASE("the distance to an upright piece is the way to its nearest point", "[
     CHECK(around.hi.x == Approx(1 + 0.6 * 2 + 0.8 * 0.5));
     CHECK(around.hi.y == Approx(2 + 0.8 * 2 + 0.6 * 0.5));
 }
+
+}  // namespace upright_test

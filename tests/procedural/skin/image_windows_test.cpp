@@ -10,6 +10,8 @@
 #include "engine/solids/primitives.h"
 #include "procedural/skin/raster.h"
 
+namespace image_windows_test {
+
 using namespace lamella;
 
 namespace {
@@ -235,3 +237,5 @@ TEST_CASE("no strut of a picture begins or ends nearer than the value says") {
     CHECK(far > 1000);
     CHECK(open > 500);
 }
+
+}  // namespace image_windows_test

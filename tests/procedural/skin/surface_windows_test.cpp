@@ -13,6 +13,8 @@
 #include "tests/engine/field/gradings.h"
 #include "tests/engine/solids/shapes.h"
 
+namespace surface_windows_test {
+
 using namespace lamella;
 
 namespace {
@@ -312,3 +314,5 @@ TEST_CASE("windows that cannot be are refused") {
                       Catch::Contains("larger ones"));
     CHECK_THROWS_AS(make_patterned_shell(make_shell(ball, 1), nullptr), InputError);
 }
+
+}  // namespace surface_windows_test

@@ -6,6 +6,8 @@
 
 #include "engine/base/error.h"
 
+namespace tiff_pages_test {
+
 using namespace lamella;
 
 namespace {
@@ -64,3 +66,5 @@ TEST_CASE("a chain cut off anywhere, or without an end, is refused") {
         CHECK_THROWS_AS(count(chain(3, wide, false, 0xfffffff0U)), InputError);
     }
 }
+
+}  // namespace tiff_pages_test

@@ -5,6 +5,8 @@
 
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace tiled_volume_test {
+
 using namespace lamella;
 
 namespace {
@@ -111,3 +113,5 @@ TEST_CASE("of two nearest voxels the one with the lower column, row and sheet co
     CHECK(grading->at({0.5, 0.5, 0.5}) == 11);
     CHECK(grading->at({0.5, 0.5, 0.51}) == 111);
 }
+
+}  // namespace tiled_volume_test

@@ -9,6 +9,8 @@
 #include "tests/procedural/grading/grading_checks.h"
 #include "tests/procedural/volume/scratch_folder.h"
 
+namespace volume_grading_test {
+
 using namespace lamella;
 
 namespace {
@@ -209,3 +211,5 @@ TEST_CASE("a file's own box is taken unless another is stated, and missed where 
     CHECK(message(Box{{0, 0, 0}, {2, 1, 1}}).empty());
     CHECK_THROWS_AS(make_volume_grading(volume_of<float>({2, 2, 2}, {1, 2}), box), InputError);
 }
+
+}  // namespace volume_grading_test

@@ -14,6 +14,8 @@
 #include "engine/base/error.h"
 #include "tests/procedural/volume/scratch_folder.h"
 
+namespace volume_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -442,3 +444,5 @@ TEST_CASE("an NRRD file cut off anywhere is refused, and never read as another o
         if (nrrd_message(whole.substr(0, length)).empty()) FAIL("read whole from " << length << " bytes");
     }
 }
+
+}  // namespace volume_test

@@ -15,6 +15,8 @@
 #include "tests/engine/runs/plane_runs.h"
 #include "tests/procedural/grading/grading_checks.h"
 
+namespace volumetric_model_test {
+
 using namespace lamella;
 using namespace lamella::samples;
 
@@ -392,3 +394,5 @@ TEST_CASE("no cut of a volumetric file crashes its reader", "[volumetric]") {
         attempt(zip_of(parts));
     }
 }
+
+}  // namespace volumetric_model_test

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+namespace cell_cache_test {
+
 using namespace lamella;
 
 namespace {
@@ -131,3 +133,5 @@ TEST_CASE("threads that want the same values get the same values", "[cell_cache]
     CHECK(wrong == 0);
     CHECK(cache.bytes() <= 16 * 8000);
 }
+
+}  // namespace cell_cache_test

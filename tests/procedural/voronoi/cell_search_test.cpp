@@ -8,6 +8,8 @@
 #include "procedural/foam/foam_beams.h"
 #include "tests/procedural/voronoi/graded_densities.h"
 
+namespace cell_search_test {
+
 using namespace lamella;
 
 namespace {
@@ -137,3 +139,5 @@ TEST_CASE("of two seeds in one place, the lower key has the cell", "[cell_search
     CHECK(cell.vertex_count() == 8);
     CHECK_FALSE(cell_among(seeds, 27, 5, cell));
 }
+
+}  // namespace cell_search_test

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <set>
 
+namespace counter_hash_test {
+
 using namespace lamella;
 
 TEST_CASE("every argument of the counter hash changes the number", "[counter_hash]") {
@@ -36,3 +38,5 @@ TEST_CASE("uniform draws are uniform and never 0 or 1", "[counter_hash]") {
     // Six standard deviations of a bin's count of 10,000.
     for (const int count : bins) CHECK(std::abs(count - 10000) < 570);
 }
+
+}  // namespace counter_hash_test

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace double_double_test {
+
 using namespace lamella;
 
 TEST_CASE("products and sums keep the digits that doubles drop", "[double_double]") {
@@ -23,3 +25,5 @@ TEST_CASE("products and sums keep the digits that doubles drop", "[double_double
           Approx(static_cast<double>(exact)).epsilon(1e-18));
     CHECK((third * DoubleDouble{3}).hi == 1);
 }
+
+}  // namespace double_double_test

@@ -7,6 +7,8 @@
 #include "procedural/voronoi/seed_tree.h"
 #include "tests/procedural/voronoi/graded_densities.h"
 
+namespace pair_correlation_test {
+
 using namespace lamella;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("boxes hold as many seeds as the density's integral says, to the cells
         CHECK(std::abs(surplus / boxes) < 0.01);
     }
 }
+
+}  // namespace pair_correlation_test

@@ -9,6 +9,8 @@
 #include "engine/base/error.h"
 #include "tests/procedural/voronoi/graded_densities.h"
 
+namespace seed_tree_test {
+
 using namespace lamella;
 
 namespace {
@@ -157,3 +159,5 @@ TEST_CASE("impossible densities and sides are refused", "[seed_tree]") {
     CHECK_THROWS_AS(SeedTree(one, 1.0, 1).block_index({1e9, 0, 0}), InputError);
     CHECK_THROWS_AS(SeedTree(one, 1.0, 1).block_index({std::nan(""), 0, 0}), InputError);
 }
+
+}  // namespace seed_tree_test

@@ -7,6 +7,8 @@
 
 #include "procedural/voronoi/counter_hash.h"
 
+namespace voronoi_cell_test {
+
 using namespace lamella;
 
 namespace {
@@ -146,3 +148,5 @@ TEST_CASE("planes that nearly tie keep the cell a polytope", "[voronoi_cell]") {
         }
     }
 }
+
+}  // namespace voronoi_cell_test

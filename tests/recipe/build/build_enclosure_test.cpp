@@ -6,6 +6,8 @@
 #include "recipe/build/build_supports.h"
 #include "tests/app/commands/recipes.h"
 
+namespace build_enclosure_test {
+
 using namespace lamella;
 
 namespace {
@@ -123,3 +125,5 @@ TEST_CASE("cavities and shields are refused where they make no sense", "[enclosu
                  "a shield is not cut out of sheets"));
     CHECK(mentions(complaint_about(box + "[cavity]\nwall = 3\npitch = 50\n"), "[cavity]: "));
 }
+
+}  // namespace build_enclosure_test

@@ -10,6 +10,8 @@
 #include "tests/engine/runs/plane_runs.h"
 #include "tests/procedural/volume/scratch_folder.h"
 
+namespace build_fields_test {
+
 using namespace lamella;
 
 namespace {
@@ -139,3 +141,5 @@ TEST_CASE("keys that a kind of field does not have, or lacks, are named") {
     CHECK(mentions(complaint(begin + "kind = \"mesh\"\nfile = \"models/none.stl\"\n"), "none.stl"));
     CHECK(mentions(complaint(begin + "kind = \"ball\"\n"), "accepted: one of formula, vm, mesh, 3mf"));
 }
+
+}  // namespace build_fields_test

@@ -7,6 +7,8 @@
 #include "app/reports/grading_report.h"
 #include "tests/app/commands/recipes.h"
 
+namespace build_foam_test {
+
 using namespace lamella;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("stretches that a kind does not take are refused by their key") {
                    "foam.stretch (z): 50 % of the part has no number"));
     CHECK(mentions(complaint("kind = \"closed\"\n"), "foam.wall: missing, kind closed needs it"));
 }
+
+}  // namespace build_foam_test

@@ -17,6 +17,8 @@
 #include "recipe/recipe_draft.h"
 #include "tests/engine/io/implicit_samples.h"
 
+namespace build_gradings_test {
+
 using namespace lamella;
 
 namespace {
@@ -247,3 +249,5 @@ TEST_CASE("the identity follows formulas, gradings and the bytes of their files"
     csv.write("0,2\n40,5\n");
     CHECK(job_identity(recipe) == before);
 }
+
+}  // namespace build_gradings_test

@@ -6,6 +6,8 @@
 
 #include "tests/app/commands/recipes.h"
 
+namespace build_job_test {
+
 using namespace lamella;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("the pitch of the survey is a third of the thinnest beam's radius or t
         build_job(recipe_of("[part]\nshape = \"sphere\"\nradius = 1\n[layers]\nheight = 0.005\n"));
     CHECK_NOTHROW(drop_islands(recipe_of("[part]\nshape = \"sphere\"\nradius = 1\n"), thin_layers, {}));
 }
+
+}  // namespace build_job_test

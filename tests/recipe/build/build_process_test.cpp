@@ -6,6 +6,8 @@
 #include "recipe/identity.h"
 #include "tests/app/commands/recipes.h"
 
+namespace build_process_test {
+
 using namespace lamella;
 
 namespace {
@@ -179,3 +181,5 @@ TEST_CASE("a process that cannot be is refused with the key and what is accepted
         CHECK(mentions(error.what(), "test.toml:7: skin.thickness: this shape has no exact 3D offset"));
     }
 }
+
+}  // namespace build_process_test

@@ -12,6 +12,8 @@
 #include "tests/app/commands/recipes.h"
 #include "tests/engine/runs/plane_runs.h"
 
+namespace build_regions_test {
+
 using namespace lamella;
 
 namespace {
@@ -259,3 +261,5 @@ TEST_CASE("the foam alone, without its part, has the region's numbers too") {
     CHECK(foam.cell.made->at({2, 1, 0}) == 1.3);
     CHECK(foam.cell.made->at({7, 7, 7}) == 2.4);
 }
+
+}  // namespace build_regions_test

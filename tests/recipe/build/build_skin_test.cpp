@@ -8,6 +8,8 @@
 #include "recipe/identity.h"
 #include "tests/app/commands/recipes.h"
 
+namespace build_skin_test {
+
 using namespace lamella;
 
 namespace {
@@ -184,3 +186,5 @@ TEST_CASE("windows, holes and drains change a job's identity") {
         for (std::size_t j = 0; j < i; ++j) CHECK(all[i] != all[j]);
     }
 }
+
+}  // namespace build_skin_test

@@ -15,6 +15,8 @@
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/folder.h"
 
+namespace foam_modulus_test {
+
 using namespace lamella;
 using Json = nlohmann::json;
 
@@ -328,3 +330,5 @@ TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity]"
         CHECK(found == Approx(asked).epsilon(0.15));
     }
 }
+
+}  // namespace foam_modulus_test

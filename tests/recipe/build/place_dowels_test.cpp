@@ -6,6 +6,8 @@
 #include "recipe/build/build_job.h"
 #include "tests/app/commands/recipes.h"
 
+namespace place_dowels_test {
+
 using namespace lamella;
 
 namespace {
@@ -93,3 +95,5 @@ TEST_CASE("a recipe cannot ask for supports cut out of sheets") {
     CHECK_THAT(complaint(supports + "kerf = 0.1\n"),
                Catch::Contains("support.kind") && Catch::Contains("not cut"));
 }
+
+}  // namespace place_dowels_test

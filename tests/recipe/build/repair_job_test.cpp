@@ -7,6 +7,8 @@
 #include "recipe/identity.h"
 #include "tests/app/commands/recipes.h"
 
+namespace repair_job_test {
+
 using namespace lamella;
 
 namespace {
@@ -94,3 +96,5 @@ TEST_CASE("repairs that make no sense are refused", "[repair]") {
     CHECK_THAT(complaint_about(foam + "[repair]\nthickness = -1\n"), Catch::Contains("repair.thickness"));
     CHECK_THAT(complaint_about(foam + "[repair]\nholes = 1\n"), Catch::Contains("holes"));
 }
+
+}  // namespace repair_job_test

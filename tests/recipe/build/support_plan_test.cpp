@@ -16,6 +16,8 @@
 #include "recipe/identity.h"
 #include "tests/app/commands/folder.h"
 
+namespace support_plan_test {
+
 using namespace lamella;
 namespace fs = std::filesystem;
 
@@ -326,3 +328,5 @@ TEST_CASE("plans are kept in the user's cache") {
     CHECK(folder_with(nullptr, nullptr).empty());
     CHECK(folder_with("", "").empty());
 }
+
+}  // namespace support_plan_test

@@ -7,6 +7,8 @@
 #include "recipe/settings.h"
 #include "tests/app/commands/recipes.h"
 
+namespace support_settings_test {
+
 using namespace lamella;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("supports that cannot be are refused with the key and what is accepted
     // Where no supports are made, their numbers may be what they like.
     CHECK(complaint(marlin + "kind = \"none\"\ntip = 3\n").empty());
 }
+
+}  // namespace support_settings_test

@@ -6,6 +6,8 @@
 
 #include "engine/solids/primitives.h"
 
+namespace preview_render_test {
+
 using namespace lamella;
 
 namespace {
@@ -164,3 +166,5 @@ TEST_CASE("a picture does not change with the number of threads", "[preview]") {
     options.threads = 3;
     CHECK(render_preview(make_box(slab), make_box(wall), whole, options).rgb == one.rgb);
 }
+
+}  // namespace preview_render_test
