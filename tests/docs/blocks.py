@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -94,8 +95,14 @@ class Scratch:
     def run(self, command, file):
         (self.folder / file).write_text(command)
         environment = dict(os.environ, PATH=f"{self.folder / 'bin'}:{os.environ['PATH']}")
-        return subprocess.run(["bash", "-e", file], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=BLOCK_TIMEOUT)
+        with subprocess.Popen(["bash", "-e", file], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              start_new_session=True) as process:
+            try:
+                return process.communicate(timeout=BLOCK_TIMEOUT)[0], process.returncode
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)  # and what it has started
+                raise
 
     def remove(self):
         shutil.rmtree(self.folder)
@@ -110,13 +117,13 @@ def run_block(scratch, block, number):
         (scratch.folder / name).write_text(block.text)
         command = f"lamella info {name}\n"
     try:
-        done = scratch.run(command, f".block_{number}.sh")
+        output, status = scratch.run(command, f".block_{number}.sh")
     except subprocess.TimeoutExpired:
         return f"not done after {BLOCK_TIMEOUT} s"
-    if done.returncode == expected:
+    if status == expected:
         return ""
-    last = "\n".join("    " + line for line in (done.stdout + done.stderr).strip().split("\n")[-12:])
-    return f"exit code {done.returncode} instead of {expected}\n{last}"
+    last = "\n".join("    " + line for line in output.strip().split("\n")[-12:])
+    return f"exit code {status} instead of {expected}\n{last}"
 
 
 def is_run(block):
