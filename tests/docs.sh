@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the documentation: runs its commands and recipes, follows its links, and measures its pages.
-# Usage: tests/docs.sh [lamella binary, default build/release/lamella] [pages, default README.md and all docs/**/*.md]
+# Usage: tests/docs.sh [lamella binary, default build/release/lamella] [pages, default *.md and all docs/**/*.md]
 #
 # Blocks are marked by the words behind the fence:
 #   ```sh                    runs with `set -e`, in a scratch folder of its page that looks like the repository's root

@@ -175,7 +175,7 @@ def main():
     if not os.access(lamella, os.X_OK):
         sys.exit(f"{lamella} is no program; build it, or name another one")
     pages = [pathlib.Path(page).resolve() for page in sys.argv[2:]]
-    pages = pages or [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    pages = pages or [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
     checker = Checker(lamella)
     for page in pages:
         checker.check(page)
