@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks the documentation: runs its commands and recipes, follows its links, and measures its pages.
+# Checks the documentation: runs its commands and recipes, follows its links, looks for the sources that it names, and
+# measures its pages.
 # Usage: tests/docs.sh [lamella binary, default build/release/lamella] [pages, default *.md and all docs/**/*.md]
 #
 # Blocks are marked by the words behind the fence:

@@ -17,6 +17,8 @@ BLOCK_TIMEOUT = 120  # s
 GENERATED = {ROOT / "docs/reference/recipe.md", ROOT / "docs/reference/cli.md"}
 REASON = re.compile(r"<!-- not run: (.+) -->")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+FOLDERS = "app|bindings|cmake|docs|engine|examples|materials|printers|procedural|recipe|tests"
+SOURCE = re.compile(rf"`((?:{FOLDERS})/[\w./-]+)`")
 
 
 @dataclass
@@ -63,7 +65,7 @@ def anchors_of(page):
 
 
 def broken_links(page, prose):
-    """(line, message) of each link inside the repository that leads nowhere."""
+    """(line, message) of each link inside the repository that leads nowhere, and of each path in `` that does not exist."""
     found = []
     for number, line in prose:
         for target in LINK.findall(re.sub(r"`[^`]*`", "", line)):
@@ -77,6 +79,12 @@ def broken_links(page, prose):
                 found.append((number, f"the link {target} leads to no file"))
             elif anchor and path.suffix == ".md" and anchor not in anchors_of(path):
                 found.append((number, f"the link {target} leads to no heading"))
+        if page.name == "CHANGELOG.md":
+            continue  # names what is no more
+        for source in SOURCE.findall(line):
+            path = ROOT / source
+            if not path.exists() and path not in GENERATED:
+                found.append((number, f"there is no {source}"))
     return found
 
 
