@@ -65,7 +65,7 @@ def anchors_of(page):
 
 
 def broken_links(page, prose):
-    """(line, message) of each link inside the repository that leads nowhere, and of each path in `` that does not exist."""
+    """(line, message) of each link inside the repository that leads nowhere, and of each source that does not exist."""
     found = []
     for number, line in prose:
         for target in LINK.findall(re.sub(r"`[^`]*`", "", line)):
