@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/gallery.png: a picture of every recipe in this folder, cut open as its header says, in one sheet.
+# Makes docs/pictures/gallery.png: a picture of every recipe in this folder, cut open as its header says, in one sheet.
 # Pictures that are newer than their recipe are kept in out/gallery. Needs imagemagick and
 # fonts-dejavu-core (or FONT=file.ttf).
 # Usage: bash examples/gallery.sh [lamella command, default build/quickstart/lamella]
@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 lamella=${1:-build/quickstart/lamella}
 pictures=out/gallery
-sheet=docs/gallery.png
+sheet=docs/pictures/gallery.png
 tile=270  # px
 font=${FONT:-/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf}
 

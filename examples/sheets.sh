@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/sheets.png: the first board of the plywood koala, its strokes widened to be seen.
+# Makes docs/pictures/sheets.png: the first board of the plywood koala, its strokes widened to be seen.
 # Needs librsvg2-bin and imagemagick.
 # Usage: bash examples/sheets.sh [lamella command, default build/quickstart/lamella]
 set -euo pipefail
@@ -9,4 +9,4 @@ mkdir -p out
 "$lamella" slice examples/plywood_koala.toml -o out/plywood_koala --force
 sed 's/stroke-width="0.01"/stroke-width="0.9"/' out/plywood_koala/sheet_001.svg |
     rsvg-convert --width 1200 --background-color white --output out/sheet.png /dev/stdin
-convert out/sheet.png -trim +repage -bordercolor white -border 8 +dither -colors 32 -strip png8:docs/sheets.png
+convert out/sheet.png -trim +repage -bordercolor white -border 8 +dither -colors 32 -strip png8:docs/pictures/sheets.png

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/skins.png: one model with a closed skin, a frame, Voronoi windows and a picture's, side by side.
+# Makes docs/pictures/skins.png: one model with a closed skin, a frame, Voronoi windows and a picture's, side by side.
 # Needs imagemagick and fonts-dejavu-core (or FONT=file.ttf).
 # Usage: bash examples/skins.sh [lamella command, default build/quickstart/lamella]
 set -euo pipefail
@@ -19,4 +19,4 @@ view picture $koala --skin 1.2 --skin-pattern image --skin-image examples/inputs
 montage -label "closed skin over foam" $pictures/shell.png -label "frame that the foam grows out of" \
     $pictures/frame.png -label "Voronoi windows" $pictures/windows.png -label "windows from a picture" \
     $pictures/picture.png -geometry 440x440+5+5 -tile 2x -background white -fill '#333333' -font "$font" \
-    -pointsize 18 -strip miff:- | convert miff:- +dither -colors 200 -strip png8:docs/skins.png
+    -pointsize 18 -strip miff:- | convert miff:- +dither -colors 200 -strip png8:docs/pictures/skins.png
