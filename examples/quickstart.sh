@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 out=${1:-out}
 
 bash cmake/install_packages.sh cmake/packages-build.txt
-echo "Building the lamella command (ten to twenty minutes on two cores the first time)"
+echo "Building the lamella command (three to six minutes on two cores the first time)"
 cmake -S . -B build/quickstart -G Ninja -DCMAKE_BUILD_TYPE=Release -DLAMELLA_TESTS=OFF >/dev/null
 build=(cmake --build build/quickstart --target lamella_command)
 [ -t 1 ] || build+=(-- --quiet)  # a terminal shows in one line how far it is
