@@ -15,8 +15,8 @@ void find_place(lamella_context& context) {
     for (std::size_t colon = first.find(':'); colon != std::string::npos;
          colon = first.find(':', colon + 1)) {
         const std::size_t begin = colon + 1, end = first.find_first_not_of("0123456789", begin);
-        constexpr std::size_t most_digits = 9;
-        if (end == std::string::npos || end == begin || end - begin > most_digits || first[end] != ':')
+        constexpr std::size_t max_digits = 9;
+        if (end == std::string::npos || end == begin || end - begin > max_digits || first[end] != ':')
             continue;
         context.path = first.substr(0, colon);
         context.line = std::stoi(first.substr(begin, end - begin));

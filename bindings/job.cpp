@@ -46,7 +46,7 @@ Job finished(const Recipe& recipe, const lamella_build_options& options) {
     finish.threads = options.threads;
     finish.on_progress = progress_to(options.progress, options.user);
     finish.cancel = options.cancel ? &options.cancel->token : nullptr;
-    const Surroundings around = finish_job(recipe, built, finish);
+    const SupportStructures around = finish_job(recipe, built, finish);
     add_picture(recipe, built, around.supports, options.threads);
     if (recipe.plate.copies == 1) return std::move(built.job);
     const PlateItem item{built.job, recipe.plate.copies};

@@ -80,12 +80,12 @@ RowBand band_of(const lamella_raster& raster, int first, int count) {
 }
 
 lamella_raster raster_of(const lamella_raster* given) {
-    constexpr int most_pixels = 1 << 21, most_lines = 64;
+    constexpr int max_pixels = 1 << 21, max_lines = 64;
     const lamella_raster raster = taken(given, "raster");
-    if (raster.columns < 1 || raster.columns > most_pixels || raster.rows < 1 || raster.rows > most_pixels)
-        throw BadCall(fmt::format("raster: columns and rows must be from 1 to {}", most_pixels));
-    if (raster.lines < 0 || raster.lines > most_lines)
-        throw BadCall(fmt::format("raster: lines must be from 0 to {}", most_lines));
+    if (raster.columns < 1 || raster.columns > max_pixels || raster.rows < 1 || raster.rows > max_pixels)
+        throw BadCall(fmt::format("raster: columns and rows must be from 1 to {}", max_pixels));
+    if (raster.lines < 0 || raster.lines > max_lines)
+        throw BadCall(fmt::format("raster: lines must be from 0 to {}", max_lines));
     const auto fits = [](double pitch) { return std::isfinite(pitch) && pitch != 0; };
     if (!fits(raster.pitch_x) || !fits(raster.pitch_y) || !std::isfinite(raster.x + raster.y))
         throw BadCall("raster: its place must be finite, its pitches neither 0 nor infinite");

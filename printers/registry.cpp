@@ -24,34 +24,34 @@ namespace lamella {
 namespace {
 
 dvec3 room_under_display(const PrinterProfile& profile, double /*layer_height*/) {
-    return {display_room(profile.image), infinity};
+    return {display_area_limits(profile.image), infinity};
 }
 
 constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
-                make_png_stack, Medium::pixels, true, nullptr, room_under_display},
+                make_png_stack, LayerContent::pixels, true, nullptr, room_under_display},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
-                OutputKind::file, make_sl1, Medium::pixels, true, nullptr, room_under_display},
+                OutputKind::file, make_sl1, LayerContent::pixels, true, nullptr, room_under_display},
     BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo,
-                Medium::pixels, false, nullptr, room_under_display},
+                LayerContent::pixels, false, nullptr, room_under_display},
     BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
-                OutputKind::file, make_nanodlp, Medium::pixels, true, nullptr, room_under_display},
+                OutputKind::file, make_nanodlp, LayerContent::pixels, true, nullptr, room_under_display},
     BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file,
-                make_ember, Medium::pixels, true, nullptr, room_under_display},
+                make_ember, LayerContent::pixels, true, nullptr, room_under_display},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
-                OutputKind::file_or_folder, make_svg, Medium::contours, true},
+                OutputKind::file_or_folder, make_svg, LayerContent::contours, true},
     BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
-                make_dxf, Medium::contours},
+                make_dxf, LayerContent::contours},
     BackendInfo{"gcode", "G-code for filament printers, and for lasers under GRBL", ".gcode",
-                OutputKind::file, make_gcode, Medium::beads, true, nullptr, gcode_room},
+                OutputKind::file, make_gcode, LayerContent::beads, true, nullptr, gcode_room},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
-                OutputKind::file, make_cli, Medium::contours, true},
+                OutputKind::file, make_cli, LayerContent::contours, true},
     BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
-                make_slice_3mf, Medium::contours, true,
+                make_slice_3mf, LayerContent::contours, true,
                 "programs that do not know 3MF slices show a plain box instead of the part, most of them "
                 "without a word"},
     BackendInfo{"image3d", "grey sheets as an image stack in a 3MF package, for programs that read volumes",
-                ".3mf", OutputKind::file, make_image3d, Medium::voxels, true,
+                ".3mf", OutputKind::file, make_image3d, LayerContent::voxels, true,
                 "programs that do not know 3MF volumes refuse the file or show a plain box"},
 };
 
@@ -74,7 +74,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::span<const BackendInfo> backends() { return backend_table; }
 
-SupportProfile usual_supports(std::string_view backend) {
+SupportProfile default_supports(std::string_view backend) {
     SupportProfile support;
     constexpr std::array resin{"png", "sl1", "goo", "nanodlp", "ember"};
     if (std::ranges::find(resin, backend) == resin.end()) return support;
@@ -94,7 +94,7 @@ SupportProfile usual_supports(std::string_view backend) {
     return support;
 }
 
-dvec3 build_room(const PrinterProfile& profile, double layer_height) {
+dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height) {
     const auto room = find_backend(profile.backend).room;
     return room != nullptr ? room(profile, layer_height) : dvec3(infinity);
 }

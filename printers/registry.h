@@ -15,7 +15,7 @@ namespace lamella {
 enum class OutputKind : unsigned char { file, folder, file_or_folder };
 
 /// What a back-end makes of a layer: pixels of a display, those of a grid about the part, contours or beads.
-enum class Medium : unsigned char { pixels, voxels, contours, beads };
+enum class LayerContent : unsigned char { pixels, voxels, contours, beads };
 
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend
@@ -23,7 +23,7 @@ struct BackendInfo {
     const char* endings;  ///< of its files, with their dots, separated by spaces; the first is the usual one
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
-    Medium medium = Medium::pixels;
+    LayerContent medium = LayerContent::pixels;
     bool streams = false;           ///< writes to standard output as well
     const char* warning = nullptr;  ///< what whoever gets such an output should know
     /// What its machine has room for at this height of layers, mm; null where that is not known.
@@ -35,11 +35,11 @@ std::span<const BackendInfo> backends();
 
 /// Supports as a back-end's machines need them where nothing else is known. Resin is peeled off layer by
 /// layer and cannot span a void: more points, thick round pillars, large feet, and tips that break off.
-SupportProfile usual_supports(std::string_view backend);
+SupportProfile default_supports(std::string_view backend);
 
 /// Width, depth and height of what a profile's machine has room for at this height of layers, as its
 /// back-end takes it, mm; infinite where that is not known.
-dvec3 build_room(const PrinterProfile& profile, double layer_height);
+dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height);
 
 /// Throws InputError, with the nearest known name, when there is none of this name.
 const BackendInfo& find_backend(std::string_view name);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_files = 10'000;
+constexpr std::size_t max_files = 10'000;
 constexpr std::size_t longest_chain = 16;
 constexpr std::string_view ending = ".toml";
 
@@ -28,7 +28,7 @@ MachineProfile plain(const std::string& backend) {
     MachineProfile profile;
     profile.printer.name = backend;
     profile.printer.backend = backend;
-    profile.printer.support = usual_supports(backend);
+    profile.printer.support = default_supports(backend);
     profile.description = find_backend(backend).description;
     profile.source = "back-end";
     return profile;
@@ -68,8 +68,8 @@ void MachineProfiles::add_folder(const std::string& folder, bool must_exist) {
         const fs::path& path = entry.path();
         if (path.extension() != ending || path.stem().empty() || entry.is_directory(error)) continue;
         found.push_back({path.stem().string(), path.string(), {}});
-        if (found.size() > most_files) {
-            throw InputError(fmt::format("{}: has more than {} profiles", folder, most_files));
+        if (found.size() > max_files) {
+            throw InputError(fmt::format("{}: has more than {} profiles", folder, max_files));
         }
     }
     if (error) throw InputError(folder + ": cannot be read: " + error.message());

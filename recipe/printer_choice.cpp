@@ -18,25 +18,25 @@ namespace {
 /// What can be made on the machine.
 std::string size_of(const PrinterProfile& p) {
     switch (find_backend(p.backend).medium) {
-        case Medium::pixels:
+        case LayerContent::pixels:
             return fmt::format("{} x {} px, {:.6g} x {:.6g} mm{}", p.image.width, p.image.height,
                                p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
                                p.image.portrait ? ", portrait" : "");
-        case Medium::beads:
+        case LayerContent::beads:
             if (p.gcode.flavour == Flavour::grbl)
                 return fmt::format("{:.6g} x {:.6g} mm", p.filament.bed_x, p.filament.bed_y);
             return fmt::format("{:.6g} x {:.6g} x {:.6g} mm, nozzle {:.6g} mm", p.filament.bed_x,
                                p.filament.bed_y, p.filament.bed_z, p.filament.nozzle);
-        case Medium::voxels:
+        case LayerContent::voxels:
             return fmt::format("pixels of {:.6g} x {:.6g} mm", p.image.pixel_x, p.image.pixel_y);
-        case Medium::contours:
+        case LayerContent::contours:
             return "contours in mm";
     }
     return "";
 }
 
 std::string pixel_of(const PrinterProfile& p) {
-    if (find_backend(p.backend).medium != Medium::pixels) return "";
+    if (find_backend(p.backend).medium != LayerContent::pixels) return "";
     const auto um = [](double mm) { return fmt::format("{:.4g}", mm * 1000); };
     return p.image.pixel_x == p.image.pixel_y ? um(p.image.pixel_x) + " um"
                                               : um(p.image.pixel_x) + " x " + um(p.image.pixel_y) + " um";
@@ -109,12 +109,12 @@ std::vector<std::string> backend_words() {
 dvec2 plate_size(const PrinterProfile& printer) {
     const ImageProfile& image = printer.image;
     switch (find_backend(printer.backend).medium) {
-        case Medium::pixels:
+        case LayerContent::pixels:
             return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
-        case Medium::beads:
+        case LayerContent::beads:
             return {printer.filament.bed_x, printer.filament.bed_y};
-        case Medium::voxels:
-        case Medium::contours:
+        case LayerContent::voxels:
+        case LayerContent::contours:
             break;
     }
     return {infinity, infinity};

@@ -271,7 +271,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
                               "above 0 with it",
                               layers->where));
     }
-    check_shape({"part", 0}, words(part.shape)[static_cast<std::size_t>(part.shape)], part);
+    check_shape({"part", 0}, choice_names(part.shape)[static_cast<std::size_t>(part.shape)], part);
     for (std::size_t i = 0; i < recipe.fields.size(); ++i) {
         check_shape({"field", i}, recipe.fields[i].kind, recipe.fields[i]);
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_text = 4096;
 constexpr std::size_t longest_formula = 1 << 16;
 constexpr std::size_t longest_script = 1 << 16;
-constexpr std::size_t most_rows = 1 << 16;
+constexpr std::size_t max_rows = 1 << 16;
 
 std::string with_unit(const Setting& setting) { return setting.unit.empty() ? "" : " " + setting.unit; }
 
@@ -75,7 +75,7 @@ std::optional<std::string> graded_objection(const Setting& setting, const Graded
 std::optional<std::string> rows_objection(const Setting& setting, const NumberRows& rows) {
     const RowShape& shape = setting.shape;
     if (rows.empty()) return "it is empty";
-    if (rows.size() > most_rows) return fmt::format("it has more than {} rows", most_rows);
+    if (rows.size() > max_rows) return fmt::format("it has more than {} rows", max_rows);
     if (shape.rows != 0 && rows.size() != shape.rows) {
         return fmt::format("{} were found where {} belong", rows.size(), shape.rows);
     }
@@ -134,7 +134,7 @@ std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
 /// Rows with semicolons between them.
 std::optional<NumberRows> parse_rows(std::string_view text, std::size_t columns) {
     NumberRows rows;
-    while (rows.size() <= most_rows) {
+    while (rows.size() <= max_rows) {
         const std::size_t end = text.find(';');
         auto row = parse_numbers(text.substr(0, end), columns);
         if (!row) return std::nullopt;

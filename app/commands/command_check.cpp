@@ -10,8 +10,8 @@
 #include "app/console/interrupt.h"
 #include "app/console/progress.h"
 #include "app/console/text_output.h"
+#include "app/ranks/distribute_layers.h"
 #include "app/ranks/run_on_ranks.h"
-#include "app/ranks/spread_layers.h"
 #include "app/reports/check_outputs.h"
 #include "app/reports/check_page.h"
 
@@ -73,7 +73,7 @@ std::string run(const CheckCommand& options, Ranks* ranks) {
 }
 
 /// What a process does that is not the first of several.
-void help(const CheckCommand& given, Ranks& ranks) {
+void run_worker(const CheckCommand& given, Ranks& ranks) {
     CheckCommand options = given;
     options.quiet = true;
     CancelToken cancel;
@@ -112,7 +112,7 @@ void add_check_command(CLI::App& root) {
         "Exit code 1 when something fails; warnings alone are 0.");
     command.callback([options] {
         run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
-                     [&](Ranks& ranks) { help(*options, ranks); });
+                     [&](Ranks& ranks) { run_worker(*options, ranks); });
     });
 }
 

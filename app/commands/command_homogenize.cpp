@@ -11,8 +11,8 @@
 #include "app/console/interrupt.h"
 #include "app/console/progress.h"
 #include "app/console/text_output.h"
+#include "app/ranks/distribute_solves.h"
 #include "app/ranks/run_on_ranks.h"
-#include "app/ranks/spread_solves.h"
 #include "app/reports/stiffness_plot.h"
 #include "app/reports/stiffness_report.h"
 #include "engine/base/error.h"
@@ -38,10 +38,10 @@ struct HomogenizeCommand {
 };
 
 /// From beams that hardly print to those that leave little void.
-const std::vector<double> usual_ratios{0.03, 0.04, 0.055, 0.075, 0.1, 0.14, 0.19, 0.26};
+const std::vector<double> default_ratios{0.03, 0.04, 0.055, 0.075, 0.1, 0.14, 0.19, 0.26};
 
 std::vector<double> ratios_of(const std::string& text) {
-    if (text.empty()) return usual_ratios;
+    if (text.empty()) return default_ratios;
     const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
     const auto ratios = parse_numbers(text, count);
     if (!ratios || !std::ranges::is_sorted(*ratios, std::ranges::less_equal{}) || ratios->front() < 1e-3 ||
@@ -95,7 +95,7 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
 }
 
 /// Writes a law, each point as soon as it is known.
-void write_table(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+void write_table(const HomogenizeCommand& command, const Homogenizing& plan, DistributedSolves& solves,
                  TextOutput& out) {
     const std::string name = law_name(*plan.recipe.foam);
     const std::vector<double>& ratios = plan.ratios;
@@ -112,7 +112,7 @@ void write_table(const HomogenizeCommand& command, const Homogenizing& plan, Spr
     draw(command, plot);
 }
 
-void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan, SpreadSolves& solves,
+void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan, DistributedSolves& solves,
                      TextOutput& out) {
     const FoamRecipe& foam = *plan.recipe.foam;
     const IsotropicMaterial& material = plan.options.material;
@@ -138,14 +138,14 @@ void run(const HomogenizeCommand& command, Ranks* ranks) {
     const InterruptGuard guard(cancel);
     const Homogenizing plan = planned(command, cancel);
     TextOutput out(command.output);
-    SpreadSolves solves(ranks, plan.recipe, plan.solves, plan.options);
+    DistributedSolves solves(ranks, plan.recipe, plan.solves, plan.options);
     (command.table ? write_table : write_stiffness)(command, plan, solves, out);
     solves.finish();
     out.close();
 }
 
 /// What a process does that is not the first of several.
-void help(const HomogenizeCommand& command, Ranks& ranks) {
+void run_worker(const HomogenizeCommand& command, Ranks& ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Homogenizing plan = planned(command, cancel);
@@ -203,7 +203,7 @@ void add_homogenize_command(CLI::App& root) {
         "busy.");
     command.callback([options] {
         const auto lead = [&](Ranks* ranks) { return run(*options, ranks), std::string(); };
-        run_on_ranks(lead, [&](Ranks& ranks) { help(*options, ranks); });
+        run_on_ranks(lead, [&](Ranks& ranks) { run_worker(*options, ranks); });
     });
 }
 

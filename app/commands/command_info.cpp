@@ -108,7 +108,7 @@ Json regions_json(const Recipe& recipe, const BuiltRegions& regions) {
     for (std::size_t i = 0; i < regions.list.size(); ++i) {
         const RegionRecipe& region = recipe.regions[i];
         json.push_back({{"field", region.field},
-                        {"make", words(region.make)[static_cast<std::size_t>(region.make)]},
+                        {"make", choice_names(region.make)[static_cast<std::size_t>(region.make)]},
                         {"blend_mm", region.blend}});
         for (const RegionNumber& given : numbers_of(region))
             json.back()[given.key] = graded_json(*given.number);
@@ -277,7 +277,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
 }
 
-/// Facts and areas of a finished job.
+/// SettingSpec and areas of a finished job.
 void run_job(const InfoOptions& options, const JobFile& job) {
     const AreaSummary areas = measure_areas(job, options.threads, isatty(STDERR_FILENO) == 0);
     TextOutput out("");

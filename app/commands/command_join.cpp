@@ -12,7 +12,7 @@
 #include "printers/archive/shard_file.h"
 #include "printers/common/carried_layers.h"
 #include "recipe/output/outputs.h"
-#include "recipe/output/render_alone.h"
+#include "recipe/output/render_only.h"
 
 namespace lamella {
 

@@ -71,7 +71,7 @@ void run(PreviewCommand& options) {
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     if (options.paint == "modulus") paint_modulus(built, options);
-    const Surroundings around = finish_job(recipe, built, {});
+    const SupportStructures around = finish_job(recipe, built, {});
     save(render_job(recipe, built, around.supports, options.picture), path);
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

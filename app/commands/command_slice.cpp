@@ -12,8 +12,8 @@
 #include "app/console/interrupt.h"
 #include "app/console/progress.h"
 #include "app/console/text_output.h"
+#include "app/ranks/distribute_layers.h"
 #include "app/ranks/run_on_ranks.h"
-#include "app/ranks/spread_layers.h"
 #include "app/reports/check_outputs.h"
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
@@ -26,7 +26,7 @@
 #include "recipe/build/repair_job.h"
 #include "recipe/output/beam_output.h"
 #include "recipe/output/outputs.h"
-#include "recipe/output/render_alone.h"
+#include "recipe/output/render_only.h"
 
 namespace lamella {
 
@@ -235,7 +235,7 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
 }
 
 /// What a process does that is not the first of several. What is wrong, the first one finds out as well.
-void help(const SliceOptions& given, Ranks& ranks) {
+void run_worker(const SliceOptions& given, Ranks& ranks) {
     SliceOptions options = given;
     options.quiet = true;
     CancelToken cancel;
@@ -300,7 +300,7 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
         "Ctrl-C stops cleanly; the same command with --resume goes on.");
     command.callback([options] {
         run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
-                     [&](Ranks& ranks) { help(*options, ranks); });
+                     [&](Ranks& ranks) { run_worker(*options, ranks); });
     });
 }
 

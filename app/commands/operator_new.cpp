@@ -19,7 +19,7 @@ lamella::LargeBlocks& large_blocks() {
 }  // namespace
 
 void* operator new(std::size_t bytes) {
-    if (bytes >= lamella::LargeBlocks::least_bytes) {
+    if (bytes >= lamella::LargeBlocks::min_bytes) {
         if (void* block = large_blocks().allocate(bytes)) return block;
     }
     if (void* block = std::malloc(bytes == 0 ? 1 : bytes)) return block;

@@ -54,7 +54,7 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
 
 }  // namespace
 
-Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
+SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
                                   const CancelToken& cancel) {
     std::optional<ProgressDisplay> display;
     std::string shown;
@@ -63,7 +63,7 @@ Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const J
         shown = what;
         display->show(progress);
     };
-    Surroundings around = finish_job(recipe, built, {options.plans, options.threads, show, &cancel});
+    SupportStructures around = finish_job(recipe, built, {options.plans, options.threads, show, &cancel});
     display.reset();
     if (options.quiet) return around;
     if (built.islands && recipe.foam && recipe.foam->drop_islands)
@@ -110,7 +110,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     std::vector<Recipe> others = read_beside(options, recipe);
     // Surveys take time: what is wrong should be known before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
-    const Surroundings around = finish_with_progress(recipe, built, options, cancel);
+    const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
     if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;

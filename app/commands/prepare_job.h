@@ -39,7 +39,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
 
 /// Finishes a built job, with the progress of its surveys and what they led to on standard error unless
 /// quiet.
-Surroundings finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
+SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
                                   const CancelToken& cancel);
 
 /// The command line that continues this run.

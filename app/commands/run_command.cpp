@@ -3,7 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/recipe_options.h"
-#include "app/console/complaint.h"
+#include "app/console/error_report.h"
 #include "app/console/text_output.h"
 
 namespace lamella {
@@ -37,8 +37,8 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
     } catch (const CLI::ParseError& error) {
         const CLI::App& command = chosen(root);
         const std::string name = &command == &root ? "lamella" : "lamella " + command.get_name();
-        return complain(std::string(error.what()) + "; `" + name + " --help` shows what is accepted",
-                        bad_input);
+        return report_error(std::string(error.what()) + "; `" + name + " --help` shows what is accepted",
+                            bad_input);
     }
 }
 

@@ -17,7 +17,7 @@ namespace lamella {
 class LargeBlocks {
   public:
     /// Bytes from which a block is large: a page.
-    static constexpr std::size_t least_bytes = 4096;
+    static constexpr std::size_t min_bytes = 4096;
 
     /// Takes addresses for `room` bytes, memory only as blocks need it.
     explicit LargeBlocks(std::size_t room);

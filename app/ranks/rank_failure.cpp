@@ -1,15 +1,15 @@
 // The exit code and the words, as a message.
 #include "app/ranks/rank_failure.h"
 
+#include "engine/base/archive.h"
 #include "engine/base/error.h"
-#include "engine/base/parcel.h"
 
 namespace lamella {
 namespace {
 
 void tell(Ranks& ranks, int exit_code, const std::string& what) {
     std::string words = "rank " + std::to_string(ranks.rank()) + ": " + what;
-    Parcel parcel;
+    Archive parcel;
     parcel(exit_code, words);
     ranks.send(0, failure_tag, parcel.bytes());
 }
@@ -32,7 +32,7 @@ void throw_failure(Ranks& ranks) {
     for (int rank = 1; rank < ranks.size(); ++rank) {
         const auto told = ranks.receive(rank, failure_tag);
         if (!told) continue;
-        Parcel parcel(*told);
+        Archive parcel(*told);
         int exit_code = 0;
         std::string words;
         parcel(exit_code, words);

@@ -1,20 +1,20 @@
 // The first rank leads.
 #include "app/ranks/run_on_ranks.h"
 
-#include "app/console/complaint.h"
+#include "app/console/error_report.h"
 #include "app/ranks/rank_failure.h"
 #include "engine/base/error.h"
 
 namespace lamella {
 
-void run_on_ranks(const LeadRanks& lead, const HelpRank& help) {
+void run_on_ranks(const LeadRanks& lead, const HelpRank& run_worker) {
     const std::unique_ptr<Ranks> ranks = started_ranks();
     std::string violated;
     if (!ranks) {
         violated = lead(nullptr);
     } else if (ranks->rank() > 0) {
         try {
-            tell_failures(*ranks, [&] { help(*ranks); });
+            tell_failures(*ranks, [&] { run_worker(*ranks); });
         } catch (const Interrupted&) {
             return;  // as the first rank will say
         }

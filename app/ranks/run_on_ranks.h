@@ -18,6 +18,6 @@ using HelpRank = std::function<void(Ranks& ranks)>;
 /// Runs a command on its own, or as the rank that mpirun has made this process. Throws ConstraintError for
 /// what is violated once all ranks have done their work. What else the leading process throws is said by it
 /// and ends all processes with its exit code, since the others wait for it and would for ever.
-void run_on_ranks(const LeadRanks& lead, const HelpRank& help);
+void run_on_ranks(const LeadRanks& lead, const HelpRank& run_worker);
 
 }  // namespace lamella

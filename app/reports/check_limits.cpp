@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-Verdict& verdict_of(PrintLimits& limits, Check check) {
+Severity& verdict_of(PrintLimits& limits, Check check) {
     return limits.verdicts[static_cast<std::size_t>(check)];
 }
 
@@ -19,9 +19,9 @@ void allow_several(CheckPlan& plan, int parts) {
     if (parts < 2) return;
     bool asked = false;
     for (const Check check : {Check::connectivity, Check::sheets}) {
-        Verdict& verdict = verdict_of(plan.options.limits, check);
-        asked = asked || verdict != Verdict::off;
-        verdict = Verdict::off;
+        Severity& verdict = verdict_of(plan.options.limits, check);
+        asked = asked || verdict != Severity::off;
+        verdict = Severity::off;
     }
     if (asked) {
         plan.notes.push_back(
@@ -33,7 +33,7 @@ void allow_several(CheckPlan& plan, int parts) {
 /// Faults that the output mends by itself, or that its back-end refuses anyhow.
 void note_ties(CheckPlan& plan, const PrinterProfile& printer) {
     if (plan.process != Process::cutting || printer.cutting.ties != Ties::join) return;
-    if (plan.options.limits.verdict(Check::sheets) == Verdict::off) return;
+    if (plan.options.limits.verdict(Check::sheets) == Severity::off) return;
     plan.notes.push_back("Ties join the loose pieces of a sheet (printer.ties).");
 }
 
@@ -45,14 +45,14 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
 /// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of
 /// them serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
 void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
-    constexpr double least_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
-    if (find_backend(printer.backend).medium != Medium::pixels) return;
+    constexpr double min_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
+    if (find_backend(printer.backend).medium != LayerContent::pixels) return;
     std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
     if (!lines) return;
     const double pitch = std::abs(lines->line_pitch());
     lines->step = static_cast<int>(options.pitch / pitch * (1 + 1e-9));
     const double found = lines->step * pitch;
-    if (found < least_share * options.pitch) return;
+    if (found < min_share * options.pitch) return;
     options.lines = lines;
     options.pitch = found;
 }
@@ -65,9 +65,9 @@ CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts) {
     PrintLimits& limits = plan.options.limits;
     limits = process_limits(printer);
     limits.overhang = printable_overhang(printer, job.layer_height);
-    limits.build_volume = build_room(printer, job.layer_height);
-    if (limits.build_volume == dvec3(infinity)) verdict_of(limits, Check::build_volume) = Verdict::off;
-    plan.options.most_places = static_cast<std::size_t>(printer.check.places);
+    limits.build_volume = build_volume_limits(printer, job.layer_height);
+    if (limits.build_volume == dvec3(infinity)) verdict_of(limits, Check::build_volume) = Severity::off;
+    plan.options.max_places = static_cast<std::size_t>(printer.check.places);
     allow_several(plan, parts);
     note_ties(plan, printer);
     note_sheets(plan, printer);

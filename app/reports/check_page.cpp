@@ -13,8 +13,8 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t most_cards = 10;  // of a check
-constexpr std::size_t most_side_views = 3;
+constexpr std::size_t max_cards = 10;  // of a check
+constexpr std::size_t max_side_views = 3;
 constexpr int overview_pixels = 400;
 constexpr int section_pixels = 400;
 constexpr int side_pixels = 320;
@@ -168,7 +168,7 @@ std::string card(const CheckResult& result, const Fault& fault, std::size_t numb
     const dvec3 box = fault.box.empty() ? dvec3(0) : fault.box.size();
     const std::string wrong = check_name(result.check) + ": " + where;
     std::string side;
-    if (number <= most_side_views && !fault.runs.empty())
+    if (number <= max_side_views && !fault.runs.empty())
         side = fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}, from the side\" src=\"{}\"/>",
                            side_pixels, side_pixels * 3 / 4, escaped(wrong),
                            data_uri(draw_fault(job, fault, report.band, side_pixels)));
@@ -186,7 +186,7 @@ std::string section_of(const CheckResult& result, const CheckOutcome& outcome, c
         escaped(check_advice(result.check)), escaped(check_limit(result.check, outcome.plan.options.limits)),
         places_text(result.count),
         result.check == Check::build_volume ? "" : ", " + size_text(result.check, result.total) + " in all");
-    const std::size_t cards = std::min(result.worst.size(), most_cards);
+    const std::size_t cards = std::min(result.worst.size(), max_cards);
     if (result.count > cards) text += fmt::format("<p>The worst {} are shown.</p>\n", cards);
     text += "<div class=\"cards\">\n";
     for (std::size_t i = 0; i < cards; ++i) text += card(result, result.worst[i], i + 1, outcome.report, job);

@@ -123,7 +123,7 @@ Json fault_json(Check check, const Fault& fault, const RowBand& band) {
 Json result_json(const CheckResult& result, const CheckOutcome& outcome) {
     const Check check = result.check;
     Json json{{"check", check_name(check)},
-              {"verdict", result.verdict == Verdict::fail ? "fail" : "warn"},
+              {"verdict", result.verdict == Severity::fail ? "fail" : "warn"},
               {"passed", result.passed()},
               {"limit", check_limit(check, outcome.plan.options.limits)}};
     if (const std::string unit = limit_unit(check); !unit.empty()) json["limit_" + unit] = result.limit;
@@ -142,7 +142,7 @@ std::string places_text(std::size_t count) { return fmt::format("{} place{}", co
 std::string verdict_text(const CheckReport& report) {
     std::size_t failed = 0, warned = 0;
     for (const CheckResult& result : report.results) {
-        if (!result.passed()) ++(result.verdict == Verdict::fail ? failed : warned);
+        if (!result.passed()) ++(result.verdict == Severity::fail ? failed : warned);
     }
     const std::size_t all = report.results.size();
     if (failed + warned == 0) return fmt::format("all {} checks pass", all);
@@ -166,7 +166,7 @@ std::string left_out(const CheckReport& report) {
 std::string failure_text(const CheckOutcome& outcome) {
     std::string text;
     for (const CheckResult& result : outcome.report.results) {
-        if (result.passed() || result.verdict != Verdict::fail) continue;
+        if (result.passed() || result.verdict != Severity::fail) continue;
         text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", check_name(result.check),
                             places_text(result.count));
     }

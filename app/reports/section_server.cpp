@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t most_jobs = 1024;
+constexpr std::int64_t max_jobs = 1024;
 
 template <typename T>
 T sized() {
@@ -170,8 +170,8 @@ ServerReply SectionServer::answer(const Json& request) {
 }
 
 ServerReply SectionServer::open(const Json& request) {
-    if (static_cast<std::int64_t>(jobs_.size()) >= most_jobs)
-        refuse(fmt::format("{} jobs are open already; accepted: close one", most_jobs));
+    if (static_cast<std::int64_t>(jobs_.size()) >= max_jobs)
+        refuse(fmt::format("{} jobs are open already; accepted: close one", max_jobs));
     lamella_recipe* recipe = nullptr;
     const auto path = member<std::string>(request, "recipe", "path", "");
     check(path.empty() ? lamella_recipe_create(context_, &recipe)
@@ -236,10 +236,10 @@ ServerReply SectionServer::cut(const Json& request) {
     ServerReply reply{{{"z", z}}, ""};
     if (method == "coverage") {
         const lamella_raster raster = raster_of(request);
-        constexpr std::int64_t most_pixels = std::int64_t{1} << 31;
+        constexpr std::int64_t max_pixels = std::int64_t{1} << 31;
         if (raster.columns < 1 || raster.rows < 1 ||
-            static_cast<std::int64_t>(raster.columns) * raster.rows > most_pixels)
-            refuse(fmt::format("columns, rows: accepted: 1 to {} pixels", most_pixels));
+            static_cast<std::int64_t>(raster.columns) * raster.rows > max_pixels)
+            refuse(fmt::format("columns, rows: accepted: 1 to {} pixels", max_pixels));
         reply.body.resize(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
         auto* pixels = reinterpret_cast<std::uint8_t*>(reply.body.data());  // NOLINT: bytes
         check(lamella_section_coverage(context_, section, what, &raster, pixels, 0));

@@ -17,17 +17,17 @@ namespace lamella {
 
 namespace {
 
-constexpr double most_pixels = 1 << 28;
+constexpr double max_pixels = 1 << 28;
 
 int pixels(double length, double pixel) { return std::max(1, static_cast<int>(std::ceil(length / pixel))); }
 
 RowBand page_band(const Rect& page, const ImageProfile& image) {
     const dvec2 size = page.size();
-    if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > most_pixels) {
+    if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > max_pixels) {
         throw InputError(
             fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
                         "{} x {} mm; accepted: larger pixels",
-                        image.pixel_x, image.pixel_y, most_pixels, size.x, size.y));
+                        image.pixel_x, image.pixel_y, max_pixels, size.x, size.y));
     }
     RowBand band;
     band.along_origin = page.lo.x;

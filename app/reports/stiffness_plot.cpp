@@ -16,15 +16,15 @@ constexpr double panel = 480, left = 78, top = 46, bottom = 56, right = 18;  // 
 
 /// The axes of the chart: decades of density and of modulus.
 struct Axes {
-    double least_density = -2;  ///< powers of ten
-    double least_young, most_young;
+    double min_density = -2;  ///< powers of ten
+    double min_young, max_young;
 
     double x(double density) const {
-        return left + (std::log10(density) - least_density) / -least_density * (panel - left - right);
+        return left + (std::log10(density) - min_density) / -min_density * (panel - left - right);
     }
     double y(double young) const {
         return panel - bottom -
-               (std::log10(young) - least_young) / (most_young - least_young) * (panel - top - bottom);
+               (std::log10(young) - min_young) / (max_young - min_young) * (panel - top - bottom);
     }
 };
 
@@ -49,14 +49,13 @@ std::string svg_escaped(const std::string& words) {
 std::string grid(const Axes& axes) {
     std::string text;
     const double x0 = left, x1 = panel - right, y0 = panel - bottom, y1 = top;
-    for (int power = static_cast<int>(axes.least_density); power <= 0; ++power) {
+    for (int power = static_cast<int>(axes.min_density); power <= 0; ++power) {
         const double x = axes.x(std::pow(10.0, power));
         text += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>\n", x, y0, y1);
         text +=
             label(x, y0 + 18, fmt::format("{:g} %", 100 * std::pow(10.0, power)), "text-anchor=\"middle\"");
     }
-    for (int power = static_cast<int>(axes.least_young); power <= static_cast<int>(axes.most_young);
-         ++power) {
+    for (int power = static_cast<int>(axes.min_young); power <= static_cast<int>(axes.max_young); ++power) {
         const double y = axes.y(std::pow(10.0, power));
         text += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/>\n", x0, y, x1);
         text += label(x0 - 6, y + 4, fmt::format("{:g}", std::pow(10.0, power)), "text-anchor=\"end\"");
@@ -74,7 +73,7 @@ std::string curve(const Axes& axes, const char* colour, const Young& young_of_de
     constexpr int steps = 60;
     std::string path;
     for (int i = 0; i <= steps; ++i) {
-        const double density = std::pow(10.0, axes.least_density * (1 - static_cast<double>(i) / steps));
+        const double density = std::pow(10.0, axes.min_density * (1 - static_cast<double>(i) / steps));
         path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", axes.x(density),
                             axes.y(young_of_density(density)));
     }
@@ -117,16 +116,16 @@ std::string legend(const StiffnessPlot& plot) {
 
 std::string chart(const StiffnessPlot& plot) {
     Axes axes{-2, 0, 0};
-    double least_young = plot.material.young * 1e-2, least_density = 1e-2;
+    double min_young = plot.material.young * 1e-2, min_density = 1e-2;
     const auto consider = [&](double density, double young) {
-        least_young = std::min(least_young, young);
-        least_density = std::min(least_density, density);
+        min_young = std::min(min_young, young);
+        min_density = std::min(min_density, density);
     };
     for (const FoamLawPoint& point : plot.law) consider(point.density, point.young * plot.material.young);
     if (plot.sample) consider(plot.sample->density, plot.sample->young);
-    axes.least_density = std::floor(std::log10(least_density) + 1e-9);
-    axes.least_young = std::floor(std::log10(least_young));
-    axes.most_young = std::ceil(std::log10(plot.material.young) - 1e-9);
+    axes.min_density = std::floor(std::log10(min_density) + 1e-9);
+    axes.min_young = std::floor(std::log10(min_young));
+    axes.max_young = std::ceil(std::log10(plot.material.young) - 1e-9);
     std::string text = grid(axes);
     text += curve(axes, "#888888", [&](double density) { return density * plot.material.young; });
     text += curve(axes, "#d98a00",

@@ -64,7 +64,7 @@ double logarithm(double x) { return Logarithm(x); }
 double power(double base, double exponent) {
     if (exponent == 0) return std::isnan(base) ? base : 1;
     const bool whole = std::floor(exponent) == exponent;
-    if (whole && std::fabs(exponent) <= most_multiplied) {
+    if (whole && std::fabs(exponent) <= max_multiplied) {
         const double product = multiply_out(base, static_cast<int>(std::fabs(exponent)),
                                             [](double a, double b) { return a * b; });
         return exponent < 0 ? 1 / product : product;

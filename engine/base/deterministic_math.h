@@ -37,9 +37,9 @@ double logarithm(double x);
 double power(double base, double exponent);
 
 /// The largest whole exponent that `power` multiplies out.
-inline constexpr int most_multiplied = 64;
+inline constexpr int max_multiplied = 64;
 
-/// base^n for 0 < n <= most_multiplied, in the order of multiplications that `power` uses.
+/// base^n for 0 < n <= max_multiplied, in the order of multiplications that `power` uses.
 template <class Number, class Multiply>
 Number multiply_out(Number base, int n, const Multiply& multiply) {
     int bit = 1;

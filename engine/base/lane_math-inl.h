@@ -4,7 +4,7 @@
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// No target's vectors are used beyond this many doubles.
-using Doubles = hn::CappedTag<double, most_lanes>;
+using Doubles = hn::CappedTag<double, max_lanes>;
 using Words = hn::RebindToUnsigned<Doubles>;
 using Lanes = hn::Vec<Doubles>;
 

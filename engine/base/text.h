@@ -23,8 +23,8 @@ std::string counted(std::size_t n, std::string_view noun);
 /// Returns a piece of a file for a message, in quotes: shortened, with unprintable bytes replaced.
 std::string excerpt(std::string_view text);
 
-/// Reads a decimal number in the C locale, perhaps among spaces; accepts a plus sign, NaN and infinity in their
-/// usual spellings. Overflow gives infinity, underflow zero. Nothing when the token is no number.
+/// Reads a decimal number in the C locale, perhaps among spaces; accepts a plus sign, NaN and infinity in
+/// their usual spellings. Overflow gives infinity, underflow zero. Nothing when the token is no number.
 std::optional<double> parse_double(std::string_view token);
 
 /// Reads a whole number that fits 64 bits; nothing otherwise.

@@ -21,7 +21,7 @@ Box CheckGrid::box(const ComponentExtent& extent) const {
     return {{lo, z0 + extent.first_layer * layer_height}, {hi, z0 + (extent.last_layer + 1) * layer_height}};
 }
 
-Fault CheckGrid::fault(const PassingComponent& component) const {
+Fault CheckGrid::fault(const StreamingComponent& component) const {
     Fault fault = this->fault(component.largest);
     fault.first_layer = component.extent.first_layer;
     fault.end_layer = component.extent.last_layer + 1;

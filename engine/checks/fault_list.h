@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/checks/print_check.h"
-#include "engine/runs/passing_components.h"
+#include "engine/runs/streaming_components.h"
 
 namespace lamella {
 
@@ -19,7 +19,7 @@ struct CheckGrid {
     double plane(int layer) const { return z0 + (layer + 0.5) * layer_height; }
     Box box(const ComponentExtent& extent) const;
     /// A fault that is a component. Its size is left to the caller.
-    Fault fault(const PassingComponent& component) const;
+    Fault fault(const StreamingComponent& component) const;
     /// A fault that lies in one layer.
     Fault fault(const LayerPatch& patch) const;
 };

@@ -12,7 +12,7 @@ namespace {
 /// Rows crumble the border of what is opened, run units.
 constexpr double crumbs = 1.5 * run_unit;
 
-ThinLayers thin_layers(const SampledBall& ball) { return {ball.lattice, {ball.radius, crumbs}}; }
+ThinFeatureStream thin_layers(const SampledBall& ball) { return {ball.lattice, {ball.radius, crumbs}}; }
 
 /// The parts that a run of row `r` touches.
 void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
@@ -66,7 +66,7 @@ void NeckCheck::split(SpanRows thin) {
     ++layers_;
     if (recent_.size() > 1) join_rest(recent_.size() - 2);
     if (recent_.size() > 2) recent_.pop_front();
-    if (parts_.size() > most_parts_) forget_what_is_settled();
+    if (parts_.size() > max_parts_) forget_what_is_settled();
 }
 
 /// Joins the rest of a recent layer to those before it, with the parts that it touches as marks.
@@ -118,11 +118,12 @@ void NeckCheck::forget_what_is_settled() {
         settle(marks, growing);
         used.insert(used.end(), marks.begin(), marks.end());
     };
-    for (PassingComponent& candidate : candidates_) keep(candidate.marks);
-    std::erase_if(candidates_, [](const PassingComponent& candidate) { return candidate.marks.size() < 2; });
+    for (StreamingComponent& candidate : candidates_) keep(candidate.marks);
+    std::erase_if(candidates_,
+                  [](const StreamingComponent& candidate) { return candidate.marks.size() < 2; });
     rests_.change_marks(keep);
     parts_.forget_all_but(std::move(used));
-    most_parts_ = std::max<std::size_t>(1024, 2 * parts_.size());
+    max_parts_ = std::max<std::size_t>(1024, 2 * parts_.size());
 }
 
 void NeckCheck::finish() {
@@ -131,14 +132,14 @@ void NeckCheck::finish() {
     if (!recent_.empty()) join_rest(recent_.size() - 1);
     rests_.finish(ended_);
     for (EndedComponent& ended : ended_) candidates_.push_back(std::move(ended.component));
-    for (PassingComponent& candidate : candidates_) {
+    for (StreamingComponent& candidate : candidates_) {
         settle(candidate.marks, {});
         if (candidate.marks.size() > 1) necks_.add(neck(candidate));
     }
 }
 
 /// A rest as a fault in the rows and layers of which some were looked at.
-Fault NeckCheck::neck(const PassingComponent& rest) const {
+Fault NeckCheck::neck(const StreamingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);
     return sampling_.told(std::move(fault), grid_, pushed_);

@@ -4,8 +4,8 @@
 #include <deque>
 
 #include "engine/checks/check_sampling.h"
-#include "engine/morphology/layer_thinness.h"
-#include "engine/runs/passing_parts.h"
+#include "engine/morphology/thin_features.h"
+#include "engine/runs/streaming_parts.h"
 
 namespace lamella {
 
@@ -35,21 +35,21 @@ class NeckCheck {
     void join_rest(std::size_t of);
     void settle(std::vector<std::uint32_t>& marks, const std::vector<std::uint32_t>& growing);
     void forget_what_is_settled();
-    Fault neck(const PassingComponent& rest) const;
+    Fault neck(const StreamingComponent& rest) const;
 
     CheckGrid grid_;  // of what is looked at
     CheckSampling sampling_;
     int pushed_ = 0;  // layers
     double large_part_;
-    ThinLayers thin_;
+    ThinFeatureStream thin_;
     std::deque<SpanRows> solid_;  // layers of which it is not known yet what is thin
     std::deque<Split> recent_;    // three at most: a rest touches parts below, beside and above it
     int layers_ = 0;              // that were split
-    PassingParts parts_;
-    std::size_t most_parts_ = 1024;  // at which those are forgotten that no rest can join any more
-    PassingComponents rests_;
+    StreamingParts parts_;
+    std::size_t max_parts_ = 1024;  // at which those are forgotten that no rest can join any more
+    StreamingComponents rests_;
     std::vector<EndedComponent> ended_;
-    std::vector<PassingComponent> candidates_;  // rests that touch several parts
+    std::vector<StreamingComponent> candidates_;  // rests that touch several parts
     FaultList necks_;
 };
 

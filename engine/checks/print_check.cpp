@@ -10,21 +10,21 @@
 #include "engine/base/number_format.h"
 #include "engine/checks/check_rows.h"
 #include "engine/checks/fault_list.h"
-#include "engine/checks/hold_check.h"
 #include "engine/checks/layer_checks.h"
 #include "engine/checks/neck_check.h"
+#include "engine/checks/overhang_check.h"
+#include "engine/checks/streaming_faults.h"
+#include "engine/checks/thickness_check.h"
 #include "engine/checks/void_check.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/morphology/layer_opening.h"
-#include "engine/morphology/thin_beyond_places.h"
-#include "engine/checks/passing_faults.h"
-#include "engine/checks/thickness_check.h"
+#include "engine/morphology/thin_feature_search.h"
 #include "engine/runs/row_sets.h"
 
 namespace lamella {
 namespace {
 
-constexpr double most_rows = 1 << 15;  // along a side
+constexpr double max_rows = 1 << 15;  // along a side
 
 CheckRows check_rows(const Job& job, const PrintCheckOptions& options) {
     return options.lines ? CheckRows(job, *options.lines) : CheckRows(job, options.pitch);
@@ -40,13 +40,13 @@ struct LayerShape {
 struct CheckedLayer : LayerProduct {
     explicit CheckedLayer(const LayerShape& given) : shape(given) {}
 
-    void carry(Parcel& parcel) override {
+    void serialize(Archive& parcel) override {
         parcel(rows.part, rows.supports, rows.part_with_supports, part, printed, voids, thin, narrow);
         if (parcel.unpacks() && !fits()) throw FaultError("a layer's parcel is of another check");
     }
 
     LayerShape shape;
-    HoldingRows rows;
+    LayerFootprint rows;
     LabelledLayer part, printed;  ///< printed only where there are supports
     LabelledLayer voids;
     std::optional<LayerCells> cells;  ///< of the part; not carried, and made anew where it is missing
@@ -90,9 +90,9 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     const dvec3 size = job.bounds.size();
     if (!job.part || job.bounds.empty() || !std::isfinite(size.x + size.y + size.z))
         throw InputError("print check: there is no part, or its bounds are infinite");
-    const auto wanted = [&](Check check) { return limits.verdict(check) != Verdict::off; };
+    const auto wanted = [&](Check check) { return limits.verdict(check) != Severity::off; };
     const double pitch = options.lines ? std::abs(options.lines->line_pitch()) : options.pitch;
-    check_number("pitch", pitch, std::max(size.x, size.y) / most_rows * (1 - 1e-9));
+    check_number("pitch", pitch, std::max(size.x, size.y) / max_rows * (1 - 1e-9));
     // A ball that fits must reach a row at least.
     const double least = 2 * pitch;
     const std::string in_rows = " in rows " + format_number(pitch, 9) + " mm apart";
@@ -111,18 +111,19 @@ struct PrintCheck::State {
           rows(check_rows(job, given)),
           grid{rows.band(), job.z0(), job.layer_height},
           layer_count(job.layer_count),
-          sheets(grid, given.most_places),
-          empty(grid, given.most_places),
-          reach(grid, given.limits.build_volume, given.most_places) {
+          sheets(grid, given.max_places),
+          empty(grid, given.max_places),
+          reach(grid, given.limits.build_volume, given.max_places) {
         const PrintLimits& limits = given.limits;
-        const std::size_t most = given.most_places;
+        const std::size_t most = given.max_places;
         if (wants(Check::connectivity)) pieces.emplace(grid, 0, most);
         if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
             hold.emplace(grid, limits, most);
         if (wants(Check::thickness))
-            thickness.emplace(grid, layer_count, limits.thickness, limits.thickness_up, Medium::solid, most);
+            thickness.emplace(grid, layer_count, limits.thickness, limits.thickness_up, FeatureKind::wall,
+                              most);
         if (wants(Check::gaps))
-            gaps.emplace(grid, layer_count, limits.gap, limits.gap_up, Medium::gaps, most);
+            gaps.emplace(grid, layer_count, limits.gap, limits.gap_up, FeatureKind::gap, most);
         if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
         if (wants(Check::cavities) || wants(Check::cups))
             voids.emplace(grid, limits.cavity, limits.cup, most);
@@ -133,7 +134,7 @@ struct PrintCheck::State {
                       reach_of_cells, run_unit);
     }
 
-    bool wants(Check check) const { return options.limits.verdict(check) != Verdict::off; }
+    bool wants(Check check) const { return options.limits.verdict(check) != Severity::off; }
     LayerShape shape() const {
         return {static_cast<std::size_t>(grid.band.lines()), pieces || hold || wants(Check::sheets),
                 hold.has_value(), voids.has_value()};
@@ -146,8 +147,8 @@ struct PrintCheck::State {
     CheckRows rows;
     CheckGrid grid;
     int layer_count;
-    std::optional<PassingFaults> pieces;
-    std::optional<HoldCheck> hold;
+    std::optional<StreamingFaults> pieces;
+    std::optional<OverhangCheck> hold;
     std::optional<ThicknessCheck> thickness;
     std::optional<ThicknessCheck> gaps;
     std::optional<NeckCheck> necks;
@@ -161,7 +162,7 @@ struct PrintCheck::State {
 
 bool CheckReport::passed() const {
     return std::ranges::all_of(results, [](const CheckResult& result) {
-        return result.passed() || result.verdict != Verdict::fail;
+        return result.passed() || result.verdict != Severity::fail;
     });
 }
 
@@ -170,12 +171,12 @@ double check_pitch(const Job& job, const PrintLimits& limits) {
     constexpr double where_nothing_is_thin = 0.5;  // mm
     double least = where_nothing_is_thin;
     const auto consider = [&](Check check, double thickness) {
-        if (limits.verdict(check) != Verdict::off) least = std::min(least, thickness);
+        if (limits.verdict(check) != Severity::off) least = std::min(least, thickness);
     };
     consider(Check::thickness, limits.thickness);
     consider(Check::gaps, limits.gap);
     consider(Check::necks, limits.neck);
-    return std::max(least / pitches_in_a_thickness, std::max(size.x, size.y) / most_rows);
+    return std::max(least / pitches_in_a_thickness, std::max(size.x, size.y) / max_rows);
 }
 
 PrintCheck::PrintCheck(const Job& job, const PrintCheckOptions& options) {

@@ -24,7 +24,7 @@ struct Fault {
 /// What was found of one kind.
 struct CheckResult {
     Check check = Check::connectivity;
-    Verdict verdict = Verdict::off;  ///< what a fault of it comes to
+    Severity verdict = Severity::off;  ///< what a fault of it comes to
     double limit = 0;          ///< what sizes or thicknesses were held against, mm, mm^2 or mm^3; 0: none
     std::size_t count = 0;     ///< faults
     double total = 0;          ///< of their sizes
@@ -49,7 +49,7 @@ struct PrintCheckOptions {
     /// Lines that another back-end goes through anyway, with a step: the rows then lie there, and what it
     /// finds of them need not be found again. The pitch is theirs.
     std::optional<RowBand> lines{};
-    std::size_t most_places = 10;  ///< faults of each kind that are told of
+    std::size_t max_places = 10;  ///< faults of each kind that are told of
 };
 
 /// The pitch for these limits where none is asked for, mm: a fifth of the least thickness or gap that is

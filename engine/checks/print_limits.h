@@ -25,27 +25,27 @@ enum class Check : unsigned char {
 inline constexpr std::size_t check_count = 12;
 
 /// Whether a fault matters.
-enum class Verdict : unsigned char { off, warn, fail };
+enum class Severity : unsigned char { off, warn, fail };
 
 /// What a process can make. Lengths in mm.
 struct PrintLimits {
-    std::array<Verdict, check_count> verdicts{};  ///< by Check, what a fault of it comes to
-    double thickness = 0.4;                       ///< least of walls and struts, within layers
-    double thickness_up = 0;                      ///< the same upright; 0: layers are looked at one by one
-    double gap = 0.4;                             ///< least width of void, within layers
-    double gap_up = 0;                            ///< the same upright; 0: layers are looked at one by one
-    double neck = 1;                              ///< least thickness of what joins large parts
-    double large_part = 1000;                     ///< volume from which a part is large, mm^3
-    double overhang = 0.2;                        ///< by which a layer may stand out over the one below
-    double free_stretch = 1;                      ///< what hangs and is smaller across needs no hold
-    double bridge = 10;                           ///< longest stretch between two holds
-    double support_spacing = 3;                   ///< a support holds what lies within this distance
-    double support_gap = 0;                       ///< height that may lie between a support and what it holds
-    double cavity = 1;                            ///< volume from which a closed void matters, mm^3
-    double cup = 10;                              ///< volume from which a suction cup matters, mm^3
-    dvec3 build_volume{infinity};                 ///< width, depth and height that the machine reaches
+    std::array<Severity, check_count> verdicts{};  ///< by Check, what a fault of it comes to
+    double thickness = 0.4;                        ///< least of walls and struts, within layers
+    double thickness_up = 0;                       ///< the same upright; 0: layers are looked at one by one
+    double gap = 0.4;                              ///< least width of void, within layers
+    double gap_up = 0;                             ///< the same upright; 0: layers are looked at one by one
+    double neck = 1;                               ///< least thickness of what joins large parts
+    double large_part = 1000;                      ///< volume from which a part is large, mm^3
+    double overhang = 0.2;                         ///< by which a layer may stand out over the one below
+    double free_stretch = 1;                       ///< what hangs and is smaller across needs no hold
+    double bridge = 10;                            ///< longest stretch between two holds
+    double support_spacing = 3;                    ///< a support holds what lies within this distance
+    double support_gap = 0;        ///< height that may lie between a support and what it holds
+    double cavity = 1;             ///< volume from which a closed void matters, mm^3
+    double cup = 10;               ///< volume from which a suction cup matters, mm^3
+    dvec3 build_volume{infinity};  ///< width, depth and height that the machine reaches
 
-    Verdict verdict(Check check) const { return verdicts[static_cast<std::size_t>(check)]; }
+    Severity verdict(Check check) const { return verdicts[static_cast<std::size_t>(check)]; }
 };
 
 }  // namespace lamella

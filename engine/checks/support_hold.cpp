@@ -58,7 +58,7 @@ double SupportHold::weight(std::size_t layers_down) const {
 
 template <typename Take>
 void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const {
-    const BallReach most = reaches_[rows_away];
+    const RoundedExtent most = reaches_[rows_away];
     const std::int32_t first = about.begin - most.ahead, last = about.end + most.back;
     const auto reaches = [&](const Run& run) { return run.end > first && run.begin < last; };
     for (const Run& run : last_.line(row)) {
@@ -68,7 +68,7 @@ void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const 
         if (!reaches(top.run)) continue;
         const double left = weight(layers_ - top.layer) - square(rows_away);
         if (left < 0) continue;
-        const BallReach reach(std::sqrt(left));
+        const RoundedExtent reach(std::sqrt(left));
         take({top.run.begin - reach.back, top.run.end + reach.ahead});
     }
 }

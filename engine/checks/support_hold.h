@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/checks/fault_list.h"
-#include "engine/morphology/ball_rows.h"
+#include "engine/morphology/weighted_rows.h"
 
 namespace lamella {
 
@@ -39,7 +39,7 @@ class SupportHold {
     double spacing_, gap_;                // mm
     double layer_height_, unit_;          // mm; a run unit
     std::size_t layers_up_;               // over its end to which a support may hold something
-    std::vector<BallReach> reaches_;      // of what goes on, so many rows away
+    std::vector<RoundedExtent> reaches_;  // of what goes on, so many rows away
     SpanRows last_;                       // of the last layer
     std::vector<std::vector<Top>> tops_;  // by row, the oldest first
     std::size_t layers_ = 0;              // added

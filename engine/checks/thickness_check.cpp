@@ -18,11 +18,12 @@ int layers_for(const CheckGrid& grid, double thickness_up) {
 }  // namespace
 
 ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
-                               Medium medium, std::size_t most)
+                               FeatureKind medium, std::size_t most)
     : medium_(medium),
       sampling_{1, layers_for(grid, thickness_up)},
       found_(grid, sampling_, layer_count, thickness, most) {
-    const SampledBall ball = sampled_ball(grid.band, sampling_.of(grid).layer_height, thickness, thickness_up);
+    const SampledBall ball =
+        sampled_ball(grid.band, sampling_.of(grid).layer_height, thickness, thickness_up);
     // A pitch besides, by which rows see late what is opened.
     measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
     row_pitch_ = ball.lattice.row_pitch;

@@ -3,14 +3,14 @@
 
 #include <optional>
 
-#include "engine/checks/passing_faults.h"
-#include "engine/morphology/layer_thinness.h"
-#include "engine/morphology/thin_beyond_places.h"
+#include "engine/checks/streaming_faults.h"
+#include "engine/morphology/thin_feature_search.h"
+#include "engine/morphology/thin_features.h"
 
 namespace lamella {
 
-/// Rows to the least thickness that a check looks for. An odd number finds the most: walls of up to four pitches
-/// whichever way they run.
+/// Rows to the least thickness that a check looks for. An odd number finds the most: walls of up to four
+/// pitches whichever way they run.
 inline constexpr double pitches_in_a_thickness = 5;
 
 /// Finds walls thinner, or gaps narrower, than a ball. A limit within the layer is checked layer by layer, in
@@ -19,9 +19,10 @@ class ThicknessCheck {
   public:
     /// `thickness` within the layer and `thickness_up` across layers, mm; `most` faults are kept.
     ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
-                   Medium medium, std::size_t most);
+                   FeatureKind medium, std::size_t most);
 
-    /// How far the lattice of cells has to reach, in run units; 0 where layers are compared with their neighbours.
+    /// How far the lattice of cells has to reach, in run units; 0 where layers are compared with their
+    /// neighbours.
     double reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
     /// The faults of a layer that are known without its neighbours. Pure.
     SpanRows prepare(const SpanRows& rows, const LayerCells& cells) const;
@@ -33,14 +34,14 @@ class ThicknessCheck {
   private:
     void take();
 
-    Medium medium_;
+    FeatureKind medium_;
     CheckSampling sampling_;
     Thinness measure_;
     double row_pitch_ = 0;
-    std::optional<ThinBeyondPlaces> neighbours_;
+    std::optional<ThinFeatureSearch> neighbours_;
     int pushed_ = 0;  // layers
     int next_ = 0;    // to be told of, of those looked at
-    PassingFaults found_;
+    StreamingFaults found_;
 };
 
 }  // namespace lamella

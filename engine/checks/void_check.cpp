@@ -31,15 +31,15 @@ void VoidCheck::finish() {
 }
 
 void VoidCheck::judge(const EndedComponent& ended, bool at_the_top) {
-    const PassingComponent& component = ended.component;
+    const StreamingComponent& component = ended.component;
     if ((component.flags & joined_outside) != 0) return;
     if (ended.joined && (ended.joined_flags & joined_outside) == 0) return;
     const bool closed = !ended.joined && !at_the_top && (component.flags & on_bed) == 0;
     Fault fault = grid_.fault(component);
     fault.size = grid_.volume(component.extent.length);
     if (closed) {
-        if (fault.size >= least_cavity_) cavities_.add(std::move(fault));
-    } else if (fault.size >= least_cup_) {
+        if (fault.size >= min_cavity_) cavities_.add(std::move(fault));
+    } else if (fault.size >= min_cup_) {
         cups_.add(std::move(fault));
     }
 }

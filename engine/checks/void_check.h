@@ -14,8 +14,8 @@ namespace lamella {
 class VoidCheck {
   public:
     /// Volumes, mm^3, from which each matters; how many faults of each are kept.
-    VoidCheck(const CheckGrid& grid, double least_cavity, double least_cup, std::size_t most)
-        : grid_(grid), least_cavity_(least_cavity), least_cup_(least_cup), cavities_(most), cups_(most) {}
+    VoidCheck(const CheckGrid& grid, double min_cavity, double min_cup, std::size_t most)
+        : grid_(grid), min_cavity_(min_cavity), min_cup_(min_cup), cavities_(most), cups_(most) {}
 
     /// The void of a layer, labelled; its first row is outside. Pure.
     static LabelledLayer label(const SpanRows& solid, const CheckGrid& grid, int layer);
@@ -29,8 +29,8 @@ class VoidCheck {
     void judge(const EndedComponent& ended, bool at_the_top);
 
     CheckGrid grid_;
-    double least_cavity_, least_cup_;
-    PassingComponents voids_;
+    double min_cavity_, min_cup_;
+    StreamingComponents voids_;
     std::vector<EndedComponent> ended_;
     FaultList cavities_, cups_;
 };

@@ -4,7 +4,7 @@
 namespace lamella {
 namespace {
 
-constexpr double most_cells = 1 << 20;
+constexpr double max_cells = 1 << 20;
 
 }  // namespace
 
@@ -15,8 +15,8 @@ ContourIndex::ContourIndex(const std::vector<Contour>& contours, double cell) : 
     }
     if (bounds.empty()) return;
     const dvec2 size = bounds.size();
-    cell_ = std::max(cell, std::sqrt(size.x * size.y / most_cells));
-    cell_ = std::max(cell_, std::max(size.x, size.y) / most_cells);
+    cell_ = std::max(cell, std::sqrt(size.x * size.y / max_cells));
+    cell_ = std::max(cell_, std::max(size.x, size.y) / max_cells);
     origin_ = bounds.lo;
     nx_ = static_cast<int>(size.x / cell_) + 1;
     ny_ = static_cast<int>(size.y / cell_) + 1;

@@ -235,8 +235,8 @@ std::vector<Contour> trace_contours(const SliceField& slice, double tolerance, S
     constexpr double fraction = 0.382;
     const dvec2 from = glm::floor(bounds.lo / pitch) - 1.0 - fraction,
                 to = glm::ceil(bounds.hi / pitch) + 2.0 - fraction;
-    constexpr double most_cells = 1 << 22;
-    if (!(to.x - from.x < most_cells && to.y - from.y < most_cells)) {
+    constexpr double max_cells = 1 << 22;
+    if (!(to.x - from.x < max_cells && to.y - from.y < max_cells)) {
         throw InputError("the contour tolerance of " + std::to_string(tolerance) +
                          " mm is too fine for the size of this layer, or the layer is unbounded");
     }

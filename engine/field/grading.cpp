@@ -69,7 +69,7 @@ class ClampedGrading : public Grading {
     Interval limits_;
 };
 
-constexpr int most_divisions = 4000;
+constexpr int max_divisions = 4000;
 constexpr double tight_enough = 0.02;
 
 /// A box whose enclosure is still wide.
@@ -111,7 +111,7 @@ double upper_bound(const Grading& grading, const Box& box, double sign) {
     std::priority_queue<Open> open;
     open.push({bound(box), box});
     double most = -infinity, least = infinity;
-    for (int i = 0; i < most_divisions; ++i) {
+    for (int i = 0; i < max_divisions; ++i) {
         const Open worst = open.top();
         const double number = sign * grading.at(worst.box.center());
         if (!std::isnan(number)) {

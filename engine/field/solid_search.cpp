@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-constexpr int most_parts = 20'000;
+constexpr int max_parts = 20'000;
 constexpr double smallest = 1e-9;  // of the box's diagonal
 
 struct Part {
@@ -29,7 +29,7 @@ class HalvingSearch {
 
     std::optional<dvec3> run() {
         std::optional<Part> part = add(box_);
-        while (!found_ && made_ < most_parts && (part || !open_.empty())) {
+        while (!found_ && made_ < max_parts && (part || !open_.empty())) {
             if (!part) {
                 part = open_.top();
                 open_.pop();

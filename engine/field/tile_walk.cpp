@@ -47,7 +47,7 @@ void divide(const BandTile& tile, const Visit& visit) {
 /// Walks down the tiles of a band one by one, those of one line from left to right.
 class NarrowingWalk {
   public:
-    NarrowingWalk(WalkedSolid& solid, Metric metric, const RowBand& band)
+    NarrowingWalk(TileSampledSolid& solid, Metric metric, const RowBand& band)
         : solid_(solid), metric_(metric), band_(band), sampler_(solid, metric, band) {}
 
     void walk(SpanRows& out) {
@@ -76,7 +76,7 @@ class NarrowingWalk {
         divide(tile, [&](const BandTile& part) { visit(part); });
     }
 
-    WalkedSolid& solid_;
+    TileSampledSolid& solid_;
     Metric metric_;
     const RowBand& band_;
     TileSampler sampler_;
@@ -85,7 +85,7 @@ class NarrowingWalk {
 /// Walks down the tiles of a band level by level.
 class EvenWalk {
   public:
-    EvenWalk(EvenSolid& solid, Metric metric, const RowBand& band)
+    EvenWalk(BatchSampledSolid& solid, Metric metric, const RowBand& band)
         : solid_(solid), band_(band), sampler_(solid, metric, band) {}
 
     void walk(SpanRows& out) {
@@ -123,7 +123,7 @@ class EvenWalk {
         level_.swap(next_);
     }
 
-    EvenSolid& solid_;
+    BatchSampledSolid& solid_;
     const RowBand& band_;
     TileSampler sampler_;
     std::vector<BandTile> level_, next_;
@@ -133,7 +133,7 @@ class EvenWalk {
 };
 
 /// A slice asked point by point.
-class WalkedSlice : public WalkedSolid {
+class WalkedSlice : public TileSampledSolid {
   public:
     explicit WalkedSlice(const SliceField& slice) : slice_(slice) {}
     Interval enter(const Rect& tile) override { return slice_.range(tile); }
@@ -154,7 +154,7 @@ class WalkedSlice : public WalkedSolid {
 };
 
 /// A field in one plane, asked for many points and tiles at a time.
-class FieldInPlane : public EvenSolid {
+class FieldInPlane : public BatchSampledSolid {
   public:
     FieldInPlane(const Field& field, double z) : field_(field), z_(z) {}
 
@@ -178,12 +178,12 @@ class FieldInPlane : public EvenSolid {
 
 }  // namespace
 
-void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
     out.clear();
     NarrowingWalk(solid, metric, band).walk(out);
 }
 
-void sampled_spans(EvenSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
     out.clear();
     EvenWalk(solid, metric, band).walk(out);
 }

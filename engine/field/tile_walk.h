@@ -20,7 +20,7 @@ struct SlopeBound {
 };
 
 /// A solid in a plane that is told which tile the walk is in, so that it may narrow what it works with.
-class WalkedSolid : public SampledSolid {
+class TileSampledSolid : public SampledSolid {
   public:
     /// The walk goes down into a tile, which lies in the one before: encloses every value over it. Values
     /// are asked for within the innermost tile only.
@@ -33,7 +33,7 @@ class WalkedSolid : public SampledSolid {
 
 /// A solid in a plane that works with the same all over it, and is quickest when asked about much at once:
 /// the walk looks at the tiles of all of the band level by level, and samples what is left many at a time.
-class EvenSolid : public SampledSolid {
+class BatchSampledSolid : public SampledSolid {
   public:
     /// Encloses every value over each of the tiles.
     virtual void ranges(std::span<const Rect> tiles, std::span<Interval> out) = 0;
@@ -46,8 +46,8 @@ class EvenSolid : public SampledSolid {
 /// narrowed to 1/16 of a run unit. A value that is NaN counts as outside. Samples lie at quarter pitches
 /// counted from the band's origin, and what is proven is what they would tell, so a line's runs do not depend
 /// on how it is cut into tiles and bands.
-void sampled_spans(WalkedSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
-void sampled_spans(EvenSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
+void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
+void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
 
 /// The same for a slice that answers from range and sample.
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out);

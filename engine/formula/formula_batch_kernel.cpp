@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamella {
 namespace HWY_NAMESPACE {
-constexpr std::size_t most_lanes = batch_group;
+constexpr std::size_t max_lanes = batch_group;
 #include "engine/base/lane_math-inl.h"
 
 /// The lines and points that a step covers.

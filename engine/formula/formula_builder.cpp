@@ -24,8 +24,8 @@ std::size_t FormulaBuilder::KeyHash::operator()(const Key& key) const {
 FormulaBuilder::Node FormulaBuilder::add(FormulaOp op, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     const auto [place, added] = known_.try_emplace(Key{op, a, b, c}, static_cast<Node>(nodes_.size()));
     if (!added) return place->second;
-    if (nodes_.size() >= static_cast<std::size_t>(most_nodes))
-        throw InputError("the formula has more than " + std::to_string(most_nodes) + " operations");
+    if (nodes_.size() >= static_cast<std::size_t>(max_nodes))
+        throw InputError("the formula has more than " + std::to_string(max_nodes) + " operations");
     if (op == FormulaOp::constant) {
         constants_.push_back(std::bit_cast<double>(a));
         a = constants_.size() - 1;
@@ -46,8 +46,8 @@ std::optional<double> FormulaBuilder::number_of(Node node) const {
 }
 
 FormulaBuilder::Node FormulaBuilder::input(int number) {
-    if (number < 0 || number >= most_inputs)
-        throw InputError("a formula has at most " + std::to_string(most_inputs) + " inputs");
+    if (number < 0 || number >= max_inputs)
+        throw InputError("a formula has at most " + std::to_string(max_inputs) + " inputs");
     if (const auto fixed = fixed_.find(number); fixed != fixed_.end()) return constant(fixed->second);
     return add(FormulaOp::input, static_cast<std::uint64_t>(number), 0, 0);
 }
@@ -79,7 +79,7 @@ FormulaBuilder::Node FormulaBuilder::binary(FormulaOp op, Node a, Node b) {
     if (op == FormulaOp::mul && a == b) return unary(FormulaOp::square, a);
     if (op == FormulaOp::div && one_by) return unary(FormulaOp::recip, b);
     if ((op == FormulaOp::min || op == FormulaOp::max) && a == b) return a;
-    const bool whole = w != nullptr && *w == std::floor(*w) && *w != 0 && std::fabs(*w) <= most_multiplied;
+    const bool whole = w != nullptr && *w == std::floor(*w) && *w != 0 && std::fabs(*w) <= max_multiplied;
     if (op == FormulaOp::pow && whole) return whole_power(a, static_cast<int>(*w));
     if (commutes(op) && b < a) std::swap(a, b);
     return add(op, static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b), 0);

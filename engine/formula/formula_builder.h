@@ -14,8 +14,8 @@ class FormulaBuilder {
     /// A number within the formula; valid for the builder that made it.
     using Node = std::int32_t;
     /// More than this many nodes, or inputs, are an InputError.
-    static constexpr int most_nodes = 4'000'000;
-    static constexpr int most_inputs = 1000;
+    static constexpr int max_nodes = 4'000'000;
+    static constexpr int max_inputs = 1000;
 
     Node input(int number);
     /// From now on the input is that number.

@@ -27,7 +27,7 @@ struct Others {
 };
 
 /// The formula in one plane, as the tile walk sees it.
-class WalkedFormula : public WalkedSolid {
+class WalkedFormula : public TileSampledSolid {
   public:
     WalkedFormula(const Formula& formula, const Others& others, double z, FormulaKeeps keeps)
         : stack_(formula, keeps), keeps_(keeps), others_(others), z_(z) {}

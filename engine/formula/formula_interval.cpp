@@ -99,7 +99,7 @@ Range raise(const Range& a, const Range& b, bool nan) {
     const double steepest =
         std::min(overflow, std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
                                std::max(std::fabs(y.lo), std::fabs(y.hi)));
-    // Twice the stated error of power; multiplied-out powers err by less than most_multiplied roundings.
+    // Twice the stated error of power; multiplied-out powers err by less than max_multiplied roundings.
     const Range wide = widened_by_share(ends.lo, ends.hi, 1e-15 * (20 + steepest), nan);
     // A reciprocal of a product that overflowed is 0 where the exponential is a tiny number.
     constexpr double tiny = 1e-290;

@@ -15,7 +15,7 @@ namespace {
 
 using Node = FormulaBuilder::Node;
 
-constexpr std::size_t most_text = 1 << 20;
+constexpr std::size_t max_text = 1 << 20;
 constexpr int deepest = 200;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -67,7 +67,7 @@ class Parser {
     Parser(std::string_view text, Lookup lookup) : text_(text), lookup_(std::move(lookup)) {}
 
     Formula parse() {
-        if (text_.size() > most_text) throw InputError("a formula has at most 1 MB of text");
+        if (text_.size() > max_text) throw InputError("a formula has at most 1 MB of text");
         if (peek() == '\0' && at_ == text_.size()) fail(at_, "the formula is empty");
         const Node result = choice();
         skip_blanks();

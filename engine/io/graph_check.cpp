@@ -187,9 +187,9 @@ class GraphCheck {
         if (node_name != inputs_name) {
             const auto place = places_.find(node_name);
             if (place == places_.end()) {
-                fail(port.from.empty()
-                         ? "nothing feeds it; it needs a ref of the form node.output"
-                         : "its ref is " + excerpt(port.from) + ", and there is no node " + excerpt(node_name));
+                fail(port.from.empty() ? "nothing feeds it; it needs a ref of the form node.output"
+                                       : "its ref is " + excerpt(port.from) + ", and there is no node " +
+                                             excerpt(node_name));
             }
             source.node = place->second;
             ports = &out_.graph.nodes[source.node].outputs;

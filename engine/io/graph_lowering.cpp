@@ -12,7 +12,7 @@ namespace {
 
 using Node = FormulaBuilder::Node;
 
-constexpr std::size_t most_evaluated = 1'000'000;
+constexpr std::size_t max_evaluated = 1'000'000;
 constexpr std::size_t deepest_call = 100;
 constexpr int deepest_sample = 8;
 
@@ -103,7 +103,7 @@ GraphLowering::Values GraphLowering::call_graph(const CheckedFunction& function,
     };
     for (const std::uint32_t i : graph.order) {
         if (need[i] == 0) continue;
-        if (++evaluated_ > most_evaluated) {
+        if (++evaluated_ > max_evaluated) {
             throw InputError(function.where +
                              ": with every call written out there are more than 1,000,000 nodes");
         }

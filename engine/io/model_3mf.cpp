@@ -8,7 +8,7 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t most_instances = 1'000'000;
+constexpr std::size_t max_instances = 1'000'000;
 constexpr int deepest_component = 32;
 
 std::string_view prefix(const pugi::xml_node& node) {
@@ -231,7 +231,7 @@ std::vector<std::string> Model3mf::left_out() const {
 void Model3mf::place(const ModelPart& from, const pugi::xml_node& reference, const Transform3mf& outer,
                      int depth, const std::function<void(const PlacedObject&)>& visit) {
     if (depth > deepest_component) reject(source_, "components are nested more than 32 deep");
-    if (++instances_ > most_instances) reject(source_, "it places more than 1,000,000 components");
+    if (++instances_ > max_instances) reject(source_, "it places more than 1,000,000 components");
     const std::string_view path = attribute_of(reference, "path");
     const ModelPart& in = path.empty() ? from : part(part_name(path));
     const std::string_view id = reference.attribute("objectid").value();

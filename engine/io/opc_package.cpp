@@ -47,8 +47,8 @@ std::string OpcPackage::read(const std::string& part) {
         text.resize(used + step);
         const zip_int64_t got = zip_fread(file.get(), text.data() + used, step);
         if (got < 0)
-            reject(source_, "part " + excerpt(part) + " cannot be unpacked (" + zip_file_strerror(file.get()) +
-                                "); the file is damaged or cut off");
+            reject(source_, "part " + excerpt(part) + " cannot be unpacked (" +
+                                zip_file_strerror(file.get()) + "); the file is damaged or cut off");
         text.resize(used + static_cast<std::size_t>(got));
         if (got == 0) return text;
         if (text.size() > unpacked_left_) reject_size();  // the stated size was a lie

@@ -16,13 +16,13 @@ namespace lamella {
 class OpcPackage {
   public:
     /// Most that is unpacked of one file's XML, and of any other part of it.
-    static constexpr std::size_t most_bytes = std::size_t{512} << 20U;
+    static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 
     /// Throws InputError for what is no archive.
     explicit OpcPackage(const MeshSource& source);
 
     bool has(const std::string& part) const;
-    /// A part's content. Its size is bounded by what `account` has left of most_bytes: a small archive can
+    /// A part's content. Its size is bounded by what `account` has left of max_bytes: a small archive can
     /// unpack to more than any memory. Throws InputError for a part that is missing, damaged or too large.
     std::string read(const std::string& part);
     /// Takes bytes that are kept off what may be unpacked.
@@ -36,7 +36,7 @@ class OpcPackage {
     };
     const MeshSource& source_;
     std::unique_ptr<struct zip, Discard> zip_;
-    std::size_t unpacked_left_ = most_bytes;
+    std::size_t unpacked_left_ = max_bytes;
 };
 
 /// The name of the part that a reference within a package means: without its leading slashes.

@@ -64,19 +64,19 @@ class HeaderReader {
     }
 
     void take_element() {
-        constexpr std::size_t most_elements = 100;
+        constexpr std::size_t max_elements = 100;
         Element element;
         element.name = std::string(text_.token_on_line());
         const std::string_view word = text_.token_on_line();
         const auto count = parse_integer(word);
         if (!count || *count < 0) fail(excerpt(word) + " is no number of elements");
-        if (header_.elements.size() == most_elements) fail("more than 100 kinds of element");
+        if (header_.elements.size() == max_elements) fail("more than 100 kinds of element");
         element.count = static_cast<std::size_t>(*count);
         header_.elements.push_back(std::move(element));
     }
 
     void take_property() {
-        constexpr std::size_t most_properties = 1000;
+        constexpr std::size_t max_properties = 1000;
         if (header_.elements.empty()) fail("a property before any element");
         Property property;
         std::string_view type = text_.token_on_line();
@@ -89,7 +89,7 @@ class HeaderReader {
         property.value = take_scalar(type);
         property.name = std::string(text_.token_on_line());
         auto& properties = header_.elements.back().properties;
-        if (properties.size() == most_properties) fail("more than 1,000 properties in one element");
+        if (properties.size() == max_properties) fail("more than 1,000 properties in one element");
         properties.push_back(std::move(property));
     }
 

@@ -8,7 +8,7 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t most_triangles = 50'000'000;
+constexpr std::size_t max_triangles = 50'000'000;
 constexpr std::string_view harmless[] = {"/production/", "/material/", "/trianglesets/"};
 
 class Reader3mf {
@@ -36,7 +36,7 @@ class Reader3mf {
         const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
         if (fresh) entry->second = read_object_mesh(model_, placed.part, node);
         const ObjectMesh& mesh = entry->second;
-        if (welder_.offered() + mesh.triangles.size() > most_triangles)
+        if (welder_.offered() + mesh.triangles.size() > max_triangles)
             reject(source_, "it places more than 50,000,000 triangles");
         std::vector<std::uint32_t> welded;
         welded.reserve(mesh.vertices.size());

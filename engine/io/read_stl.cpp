@@ -149,8 +149,8 @@ class AsciiStl {
             cut_off_ = true;
             return;
         }
-        reject(source_, "line " + std::to_string(text_.line()) + ": " + excerpt(token) + " where " + expected +
-                            " was expected");
+        reject(source_, "line " + std::to_string(text_.line()) + ": " + excerpt(token) + " where " +
+                            expected + " was expected");
     }
 
     const MeshSource& source_;

@@ -135,7 +135,7 @@ class PartReader {
             if (local_name(sheet) != "imagesheet") continue;
             const std::string_view path = attribute_of(sheet, "path");
             if (path.empty()) reject(sheet, "it has no path");
-            if (out.sheets.size() == most_sheets) reject(stack, "it has more than 1,000,000 sheets");
+            if (out.sheets.size() == max_sheets) reject(stack, "it has more than 1,000,000 sheets");
             out.sheets.push_back(part_name(path));
         }
         if (static_cast<std::int64_t>(out.sheets.size()) != announced) {
@@ -198,7 +198,7 @@ class PartReader {
                 (name == "in" ? graph.inputs : graph.outputs) = read_ports(node, name == "out");
                 continue;
             }
-            if (++nodes_ > most_graph_nodes) reject(function, "the functions have more than 200,000 nodes");
+            if (++nodes_ > max_graph_nodes) reject(function, "the functions have more than 200,000 nodes");
             graph.nodes.push_back(read_node(node));
         }
         return graph;

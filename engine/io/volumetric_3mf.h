@@ -47,8 +47,8 @@ struct VolumetricPart {
 };
 
 /// Most nodes of functions, and most sheets, that are read of one part.
-inline constexpr std::size_t most_graph_nodes = 200'000;
-inline constexpr std::size_t most_sheets = 1'000'000;
+inline constexpr std::size_t max_graph_nodes = 200'000;
+inline constexpr std::size_t max_sheets = 1'000'000;
 
 /// Throws InputError that names the file and the place for whatever the extensions do not allow, or is not
 /// supported.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/parcel.h"
+#include "engine/base/archive.h"
 #include "engine/layers/layer.h"
 
 namespace lamella {
@@ -16,7 +16,9 @@ namespace lamella {
 struct LayerProduct {
     virtual ~LayerProduct() = default;
     /// Packs or unpacks what is written of the layer, the areas not included.
-    virtual void carry(Parcel& /*parcel*/) { throw FaultError("what was made of a layer cannot be carried"); }
+    virtual void serialize(Archive& /*parcel*/) {
+        throw FaultError("what was made of a layer cannot be carried");
+    }
 
     double area = 0;          ///< solid area of the layer's part, mm^2
     double support_area = 0;  ///< of its supports, mm^2

@@ -12,8 +12,8 @@ int count_layers(double part_height, double h) {
     // A part that is a whole number of layers high up to rounding gets no extra sliver on top.
     constexpr double share_of_layer = 1e-6;
     const double count = std::ceil(part_height / h - share_of_layer);
-    constexpr double most_layers = 10'000'000;
-    if (count > most_layers)
+    constexpr double max_layers = 10'000'000;
+    if (count > max_layers)
         throw InputError("the layer height is too small for the part: more than 10 million layers");
     return std::max(1, static_cast<int>(count));
 }
@@ -32,7 +32,7 @@ void Layer::keep_lines(const RowBand& wanted) const {
     if (job_->supports) support_lines_.emplace_back(wanted);
 }
 
-std::span<KeptLines> Layer::lines_to_keep(const SliceField& slice) const {
+std::span<LineCache> Layer::lines_to_keep(const SliceField& slice) const {
     if (part_lines_.empty()) return {};
     if (&slice == &part()) return part_lines_;
     if (&slice == supports()) return support_lines_;
@@ -40,7 +40,7 @@ std::span<KeptLines> Layer::lines_to_keep(const SliceField& slice) const {
 }
 
 const SpanRows* Layer::kept_lines(const SliceField& slice, const RowBand& wanted) const {
-    for (const KeptLines& lines : lines_to_keep(slice)) {
+    for (const LineCache& lines : lines_to_keep(slice)) {
         if (lines.wanted() == wanted && lines.rows() != nullptr) return lines.rows();
     }
     return nullptr;

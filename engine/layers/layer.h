@@ -11,7 +11,7 @@
 #include "engine/contours/contours.h"
 #include "engine/field/field.h"
 #include "engine/field/slice_context.h"
-#include "engine/runs/kept_lines.h"
+#include "engine/runs/line_cache.h"
 
 namespace lamella {
 
@@ -62,7 +62,7 @@ class Layer {
     /// numbers count, so that another one need not ask for them again.
     void keep_lines(const RowBand& wanted) const;
     /// What keeps lines of a slice, for whoever goes through it; empty where none are wanted.
-    std::span<KeptLines> lines_to_keep(const SliceField& slice) const;
+    std::span<LineCache> lines_to_keep(const SliceField& slice) const;
     /// The lines of a slice that were kept; null where they were not.
     const SpanRows* kept_lines(const SliceField& slice, const RowBand& wanted) const;
 
@@ -85,7 +85,7 @@ class Layer {
     double z_;
     double thickness_;
     mutable SliceContext context_;
-    mutable std::vector<KeptLines> part_lines_, support_lines_;
+    mutable std::vector<LineCache> part_lines_, support_lines_;
     mutable Scratch scratch_;
 };
 

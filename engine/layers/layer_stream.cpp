@@ -44,16 +44,16 @@ void check_range(const Job& job, const LayerRange& range) {
 }  // namespace
 
 std::string pack(LayerProduct& product) {
-    Parcel parcel;
+    Archive parcel;
     parcel(product.area, product.support_area);
-    product.carry(parcel);
+    product.serialize(parcel);
     return parcel.bytes();
 }
 
 void unpack(std::string bytes, LayerProduct& product) {
-    Parcel parcel(std::move(bytes));
+    Archive parcel(std::move(bytes));
     parcel(product.area, product.support_area);
-    product.carry(parcel);
+    product.serialize(parcel);
     parcel.finish();
 }
 

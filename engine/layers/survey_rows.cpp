@@ -2,12 +2,25 @@
 #include "engine/layers/survey_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
-#include "engine/surveys/island_survey.h"
 
 namespace lamella {
+namespace {
+
+constexpr int max_layers_in_a_pitch = 16;
+constexpr double max_pitches = 1 << 20;  // along a side of the job
+
+}  // namespace
+
+Interval survey_pitch_range(const Job& job) {
+    const dvec3 size = job.bounds.size();
+    if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
+        throw InputError("island survey: the part's bounds are empty or infinite");
+    return {std::max(size.x, size.y) / max_pitches, max_layers_in_a_pitch * job.layer_height};
+}
 
 RowBand rows_over(const Rect& rect, double pitch) {
     const dvec2 size = rect.size();
@@ -36,8 +49,8 @@ SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratc
     return all;
 }
 
-void check_course_pitch(const char* survey, const Job& job, double pitch, double step) {
-    const Interval suited = island_pitches(job);
+void check_survey_pitch(const char* survey, const Job& job, double pitch, double step) {
+    const Interval suited = survey_pitch_range(job);
     const double most = std::min(step, suited.hi);
     if (suited.lo <= pitch && pitch <= most * (1 + 1e-9)) return;
     throw InputError(std::string(survey) +
@@ -55,8 +68,8 @@ void LayerStack::push(const SpanRows& rows) {
 void LayerStack::replace(std::size_t i, const SpanRows& rows) {
     bytes_ += bytes(rows);
     bytes_ -= bytes(layers_[i]);
-    if (bytes_ > most_bytes_) {
-        throw InputError("the plan of all layers needs more than " + std::to_string(most_bytes_ >> 20) +
+    if (bytes_ > max_bytes_) {
+        throw InputError("the plan of all layers needs more than " + std::to_string(max_bytes_ >> 20) +
                          " MB of memory, and " + std::to_string(layers_.size()) +
                          " layers are in it so far; a survey with a coarser pitch than " +
                          format_number(pitch_, 6) + " mm needs less");

@@ -10,6 +10,10 @@
 
 namespace lamella {
 
+/// Returns the row pitches that suit a survey of a job, mm: at most 2^20 rows and columns, and 16 layers in a
+/// pitch. Throws InputError when the job's bounds are empty or infinite.
+Interval survey_pitch_range(const Job& job);
+
 /// Rows along x over a rectangle, `pitch` mm from one to the next: the first begins at its lower side, run
 /// coordinate 0 at its left one.
 RowBand rows_over(const Rect& rect, double pitch);
@@ -18,16 +22,17 @@ RowBand rows_over(const Rect& rect, double pitch);
 /// stays in the cache.
 SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
 
-/// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job (island_pitches)
-/// or lie further apart than an outline moves by from one course of layers to the next, `step` mm.
-void check_course_pitch(const char* survey, const Job& job, double pitch, double step);
+/// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job
+/// (survey_pitch_range) or lie further apart than an outline moves by from one group of layers to the next,
+/// `step` mm.
+void check_survey_pitch(const char* survey, const Job& job, double pitch, double step);
 
 /// The rows of layers, from the lowest on. Memory: eight bytes a run and four a row, and while boxes are made
 /// of them another 48 a run; all of it is counted from the beginning.
 class LayerStack {
   public:
-    /// Throws InputError as soon as more than `most_bytes` would be needed; `pitch`, mm, is for its message.
-    LayerStack(std::size_t most_bytes, double pitch) : most_bytes_(most_bytes), pitch_(pitch) {}
+    /// Throws InputError as soon as more than `max_bytes` would be needed; `pitch`, mm, is for its message.
+    LayerStack(std::size_t max_bytes, double pitch) : max_bytes_(max_bytes), pitch_(pitch) {}
 
     std::size_t size() const { return layers_.size(); }
     const SpanRows& operator[](std::size_t i) const { return layers_[i]; }
@@ -41,7 +46,7 @@ class LayerStack {
   private:
     static std::size_t bytes(const SpanRows& rows);
 
-    std::size_t most_bytes_, bytes_ = 0;
+    std::size_t max_bytes_, bytes_ = 0;
     double pitch_;
     std::vector<SpanRows> layers_;
 };

@@ -9,12 +9,12 @@
 namespace lamella {
 namespace {
 
-constexpr double radius_tolerance = 0.02;            // of the largest number on the triangle
+constexpr double radius_tolerance = 0.02;     // of the largest number on the triangle
 constexpr double smallest_in_lengths = 0.25;  // edges this short need no division
 constexpr double halved_with_longest = 0.5;   // edges at least this share of the longest are halved with it
 constexpr int edge_halvings = 10;
-constexpr int fewest_steps = 4, most_steps = 16;  // of the lattice along an edge
-constexpr std::size_t most_new_triangles = 8'000'000;
+constexpr int fewest_steps = 4, max_steps = 16;  // of the lattice along an edge
+constexpr std::size_t max_new_triangles = 8'000'000;
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -24,12 +24,11 @@ class Refinement {
         result_.numbers.reserve(mesh.vertices.size());
         for (const dvec3 v : mesh.vertices) result_.numbers.push_back(lengths.at(v));
         open_.assign(mesh.triangles.size(), true);
-        most_triangles_ = mesh.triangles.size() + most_new_triangles;
+        max_triangles_ = mesh.triangles.size() + max_new_triangles;
     }
 
     GradedMesh run() {
-        for (int round = 0; round < edge_halvings && mark() && triangles().size() < most_triangles_;
-             ++round) {
+        for (int round = 0; round < edge_halvings && mark() && triangles().size() < max_triangles_; ++round) {
             divide();
         }
         return std::move(result_);
@@ -62,7 +61,7 @@ class Refinement {
         for (const std::uint32_t v : t) box.include(place(v));
         const Interval enclosure = lengths_.range(box);
         if (enclosure.width() <= radius_tolerance * enclosure.hi) return true;
-        const double spacing = std::max(enclosure.hi / 2, longest / most_steps);
+        const double spacing = std::max(enclosure.hi / 2, longest / max_steps);
         const int steps = std::max(fewest_steps, static_cast<int>(std::ceil(longest / spacing)));
         double largest = 0, deviation = 0;
         for (int i = 0; i <= steps; ++i) {
@@ -139,7 +138,7 @@ class Refinement {
     GradedMesh result_;
     std::vector<bool> open_;  ///< by triangle: may still have to be divided
     std::unordered_map<std::uint64_t, std::uint32_t> middles_;
-    std::size_t most_triangles_ = 0;
+    std::size_t max_triangles_ = 0;
 };
 
 }  // namespace

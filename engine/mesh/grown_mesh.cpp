@@ -8,7 +8,7 @@ namespace lamella {
 namespace {
 
 /// An edge whose two wedges leave a gap thinner than this is closed by rounding anyway, mm.
-constexpr double least_gap = 1e-7;
+constexpr double min_gap = 1e-7;
 /// How far an inner wedge reaches before its face, mm: enough for runs to meet the body's whatever the
 /// rounding.
 constexpr double overlap = 0.01;
@@ -54,7 +54,7 @@ bool is_reflex(const TriangleMesh& mesh, const std::vector<dvec3>& normals, cons
     const dvec3 n = glm::cross(na, nb);
     const double sine = std::sqrt(glm::dot(n, n));
     const bool faces_away = glm::dot(na, nb) < 0;
-    if (!faces_away && sine * distance < least_gap) return false;
+    if (!faces_away && sine * distance < min_gap) return false;
     const dvec3 edge = mesh.vertices[a.low];
     return glm::dot(na, mesh.vertices[opposite_corner(mesh, b)] - edge) > 0 ||
            glm::dot(nb, mesh.vertices[opposite_corner(mesh, a)] - edge) > 0;
@@ -73,7 +73,7 @@ bool leaves_gap(const TriangleMesh& mesh, dvec3 na, dvec3 nb, const HalfEdge& a,
     if (na == dvec3(0) || nb == dvec3(0)) return true;
     const dvec3 between = na - nb;
     const bool faces_away = glm::dot(na, nb) < 0;
-    if (!faces_away && std::sqrt(glm::dot(between, between)) * radius < least_gap) return false;
+    if (!faces_away && std::sqrt(glm::dot(between, between)) * radius < min_gap) return false;
     const dvec3 edge = mesh.vertices[a.low];
     return glm::dot(between, mesh.vertices[opposite_corner(mesh, b)] - edge) < 0 ||
            glm::dot(-between, mesh.vertices[opposite_corner(mesh, a)] - edge) < 0;
@@ -150,7 +150,7 @@ void GrownMesh::index_triangles() {
 void GrownMesh::find_whole_triangles(const RoundTriangleTree& tree) {
     const auto undercut = [&](dvec3 p, double radius) {
         const double limit = radius * (1 - clearly_shorter);
-        return radius > 0 && tree.least_detour(p, limit) < limit;
+        return radius > 0 && tree.min_detour(p, limit) < limit;
     };
     const auto undercut_at_centre = [&](const RoundTriangle& t) {
         const double mean = (t.radii[0] + t.radii[1] + t.radii[2]) / 3.0;

@@ -31,11 +31,11 @@ class CapEdges {
     /// Takes the edge out of v that turns back the most, coming from `previous`: at a vertex where several
     /// holes meet that keeps to the same hole, and a slit is left by the side it was entered from.
     std::uint32_t take(std::uint32_t v, std::uint32_t previous) {
-        constexpr std::uint32_t most_looked_at = 64;
+        constexpr std::uint32_t max_looked_at = 64;
         std::uint32_t best = left_[v] - 1;
         if (previous != no_vertex && left_[v] > 1) {
             double best_cosine = -infinity;
-            for (std::uint32_t i = 0; i < std::min(left_[v], most_looked_at); ++i) {
+            for (std::uint32_t i = 0; i < std::min(left_[v], max_looked_at); ++i) {
                 const double c = cosine(previous, v, ends_[begin_[v] + i]);
                 if (c > best_cosine) best = i;
                 best_cosine = std::max(best_cosine, c);

@@ -91,7 +91,7 @@ std::vector<Share> shares_of(const Triangles& triangles, const MeshEdges& edges,
 /// Patches to turn, small ones first, as long as that lessens the net boundary.
 std::vector<bool> patches_to_turn(const Triangles& triangles, const MeshEdges& edges,
                                   const Patches& patches) {
-    constexpr int most_rounds = 16;
+    constexpr int max_rounds = 16;
     std::vector<bool> turned(patches.size.size(), false);
     std::vector<Share> shares = shares_of(triangles, edges, patches);
     std::vector<std::int64_t> net(edges.edges().size(), 0);
@@ -106,7 +106,7 @@ std::vector<bool> patches_to_turn(const Triangles& triangles, const MeshEdges& e
     std::stable_sort(begins.begin(), begins.end(),
                      [&](std::size_t a, std::size_t b) { return size_at(a) < size_at(b); });
     bool changed = true;
-    for (int round = 0; changed && round < most_rounds; ++round) {
+    for (int round = 0; changed && round < max_rounds; ++round) {
         changed = false;
         for (const std::size_t begin : begins) {
             const std::uint32_t patch = shares[begin].patch;

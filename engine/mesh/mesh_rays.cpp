@@ -21,14 +21,14 @@ int passing(dvec3 a, dvec3 b, dvec3 p) {
 
 MeshRays::MeshRays(const TriangleMesh& mesh) : mesh_(mesh), box_(mesh.bounds()) {
     // A triangle stands in every bin that its box touches, so meshes of large triangles get fewer bins.
-    const std::size_t most_members = 16 * mesh.triangles.size() + 1024;
+    const std::size_t max_members = 16 * mesh.triangles.size() + 1024;
     while (bins_ * bins_ < mesh.triangles.size() && bins_ < 1024) bins_ *= 2;
     const auto members = [&] {
         std::size_t total = 0;
         for (const auto& t : mesh.triangles) total += bins_of(t).count();
         return total;
     };
-    while (bins_ > 1 && members() > most_members) bins_ /= 2;
+    while (bins_ > 1 && members() > max_members) bins_ /= 2;
     fill();
 }
 

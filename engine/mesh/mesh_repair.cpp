@@ -18,8 +18,8 @@ namespace lamella {
 namespace {
 
 /// Below these shares of the bounding box's diagonal (and its cube) there is nothing a printer could make.
-constexpr double least_volume = 1e-12;
-constexpr double least_sheet_thickness = 1e-5;
+constexpr double min_volume = 1e-12;
+constexpr double min_sheet_thickness = 1e-5;
 
 double diagonal_of(const TriangleMesh& mesh) {
     const dvec3 size = mesh.bounds().size();
@@ -137,7 +137,7 @@ class Repair {
         double volume = 0.0;
         for (const double v : bodies.volume) volume += v;
         const double diagonal = diagonal_of(mesh);
-        if (triangles().size() < 4 || !(volume > least_volume * diagonal * diagonal * diagonal)) refuse();
+        if (triangles().size() < 4 || !(volume > min_volume * diagonal * diagonal * diagonal)) refuse();
         drop_unused_vertices(mesh);
         // What was one at first still is: only whole bodies have been turned or left out.
         out_.oriented_manifold =
@@ -170,7 +170,7 @@ class Repair {
         std::size_t sheets = 0;
         for (std::size_t b = 0; b < is_sheet.size(); ++b) {
             // Two triangles closed by themselves are a pair back to back.
-            const bool flat = std::abs(bodies.volume[b]) <= least_sheet_thickness * diagonal * bodies.area[b];
+            const bool flat = std::abs(bodies.volume[b]) <= min_sheet_thickness * diagonal * bodies.area[b];
             const bool mostly_caps = 4.0 * cap_area[b] >= bodies.area[b];
             const bool nothing = std::abs(bodies.volume[b]) <= 1e-15 * diagonal * bodies.area[b];
             is_sheet[b] = (flat && mostly_caps) || nothing;

@@ -23,12 +23,12 @@ class VertexGrid {
     /// Calls visit(v) for the vertices in the 27 cells round p; a bounded number of each three in a row.
     template <class Visit>
     void around(dvec3 p, const Visit& visit) const {
-        constexpr int most_per_row = 128;
+        constexpr int max_per_row = 128;
         const std::array<std::int64_t, 3> c = cell_of(p);
         for (int n = 0; n < 9; ++n) {
             const std::uint64_t first = key({c[0] + n % 3 - 1, c[1] + n / 3 - 1, c[2] - 1});
             auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{first, 0});
-            for (int i = 0; i < most_per_row && entry != entries_.end() && entry->key <= first + 2; ++i) {
+            for (int i = 0; i < max_per_row && entry != entries_.end() && entry->key <= first + 2; ++i) {
                 visit((entry++)->vertex);
             }
         }

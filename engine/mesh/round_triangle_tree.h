@@ -21,7 +21,7 @@ class RoundTriangleTree {
     /// never exceeds the distance. Infinite without triangles.
     double distance(dvec3 p) const { return nearest(p, 1, infinity); }
     /// The least sum of the way from p to a point of the mesh and the radius there, mm; at most `limit`.
-    double least_detour(dvec3 p, double limit) const { return nearest(p, -1, limit); }
+    double min_detour(dvec3 p, double limit) const { return nearest(p, -1, limit); }
     const Box& bounds() const { return bounds_; }
 
   private:

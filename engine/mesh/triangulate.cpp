@@ -10,7 +10,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr std::size_t least_area_limit = 32;    // cubic time: 5 microseconds a corner at this size
+constexpr std::size_t min_area_limit = 32;      // cubic time: 5 microseconds a corner at this size
 constexpr std::size_t containment_limit = 512;  // quadratic time: longer loops are first shortened
 
 /// Area plus a small penalty for needles, so that among equal areas the well-shaped ones win.
@@ -22,10 +22,10 @@ double cost(dvec3 a, dvec3 b, dvec3 c) {
     return area + 1e-6 * longest * slenderness;
 }
 
-void least_area(std::span<const dvec3> p, Triangles& out) {
+void min_area(std::span<const dvec3> p, Triangles& out) {
     const std::size_t n = p.size();
-    std::array<std::array<double, least_area_limit>, least_area_limit> best;
-    std::array<std::array<std::uint8_t, least_area_limit>, least_area_limit> apex;
+    std::array<std::array<double, min_area_limit>, min_area_limit> best;
+    std::array<std::array<std::uint8_t, min_area_limit>, min_area_limit> apex;
     for (std::size_t i = 0; i + 1 < n; ++i) best[i][i + 1] = 0.0;
     for (std::size_t gap = 2; gap < n; ++gap) {
         for (std::size_t i = 0; i + gap < n; ++i) {
@@ -188,8 +188,8 @@ void triangulate_loop(std::span<const dvec3> loop, Triangles& out) {
     if (loop.size() < 3) return;
     if (loop.size() == 3) {
         out.push_back({0, 1, 2});
-    } else if (loop.size() <= least_area_limit) {
-        least_area(loop, out);
+    } else if (loop.size() <= min_area_limit) {
+        min_area(loop, out);
     } else {
         EarClipper(loop, out).run();
     }

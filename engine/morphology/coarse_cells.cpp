@@ -41,13 +41,13 @@ CoarseCells::CoarseCells(const SpanRows& rows, std::int32_t scale, double reach,
     }
 }
 
-void CoarseCells::add(std::int32_t begin, std::int32_t end, std::size_t line, CellRows& to) {
+void CoarseCells::add(std::int32_t begin, std::int32_t end, std::size_t line, RowBitmask& to) {
     if (begin >= end) return;
     const std::int32_t length = scale_ * CellLattice::cell, first = to.lattice().first * scale_;
     to.mark((begin - first) / length, (end - first + length - 1) / length, line);
 }
 
-SpanRows CoarseCells::rows_of(const CellRows& cells) const {
+SpanRows CoarseCells::rows_of(const RowBitmask& cells) const {
     const auto lines = static_cast<std::size_t>(scale_);
     const std::size_t count = row_count_ + 2 * margin();
     const SpanRows coarse = cells.runs(0, (count + lines - 1) / lines);

@@ -1,7 +1,7 @@
 // CoarseCells: a layer by cells of several rows, where its finest details do not matter.
 #pragma once
 
-#include "engine/morphology/cell_rows.h"
+#include "engine/morphology/row_bitmask.h"
 
 namespace lamella {
 
@@ -11,19 +11,19 @@ class CoarseCells {
     /// Cells are known up to `reach` beside the rows, run units.
     CoarseCells(const SpanRows& rows, std::int32_t scale, double reach, double row_pitch);
 
-    const CellRows& solid() const { return solid_; }
-    const CellRows& voids() const { return void_; }
+    const RowBitmask& solid() const { return solid_; }
+    const RowBitmask& voids() const { return void_; }
     /// Rows that are known on either side of the layer's.
     std::size_t margin() const { return solid_.lattice().margin_lines * static_cast<std::size_t>(scale_); }
     /// Cells of the lattice as runs of the layer's rows and the margin's, run units.
-    SpanRows rows_of(const CellRows& cells) const;
+    SpanRows rows_of(const RowBitmask& cells) const;
 
   private:
-    void add(std::int32_t begin, std::int32_t end, std::size_t line, CellRows& to);
+    void add(std::int32_t begin, std::int32_t end, std::size_t line, RowBitmask& to);
 
     std::int32_t scale_;
     std::size_t row_count_;
-    CellRows solid_, void_;
+    RowBitmask solid_, void_;
 };
 
 }  // namespace lamella

@@ -9,32 +9,32 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel_strips.h"
-#include "engine/morphology/grown_block.h"
-#include "engine/morphology/grown_lines.h"
+#include "engine/morphology/brute_force_dilation.h"
+#include "engine/morphology/pruned_dilation.h"
 #include "engine/runs/row_sets.h"
 
 namespace lamella {
 namespace {
 
-constexpr std::size_t least_block = 16;  // layers that are finished together
+constexpr std::size_t min_block = 16;  // layers that are finished together
 
-/// Where a ball reaches so few lines, all runs on them are looked at (GrownLines): about where foams and
-/// capsules were measured to take as long in larger blocks. Balls of eleven lines.
-constexpr std::size_t most_lines_by_all = 400;
+/// Where a ball reaches so few lines, all runs on them are looked at (BruteForceDilation): about where foams
+/// and capsules were measured to take as long in larger blocks. Balls of eleven lines.
+constexpr std::size_t max_lines_by_all = 400;
 
-using LayerStack = std::vector<const BallRows*>;
+using LayerStack = std::vector<const WeightedRows*>;
 
-double most_weight_of(const LayerStack& stack) {
+double max_weight_of(const LayerStack& stack) {
     double most = 0;
-    for (const BallRows* layer : stack) most = std::max(most, layer->most_weight());
+    for (const WeightedRows* layer : stack) most = std::max(most, layer->max_weight());
     return most;
 }
 
 /// Where what is grown from these layers can begin and end, runs without an end apart.
 Run extent_of(const LayerStack& stack) {
     Run extent{far_out, -far_out};
-    for (const BallRows* layer : stack) {
-        for (const BallRun& run : layer->runs()) {
+    for (const WeightedRows* layer : stack) {
+        for (const WeightedRun& run : layer->runs()) {
             for (const std::int32_t end : {run.begin, run.end}) {
                 if (std::abs(end) >= far_out) continue;
                 extent.begin = std::min(extent.begin, end);
@@ -43,16 +43,16 @@ Run extent_of(const LayerStack& stack) {
         }
     }
     if (extent.begin > extent.end) return {0, run_unit};
-    const auto reach = static_cast<std::int32_t>(std::sqrt(most_weight_of(stack))) + 2;
+    const auto reach = static_cast<std::int32_t>(std::sqrt(max_weight_of(stack))) + 2;
     return {extent.begin - reach, extent.end + reach};
 }
 
 /// Lines along the edge of blocks that are best grown together, as measured on foams, gyroids and capsules:
-/// those of BlockUnion as long as the search for what is near does not outweigh the rest, then larger ones,
+/// those of SimdRunUnion as long as the search for what is near does not outweigh the rest, then larger ones,
 /// which are halved.
 std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
     const std::size_t lines = lattice.lines_within(reach);
-    if (lines < 32) return std::clamp<std::size_t>(std::bit_floor(lines), 1, BlockUnion::edge);
+    if (lines < 32) return std::clamp<std::size_t>(std::bit_floor(lines), 1, SimdRunUnion::edge);
     return lines < 48 ? 16 : 32;
 }
 
@@ -61,7 +61,7 @@ std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_
     const double reach = std::sqrt(weight);
     const std::size_t up_to = std::min(lattice.layers_within(reach), layers - 1);
     std::size_t lines = 2 * lattice.lines_within(reach) + 1;
-    for (std::size_t k = 1; k <= up_to && lines <= most_lines_by_all; ++k) {
+    for (std::size_t k = 1; k <= up_to && lines <= max_lines_by_all; ++k) {
         const double up = static_cast<double>(k) * lattice.layer_pitch;
         lines += 2 * (2 * lattice.lines_within(std::sqrt(std::max(weight - up * up, 0.0))) + 1);
     }
@@ -69,9 +69,9 @@ std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_
 }
 
 /// Whether all runs that so large a ball reaches in a stack of so many layers had better be looked at.
-bool looks_at_all(const LayerLattice& lattice, const BallReaches& reaches, double weight,
+bool looks_at_all(const LayerLattice& lattice, const BallExtentTable& reaches, double weight,
                   std::size_t layers) {
-    return reaches.weight() >= 0 && lines_reached(lattice, weight, layers) <= most_lines_by_all;
+    return reaches.weight() >= 0 && lines_reached(lattice, weight, layers) <= max_lines_by_all;
 }
 
 /// Appends a grown line; what goes on without an end reaches the ends of the extent.
@@ -109,13 +109,13 @@ std::vector<SpanRows> side_by_side(const Strips& strips, std::size_t layer_count
 /// Grows layers [from, from + count) of a stack, by blocks of `high` layers of `wide` lines.
 template <typename Grower>
 std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
-                                  const BallReaches& reaches, std::size_t high, std::size_t wide,
+                                  const BallExtentTable& reaches, std::size_t high, std::size_t wide,
                                   std::size_t from, std::size_t count) {
     const Run extent = extent_of(stack);
     Strips strips(strips_of(lattice));
     oneapi::tbb::enumerable_thread_specific<Grower> growers(lattice, std::cref(reaches), extent,
                                                             static_cast<std::int32_t>(std::min(high, count)),
-                                                            most_weight_of(stack));
+                                                            max_weight_of(stack));
     for_all_strips(strips.size(), [&](std::size_t s) {
         Grower& grower = growers.local();
         std::vector<SpanRows>& layers = strips[s];
@@ -137,21 +137,22 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
 
 /// The same in whichever way is faster.
 std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
-                                  const BallReaches& reaches, std::size_t from, std::size_t count) {
-    const double most_weight = most_weight_of(stack);
-    const double reach = std::sqrt(most_weight);
-    if (looks_at_all(lattice, reaches, most_weight, stack.size())) {
+                                  const BallExtentTable& reaches, std::size_t from, std::size_t count) {
+    const double max_weight = max_weight_of(stack);
+    const double reach = std::sqrt(max_weight);
+    if (looks_at_all(lattice, reaches, max_weight, stack.size())) {
         // Large balls reach most of the layers of higher blocks from everywhere.
-        const std::size_t high = lattice.layers_within(reach) <= BlockUnion::edge ? 4 : BlockUnion::edge;
-        return grow_blocks<GrownLines>(stack, lattice, reaches, high, BlockUnion::edge, from, count);
+        const std::size_t high = lattice.layers_within(reach) <= SimdRunUnion::edge ? 4 : SimdRunUnion::edge;
+        return grow_blocks<BruteForceDilation>(stack, lattice, reaches, high, SimdRunUnion::edge, from,
+                                               count);
     }
     const std::size_t edge = edge_of_blocks(lattice, reach);
-    return grow_blocks<GrownBlock>(stack, lattice, reaches, edge, edge, from, count);
+    return grow_blocks<PrunedDilation>(stack, lattice, reaches, edge, edge, from, count);
 }
 
 /// The void of a line between far left and far right.
-void append_void(std::span<const Run> solid, double weight, BallRows& out) {
-    std::vector<BallRun> runs;
+void append_void(std::span<const Run> solid, double weight, WeightedRows& out) {
+    std::vector<WeightedRun> runs;
     std::int32_t at = -far_out;
     for (const Run& run : solid) {
         if (run.begin > at) runs.push_back({at, run.begin, weight});
@@ -162,8 +163,8 @@ void append_void(std::span<const Run> solid, double weight, BallRows& out) {
 }
 
 /// The void of a layer with `margin` lines on either side.
-BallRows void_of(const SpanRows& rows, std::size_t margin, double radius) {
-    BallRows out;
+WeightedRows void_of(const SpanRows& rows, std::size_t margin, double radius) {
+    WeightedRows out;
     for (std::size_t l = 0; l < margin; ++l) append_void({}, radius * radius, out);
     for (std::size_t l = 0; l < rows.lines(); ++l) append_void(rows.line(l), radius * radius, out);
     for (std::size_t l = 0; l < margin; ++l) append_void({}, radius * radius, out);
@@ -184,11 +185,11 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 
 }  // namespace
 
-void grow_rows(const BallRows& rows, double row_pitch, SpanRows& out) {
+void grow_rows(const WeightedRows& rows, double row_pitch, SpanRows& out) {
     // Other layers, of which there are none, lie beyond every disc.
-    const double beyond = 2 * std::sqrt(rows.most_weight()) + row_pitch;
+    const double beyond = 2 * std::sqrt(rows.max_weight()) + row_pitch;
     const LayerLattice lattice{row_pitch, beyond, rows.lines()};
-    out = std::move(grow_within({&rows}, lattice, BallReaches(lattice, rows.most_weight()), 0, 1).front());
+    out = std::move(grow_within({&rows}, lattice, BallExtentTable(lattice, rows.max_weight()), 0, 1).front());
 }
 
 void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
@@ -199,21 +200,21 @@ void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows
     append_solid(voids, margin, out);
 }
 
-GrowingLayers::GrowingLayers(const LayerLattice& lattice, double most_reach)
+DilationStream::DilationStream(const LayerLattice& lattice, double max_reach)
     : lattice_(lattice),
-      most_weight_(most_reach * most_reach),
-      ball_(lattice, most_weight_),
-      reach_(lattice.layers_within(most_reach)),
-      block_(std::max(edge_of_blocks(lattice, most_reach), least_block)),
-      sight_limits_(lattice, most_weight_) {}
+      max_weight_(max_reach * max_reach),
+      ball_(lattice, max_weight_),
+      reach_(lattice.layers_within(max_reach)),
+      block_(std::max(edge_of_blocks(lattice, max_reach), min_block)),
+      sight_limits_(lattice, max_weight_) {}
 
-void GrowingLayers::push(BallRows layer) {
+void DilationStream::push(WeightedRows layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
-    if (layer.most_weight() > most_weight_) throw FaultError("a ball is larger than the greatest one");
+    if (layer.max_weight() > max_weight_) throw FaultError("a ball is larger than the greatest one");
     layers_.push_back(std::move(layer));
 }
 
-bool GrowingLayers::pop(SpanRows& out) {
+bool DilationStream::pop(SpanRows& out) {
     const std::size_t waiting = layers_.size() - past_;
     if (done_.empty() && (finished_ ? waiting > 0 : waiting >= block_ + reach_)) finish_block();
     if (done_.empty()) return false;
@@ -222,9 +223,9 @@ bool GrowingLayers::pop(SpanRows& out) {
     return true;
 }
 
-void GrowingLayers::limit_sights() {
+void DilationStream::limit_sights() {
     for_all_strips(layers_.size() - limited_, [&](std::size_t i) {
-        BallRows& layer = layers_[limited_ + i];
+        WeightedRows& layer = layers_[limited_ + i];
         layer.begin_sights();
         sight_limits_.limit(layer);
     });
@@ -236,10 +237,10 @@ void GrowingLayers::limit_sights() {
     limited_ = layers_.size();
 }
 
-void GrowingLayers::finish_block() {
+void DilationStream::finish_block() {
     const std::size_t count = std::min(block_, layers_.size() - past_);
     const std::size_t window = std::min(past_ + count + reach_, layers_.size());
-    if (!few_ends_left_ && !looks_at_all(lattice_, ball_, most_weight_, window)) limit_sights();
+    if (!few_ends_left_ && !looks_at_all(lattice_, ball_, max_weight_, window)) limit_sights();
     LayerStack stack;
     for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
     std::size_t runs = 0, grown_runs = 0;
@@ -256,7 +257,7 @@ void GrowingLayers::finish_block() {
     limited_ -= std::min(limited_, forgotten);
 }
 
-ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)
+ErosionStream::ErosionStream(const LayerLattice& lattice, double radius)
     : lattice_(lattice),
       radius_(radius),
       margin_(lattice.lines_within(radius)),
@@ -266,23 +267,23 @@ ShrinkingLayers::ShrinkingLayers(const LayerLattice& lattice, double radius)
     push_void();
 }
 
-void ShrinkingLayers::push_void() {
+void ErosionStream::push_void() {
     const SpanRows nothing = empty_rows(lattice_.lines);
     for (std::size_t i = 0; i < void_layers_; ++i) voids_.push(void_of(nothing, margin_, radius_));
 }
 
-void ShrinkingLayers::push(const SpanRows& layer) {
+void ErosionStream::push(const SpanRows& layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
     voids_.push(void_of(layer, margin_, radius_));
     ++to_come_;
 }
 
-void ShrinkingLayers::finish() {
+void ErosionStream::finish() {
     push_void();
     voids_.finish();
 }
 
-bool ShrinkingLayers::pop(SpanRows& out) {
+bool ErosionStream::pop(SpanRows& out) {
     SpanRows voids;
     for (; to_drop_ > 0; --to_drop_) {
         if (!voids_.pop(voids)) return false;

@@ -33,25 +33,25 @@ SampledBall sampled_ball(const RowBand& band, double layer_height, double thickn
     return {flat, radius};
 }
 
-OpenedLayers::OpenedLayers(const LayerLattice& lattice, double radius, double slack)
+OpeningStream::OpeningStream(const LayerLattice& lattice, double radius, double slack)
     : reach_(radius + slack), shrunk_(lattice, radius), grown_(lattice, radius + slack) {}
 
-void OpenedLayers::push(const SpanRows& layer) {
+void OpeningStream::push(const SpanRows& layer) {
     shrunk_.push(layer);
     carry_on();
 }
 
-void OpenedLayers::finish() {
+void OpeningStream::finish() {
     shrunk_.finish();
     carry_on();
     grown_.finish();
 }
 
-void OpenedLayers::carry_on() {
-    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(BallRows(rows, reach_));
+void OpeningStream::carry_on() {
+    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(WeightedRows(rows, reach_));
 }
 
-ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius, double slack)
+ClosingStream::ClosingStream(const LayerLattice& lattice, double radius, double slack)
     : radius_(radius),
       lines_(lattice.lines),
       margin_(lattice.lines_within(radius)),
@@ -63,34 +63,34 @@ ClosedLayers::ClosedLayers(const LayerLattice& lattice, double radius, double sl
 }
 
 /// What grows out of the lattice has to be there when it shrinks back.
-void ClosedLayers::push_empty() {
+void ClosingStream::push_empty() {
     const SpanRows nothing = empty_rows(lines_ + 2 * margin_);
-    for (std::size_t i = 0; i < beyond_; ++i) grown_.push(BallRows(nothing, radius_));
+    for (std::size_t i = 0; i < beyond_; ++i) grown_.push(WeightedRows(nothing, radius_));
     carry_on();
 }
 
-void ClosedLayers::push(const SpanRows& layer) {
+void ClosingStream::push(const SpanRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
     SpanRows wide = empty_rows(margin_);
     wide.append_lines(layer);
     for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
-    grown_.push(BallRows(wide, radius_));
+    grown_.push(WeightedRows(wide, radius_));
     ++to_come_;
     carry_on();
 }
 
-void ClosedLayers::finish() {
+void ClosingStream::finish() {
     push_empty();
     grown_.finish();
     carry_on();
     shrunk_.finish();
 }
 
-void ClosedLayers::carry_on() {
+void ClosingStream::carry_on() {
     for (SpanRows rows; grown_.pop(rows);) shrunk_.push(rows);
 }
 
-bool ClosedLayers::pop(SpanRows& out) {
+bool ClosingStream::pop(SpanRows& out) {
     SpanRows wide;
     for (; to_drop_ > 0; --to_drop_) {
         if (!shrunk_.pop(wide)) return false;

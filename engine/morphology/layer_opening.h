@@ -26,9 +26,9 @@ SampledBall sampled_ball(const RowBand& band, double layer_height, double thickn
 /// What balls cover that lie in the solid wholly: the solid without all that is thinner than the ball (the
 /// opening; Williams and Rossignac 2005 call what stays stable). Ends are right to a unit. With slack, run
 /// units, all that lies no further than it from there belongs to it, too.
-class OpenedLayers {
+class OpeningStream {
   public:
-    OpenedLayers(const LayerLattice& lattice, double radius, double slack = 0);
+    OpeningStream(const LayerLattice& lattice, double radius, double slack = 0);
     void push(const SpanRows& layer);
     void finish();
     bool pop(SpanRows& out) { return grown_.pop(out); }
@@ -37,16 +37,16 @@ class OpenedLayers {
     void carry_on();
 
     double reach_;  // of what is grown again
-    ShrinkingLayers shrunk_;
-    GrowingLayers grown_;
+    ErosionStream shrunk_;
+    DilationStream grown_;
 };
 
 /// The solid with all of the void that no ball covers which lies in the void wholly: gaps and holes narrower
 /// than the ball are filled (the closing). Ends are right to a unit. With slack, run units, all that lies no
 /// further than it from such a ball stays void, too.
-class ClosedLayers {
+class ClosingStream {
   public:
-    ClosedLayers(const LayerLattice& lattice, double radius, double slack = 0);
+    ClosingStream(const LayerLattice& lattice, double radius, double slack = 0);
     void push(const SpanRows& layer);
     void finish();
     bool pop(SpanRows& out);
@@ -60,8 +60,8 @@ class ClosedLayers {
     std::size_t beyond_;          // layers below and above that a ball reaches
     std::size_t to_drop_;         // of those below
     std::size_t to_come_ = 0;     // layers that went in and did not come out yet
-    GrowingLayers grown_;
-    ShrinkingLayers shrunk_;
+    DilationStream grown_;
+    ErosionStream shrunk_;
 };
 
 }  // namespace lamella

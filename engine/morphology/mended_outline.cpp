@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/field/slice_context.h"
 #include "engine/morphology/layer_offset.h"
-#include "engine/morphology/layer_thinness.h"
+#include "engine/morphology/thin_features.h"
 #include "engine/runs/plane_lattice.h"
 #include "engine/runs/row_sets.h"
 #include "engine/solids/line_frame.h"
@@ -36,13 +36,13 @@ struct Mending {
 };
 
 void grow(const SpanRows& rows, double radius, SpanRows& out) {
-    grow_rows(BallRows(rows, radius), run_unit, out);
+    grow_rows(WeightedRows(rows, radius), run_unit, out);
 }
 
 /// Where discs of `radius` have to stand so that all has that radius at least.
 void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
     SpanRows thin, shrunk, larger, some, all;
-    thin_rows(rows, Medium::solid, {radius, outline_slack_share * radius + run_unit}, run_unit, thin);
+    thin_rows(rows, FeatureKind::wall, {radius, outline_slack_share * radius + run_unit}, run_unit, thin);
     out = empty_rows(rows.lines());
     for (int level = levels - 1; level >= 0 && !thin.runs().empty(); --level) {
         const double r = radius * level / levels;
@@ -58,7 +58,7 @@ void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
 }
 
 void cores_of_narrow(const SpanRows& rows, double radius, SpanRows& out) {
-    thin_rows(rows, Medium::gaps, {radius, outline_slack_share * radius + run_unit}, run_unit, out);
+    thin_rows(rows, FeatureKind::gap, {radius, outline_slack_share * radius + run_unit}, run_unit, out);
 }
 
 class MendedSlice : public SliceField {

@@ -22,9 +22,9 @@ IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::
     item_.reserve(order.size());
     for (const auto& [key, item] : order) item_.push_back(item);
     // Bins about as wide as the items: each item then stands in two of them or so.
-    constexpr double most_bins = 4096;
+    constexpr double max_bins = 4096;
     const double mean = total / static_cast<double>(item_.size());
-    const double wanted = mean > 0 ? std::min(extent_.width() / mean, most_bins) : 1;
+    const double wanted = mean > 0 ? std::min(extent_.width() / mean, max_bins) : 1;
     bins_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
     bins_per_mm_ = extent_.width() > 0 ? static_cast<double>(bins_) / extent_.width() : 0;
 

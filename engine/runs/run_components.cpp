@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/base/parcel.h"
+#include "engine/base/archive.h"
 
 namespace lamella {
 namespace {
@@ -103,7 +103,7 @@ void ComponentExtent::include(const ComponentExtent& other) {
     last_layer = std::max(last_layer, other.last_layer);
 }
 
-void LabelledLayer::carry(Parcel& parcel) {
+void LabelledLayer::serialize(Archive& parcel) {
     parcel(first_row, starts, runs, components, owners);
     if (!parcel.unpacks() || (starts.empty() && runs.empty())) return;  // where nothing was labelled
     check_row_starts(starts, runs.size());
@@ -182,8 +182,8 @@ LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth)
     return out;
 }
 
-RunComponents::RunComponents(const Growth& growth, std::size_t most_runs)
-    : reach_(2 * growth.layers + 1), most_runs_(most_runs) {}
+RunComponents::RunComponents(const Growth& growth, std::size_t max_runs)
+    : reach_(2 * growth.layers + 1), max_runs_(max_runs) {}
 
 std::uint32_t RunComponents::find(std::uint32_t number) { return sets_.find(number); }
 
@@ -218,7 +218,7 @@ std::vector<std::uint32_t> RunComponents::add(LabelledLayer layer, int index) {
     for (int r = layer.first_row; r < layer.first_row + layer.rows(); ++r) {
         for (const LabelledRun& run : layer.row(r)) {
             Component& component = *components_[numbers[run.component]];
-            if (++component.run_count <= most_runs_) {
+            if (++component.run_count <= max_runs_) {
                 component.runs.push_back({index, r, run.begin, run.end});
                 ++runs_kept_;
             } else {
@@ -241,7 +241,7 @@ void RunComponents::unite(std::uint32_t a, std::uint32_t b) {
     Component& joined = *components_[high];
     kept.extent.include(joined.extent);
     kept.run_count += joined.run_count;
-    if (kept.run_count > most_runs_) {
+    if (kept.run_count > max_runs_) {
         forget_runs(kept);
         forget_runs(joined);
     } else {

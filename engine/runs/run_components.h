@@ -56,7 +56,7 @@ struct LabelledLayer {
         return {runs.data() + starts[at], starts[at + 1] - starts[at]};
     }
     /// Packs or unpacks. Throws FaultError for what is no labelled layer.
-    void carry(Parcel& parcel);
+    void serialize(Archive& parcel);
 };
 
 /// Grows and labels a layer's runs: line l is row l. Pure, so layers can be labelled at once.
@@ -111,8 +111,8 @@ class RunComponents {
         std::vector<std::uint32_t> groups;  ///< sorted marks given by the caller
     };
 
-    /// most_runs: a component with more grown runs than this keeps none of them.
-    RunComponents(const Growth& growth, std::size_t most_runs);
+    /// max_runs: a component with more grown runs than this keeps none of them.
+    RunComponents(const Growth& growth, std::size_t max_runs);
 
     /// Adds the next layer, labelled with the same growth. Returns for each of the layer's components its
     /// number in the solid; numbers stay valid, `find` says what they have been joined to.
@@ -132,7 +132,7 @@ class RunComponents {
     void forget_runs(Component& component);
 
     int reach_;  ///< layers back that a new layer can join
-    std::size_t most_runs_;
+    std::size_t max_runs_;
     std::size_t runs_kept_ = 0;
     std::deque<LabelledLayer> recent_;  ///< newest last; components are numbers of the solid
     DisjointSets sets_;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/base/parcel.h"
+#include "engine/base/archive.h"
 
 namespace lamella {
 
@@ -32,7 +32,7 @@ std::int64_t SpanRows::total_length() const {
     return sum;
 }
 
-void SpanRows::carry(Parcel& parcel) {
+void SpanRows::serialize(Archive& parcel) {
     parcel(starts_, runs_);
     if (!parcel.unpacks()) return;
     check_row_starts(starts_, runs_.size());

@@ -10,7 +10,7 @@
 
 namespace lamella {
 
-class Parcel;
+class Archive;
 
 /// The direction in which the lines of a band run.
 enum class Axis : std::uint8_t { x, y };
@@ -136,7 +136,7 @@ class SpanRows {
     /// Sum of the lengths of all runs, in run units.
     std::int64_t total_length() const;
     /// Packs or unpacks. Throws FaultError for what are no rows.
-    void carry(Parcel& parcel);
+    void serialize(Archive& parcel);
 
     friend bool operator==(const SpanRows&, const SpanRows&) = default;
 

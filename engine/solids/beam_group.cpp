@@ -14,7 +14,7 @@ namespace lamella {
 
 /// Below this value of cos^2 - ux^2 the line is nearly parallel to the beam and the kernel's quotient loses
 /// digits.
-constexpr double least_beam_slope = 1e-4;
+constexpr double min_beam_slope = 1e-4;
 /// Beams longer than this many radii lose digits in single precision.
 constexpr double longest_beam_in_radii = 100;
 
@@ -76,7 +76,7 @@ void prepare_beams(const BeamGroup::Ends& ends, const RowBand& band, double plan
         const auto slope = hn::Sub(hn::Add(hn::Mul(uy, uy), hn::Mul(uz, uz)), sine2);
         const auto one_ball = hn::Le(length, hn::Abs(growth)),
                    is_long = hn::Gt(length, hn::Mul(set(longest_beam_in_radii), hn::Min(ra, rb))),
-                   is_parallel = hn::Lt(slope, set(least_beam_slope));
+                   is_parallel = hn::Lt(slope, set(min_beam_slope));
 
         const auto s =
             hn::Mul(hn::Mul(twice_middle_near_plane(a_z, rise, hn::Max(ra, rb), set(plane_z)), half), length);

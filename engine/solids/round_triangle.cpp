@@ -6,8 +6,8 @@ namespace {
 
 /// Squares of the least sine between edges, and of the least cosine between a tangent plane and the face,
 /// that leave a face: below, it differs from its edges' beams by less than rounding shows.
-constexpr double least_sine_squared = 1e-18;
-constexpr double least_cosine_squared = 1e-12;
+constexpr double min_sine_squared = 1e-18;
+constexpr double min_cosine_squared = 1e-12;
 
 /// The face and its two tangent planes, whose unit normals are tilt + cosine * normal and tilt - cosine *
 /// normal. The tilt lies in the face; the radius falls along it by its length per mm.
@@ -20,13 +20,13 @@ std::optional<Face> face_of(const RoundTriangle& t) {
     const dvec3 u = t.corners[1] - t.corners[0], v = t.corners[2] - t.corners[0];
     const dvec3 c = glm::cross(u, v);
     const double area = glm::dot(c, c);
-    if (!(area > least_sine_squared * glm::dot(u, u) * glm::dot(v, v))) return std::nullopt;
+    if (!(area > min_sine_squared * glm::dot(u, u) * glm::dot(v, v))) return std::nullopt;
     Face face;
     face.normal = c / std::sqrt(area);
     const double du = t.radii[0] - t.radii[1], dv = t.radii[0] - t.radii[2];
     face.tilt = (glm::cross(v, c) * du + glm::cross(c, u) * dv) / area;
     const double square = 1 - glm::dot(face.tilt, face.tilt);
-    if (!(square > least_cosine_squared)) return std::nullopt;
+    if (!(square > min_cosine_squared)) return std::nullopt;
     face.cosine = std::sqrt(square);
     return face;
 }

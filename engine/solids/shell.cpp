@@ -13,9 +13,9 @@ namespace {
 
 /// Everything but the value at a point is the constructive solid's. A value asks the body once, and for its
 /// distance only as far as it matters: deep inside, the filling alone decides.
-class QuickSolid : public Field {
+class LazySolid : public Field {
   public:
-    explicit QuickSolid(FieldPtr solid) : solid_(std::move(solid)) {}
+    explicit LazySolid(FieldPtr solid) : solid_(std::move(solid)) {}
     Interval range(const Box& box) const override { return solid_->range(box); }
     Metric metric() const override { return solid_->metric(); }
     FieldPtr offset(double d) const override { return solid_->offset(d); }
@@ -31,10 +31,10 @@ class QuickSolid : public Field {
     FieldPtr solid_;
 };
 
-class FilledBody : public QuickSolid {
+class FilledBody : public LazySolid {
   public:
     FilledBody(FieldPtr body, FieldPtr filling, double thickness, FieldPtr solid)
-        : QuickSolid(std::move(solid)),
+        : LazySolid(std::move(solid)),
           body_(std::move(body)),
           filling_(std::move(filling)),
           thickness_(thickness) {}
@@ -59,10 +59,10 @@ class FilledBody : public QuickSolid {
 };
 
 /// The same under a skin of graded thickness, which is asked only where it may reach.
-class FilledUnderGradedSkin : public QuickSolid {
+class FilledGradedSkin : public LazySolid {
   public:
-    FilledUnderGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
-        : QuickSolid(make_intersection({body, make_union({filling, shell})})),
+    FilledGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
+        : LazySolid(make_intersection({body, make_union({filling, shell})})),
           body_(std::move(body)),
           filling_(std::move(filling)),
           shell_(std::move(shell)),
@@ -274,8 +274,8 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thi
     if (asked.width() == 0) return make_filled_body(std::move(body), std::move(filling), asked.hi);
     FieldPtr shell = make_shell(body, thickness, limits);
     if (!filling) return make_intersection({std::move(body), std::move(shell)});
-    return std::make_shared<FilledUnderGradedSkin>(std::move(body), std::move(filling), std::move(shell),
-                                                   asked.hi);
+    return std::make_shared<FilledGradedSkin>(std::move(body), std::move(filling), std::move(shell),
+                                              asked.hi);
 }
 
 }  // namespace lamella

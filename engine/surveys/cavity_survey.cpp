@@ -7,7 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
 #include "engine/runs/run_components.h"
-#include "engine/surveys/island_survey.h"
+#include "engine/layers/survey_rows.h"
 
 namespace lamella {
 namespace {
@@ -210,7 +210,7 @@ CavitySurvey CavitySurveyor::result(std::size_t most) {
 }  // namespace
 
 CavitySurvey survey_cavities(const Job& job, const CavitySurveyOptions& options) {
-    const Interval suited = island_pitches(job);
+    const Interval suited = survey_pitch_range(job);
     if (!(options.pitch > 0) || !suited.contains(options.pitch)) {
         throw InputError("cavity survey: the pitch of " + format_number(options.pitch, 9) +
                          " mm does not suit the part; accepted: " + format_number(suited.lo, 9) + " to " +

@@ -35,7 +35,7 @@ struct CavitySurvey {
 ///
 /// A pure function of (part, layers, pitch), the same by any number of threads. Memory depends on a few
 /// layers' runs and on the number of places where void begins. Throws InputError when the pitch does not suit
-/// the job (island_pitches says which do), Interrupted when cancelled.
+/// the job (survey_pitch_range says which do), Interrupted when cancelled.
 CavitySurvey survey_cavities(const Job& job, const CavitySurveyOptions& options);
 
 }  // namespace lamella

@@ -26,7 +26,7 @@ class HollowSurveyor : public Backend {
           height_(job.layer_height * options.layers_at_once),
           middle_(job.bounds.size() / 2.0),
           shrunk_(ball_lattice(band_, height_, reach(), reach()), units(reach())),
-          insides_(options.most_bytes, options.pitch) {}
+          insides_(options.max_bytes, options.pitch) {}
 
     int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
@@ -54,7 +54,7 @@ class HollowSurveyor : public Backend {
     RowBand band_;
     double height_;  // of a course: of the layers taken at once
     dvec3 middle_;   // from the lower corner of the bounds
-    ShrinkingLayers shrunk_;
+    ErosionStream shrunk_;
     LayerStack insides_;
     SpanRows course_;  // what is solid in all of its layers so far
     int in_course_ = 0;
@@ -104,7 +104,7 @@ SpanRows HollowSurveyor::wide_enough(const SpanRows& rows) const {
     if (options_.bead == 0) return divided;
     SpanRows shrunk, opened;
     shrink_rows(divided, units(options_.bead / 2), run_unit, shrunk);
-    grow_rows(BallRows(shrunk, units(options_.bead / 2)), run_unit, opened);
+    grow_rows(WeightedRows(shrunk, units(options_.bead / 2)), run_unit, opened);
     return opened;
 }
 
@@ -143,7 +143,7 @@ using ComponentNumbers = std::vector<std::vector<std::uint32_t>>;
 
 /// Leaves out the runs of the components that have been found too small.
 void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunComponents& components,
-                 std::int64_t least_length) {
+                 std::int64_t min_length) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const LabelledLayer labels = label_layer(layers[i], static_cast<int>(i), Growth{});
         SpanRows rest;
@@ -151,7 +151,7 @@ void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunCompone
         for (std::size_t l = 0; l < layers[i].lines(); ++l) {
             for (const Run& run : layers[i].line(l)) {
                 const std::uint32_t number = numbers[i][labels.owners[k++]];
-                if (components.component(number).extent.length >= least_length) rest.push(run.begin, run.end);
+                if (components.component(number).extent.length >= min_length) rest.push(run.begin, run.end);
             }
             rest.end_line();
         }
@@ -160,7 +160,7 @@ void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunCompone
 }
 
 /// Counts the cavities and leaves out those that are too small.
-void sort_out(LayerStack& layers, std::int64_t least_length, HollowSurvey& survey) {
+void sort_out(LayerStack& layers, std::int64_t min_length, HollowSurvey& survey) {
     RunComponents components(Growth{}, 0);
     ComponentNumbers numbers;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -168,20 +168,20 @@ void sort_out(LayerStack& layers, std::int64_t least_length, HollowSurvey& surve
         numbers.push_back(components.add(label_layer(layers[i], index, Growth{}), index));
     }
     for (const std::uint32_t number : components.numbers()) {
-        const bool small = components.component(number).extent.length < least_length;
+        const bool small = components.component(number).extent.length < min_length;
         ++(small ? survey.left_solid : survey.count);
     }
-    if (survey.left_solid > 0) leave_solid(layers, numbers, components, least_length);
+    if (survey.left_solid > 0) leave_solid(layers, numbers, components, min_length);
 }
 
 void check(const Job& job, const HollowOptions& options) {
     const auto refuse = [](const std::string& what) { throw InputError("hollowing out: " + what); };
     if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
-    if (!(options.bead >= 0 && options.chamber >= 0 && options.least_volume >= 0 &&
+    if (!(options.bead >= 0 && options.chamber >= 0 && options.min_volume >= 0 &&
           options.layers_at_once > 0)) {
         refuse("a width, a volume or the number of layers taken at once is below its least");
     }
-    check_course_pitch("hollowing out", job, options.pitch, options.step * options.layers_at_once);
+    check_survey_pitch("hollowing out", job, options.pitch, options.step * options.layers_at_once);
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ HollowSurvey hollow_out(const Job& job, const HollowOptions& options) {
     sweep_down(layers, {step, run_unit, surveyor.units(options.bead)}, options.cancel);
     const double unit_volume = options.pitch * options.pitch * surveyor.height() / run_unit;
     HollowSurvey survey;
-    sort_out(layers, static_cast<std::int64_t>(std::ceil(options.least_volume / unit_volume)), survey);
+    sort_out(layers, static_cast<std::int64_t>(std::ceil(options.min_volume / unit_volume)), survey);
     survey.volume = static_cast<double>(layers.total_length()) * unit_volume;
     survey.part_volume = surveyor.part_volume();
     const SurveyGrid grid{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), surveyor.height()};

@@ -11,14 +11,14 @@ namespace lamella {
 
 /// Lengths in mm.
 struct HollowOptions {
-    double wall = 2;          ///< least thickness of what is left about a cavity, to all sides
-    double step = 0.225;      ///< by which a layer may stand out over the one below
-    double bead = 0.45;       ///< cavities are no narrower, and no walls between them thinner
-    double chamber = 0;       ///< walls of a bead's width stand so far apart in x and y; 0: there are none
-    double least_volume = 0;  ///< mm^3; smaller cavities are left solid
-    double pitch = 0.1;       ///< from one surveyed row to the next; at most step * layers_at_once
-    int layers_at_once = 1;   ///< that have the same cavity, where layers are thin against the pitch
-    std::size_t most_bytes = std::size_t{1} << 30;       ///< of memory for the plan
+    double wall = 2;         ///< least thickness of what is left about a cavity, to all sides
+    double step = 0.225;     ///< by which a layer may stand out over the one below
+    double bead = 0.45;      ///< cavities are no narrower, and no walls between them thinner
+    double chamber = 0;      ///< walls of a bead's width stand so far apart in x and y; 0: there are none
+    double min_volume = 0;   ///< mm^3; smaller cavities are left solid
+    double pitch = 0.1;      ///< from one surveyed row to the next; at most step * layers_at_once
+    int layers_at_once = 1;  ///< that have the same cavity, where layers are thin against the pitch
+    std::size_t max_bytes = std::size_t{1} << 30;        ///< of memory for the plan
     int threads = 0;                                     ///< 0: one per core
     std::function<void(const Progress&)> on_progress{};  ///< may be empty; volume is the part's so far
     const CancelToken* cancel = nullptr;                 ///< may be null
@@ -43,7 +43,7 @@ struct HollowSurvey {
 /// A pure function of (part, layers, options), the same by any number of threads. Memory is the plan's, which
 /// is of all layers: eight bytes a run and four a row of cavities, and 56 a run while it becomes boxes.
 /// Throws InputError where an option makes no sense, where the pitch is larger than a step or does not suit
-/// the job (island_pitches), and where the plan needs more than `most_bytes`; Interrupted when cancelled.
+/// the job (survey_pitch_range), and where the plan needs more than `max_bytes`; Interrupted when cancelled.
 HollowSurvey hollow_out(const Job& job, const HollowOptions& options);
 
 }  // namespace lamella

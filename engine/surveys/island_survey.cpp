@@ -11,8 +11,6 @@
 namespace lamella {
 namespace {
 
-constexpr int most_layers_in_a_pitch = 16;
-constexpr double most_pitches = 1 << 20;  // along a side of the job
 constexpr std::uint32_t outside = UINT32_MAX;
 
 struct LabelledProduct : LayerProduct {
@@ -41,7 +39,7 @@ class IslandSurveyor : public Backend {
           growth_{run_unit, 1, static_cast<int>(std::ceil(options.pitch / job.layer_height))},
           band_(rows_over(job.bounds.rect(), options.pitch)),
           grid_{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), job.layer_height},
-          part_components_(growth_, options.most_runs),
+          part_components_(growth_, options.max_runs),
           body_components_(Growth{}, 0) {}
 
     int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
@@ -90,7 +88,7 @@ void IslandSurveyor::write(const Layer& layer, LayerProduct& product) {
     for (const auto& [part, body] : labelled.contacts) {
         part_components_.mark(parts[part], body_components_.find(bodies[body]));
     }
-    if (part_components_.runs_kept() > options_.most_kept) {
+    if (part_components_.runs_kept() > options_.max_kept) {
         throw InputError(
             "the part falls into too many pieces to remember all that may float free; a survey "
             "with a coarser pitch than " +
@@ -129,7 +127,7 @@ Island IslandSurveyor::describe(const RunComponents::Component& component) const
               grid_.box({extent.last_layer, extent.last_row, extent.along.begin, extent.along.end}));
     island.first_layer = extent.first_layer;
     island.end_layer = extent.last_layer + 1;
-    island.dropped = component.run_count <= options_.most_runs;
+    island.dropped = component.run_count <= options_.max_runs;
     return island;
 }
 
@@ -167,7 +165,7 @@ IslandSurvey IslandSurveyor::result() {
 }
 
 void check(const Job& job, const IslandSurveyOptions& options) {
-    const Interval suited = island_pitches(job);
+    const Interval suited = survey_pitch_range(job);
     if (options.pitch > 0 && suited.contains(options.pitch)) return;
     const bool printable = std::abs(options.pitch) < 1e9;
     throw InputError("island survey: the pitch" +
@@ -178,13 +176,6 @@ void check(const Job& job, const IslandSurveyOptions& options) {
 }
 
 }  // namespace
-
-Interval island_pitches(const Job& job) {
-    const dvec3 size = job.bounds.size();
-    if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
-        throw InputError("island survey: the part's bounds are empty or infinite");
-    return {std::max(size.x, size.y) / most_pitches, most_layers_in_a_pitch * job.layer_height};
-}
 
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options) {
     check(job, options);

@@ -30,18 +30,14 @@ struct IslandReport {
 };
 
 struct IslandSurveyOptions {
-    double pitch = 0.1;                            ///< mm from one surveyed row to the next
-    std::size_t most_runs = std::size_t{1} << 17;  ///< grown runs of an island that can still be dropped
-    std::size_t most_kept = std::size_t{1} << 24;  ///< grown runs kept in all; 16 bytes each
+    double pitch = 0.1;                           ///< mm from one surveyed row to the next
+    std::size_t max_runs = std::size_t{1} << 17;  ///< grown runs of an island that can still be dropped
+    std::size_t max_kept = std::size_t{1} << 24;  ///< grown runs kept in all; 16 bytes each
     std::size_t report_largest = 10;
     int threads = 0;                                     ///< 0: one per core
     std::function<void(const Progress&)> on_progress{};  ///< may be empty; volume is the part's so far
     const CancelToken* cancel = nullptr;                 ///< may be null
 };
-
-/// The pitches that suit a job, mm: at most 2^20 rows and columns, and 16 layers in a pitch. Throws
-/// InputError when the job's bounds are empty or infinite.
-Interval island_pitches(const Job& job);
 
 struct IslandSurvey {
     IslandReport report;
@@ -58,9 +54,9 @@ struct IslandSurvey {
 /// island only when it is the largest in none; components outside the body are taken together as if in one of
 /// their own; without a body (null) so is everything. Of equals, the lowest is the largest.
 ///
-/// The result is a pure function of (part, body, layers, pitch, most_runs), the same by any number of
+/// The result is a pure function of (part, body, layers, pitch, max_runs), the same by any number of
 /// threads. Memory depends on a few layers' runs and on the islands, not on the number of layers. Throws
-/// InputError when the pitch does not suit the job or when the part falls into more pieces than `most_kept`
+/// InputError when the pitch does not suit the job or when the part falls into more pieces than `max_kept`
 /// has room for, Interrupted when cancelled.
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options);
 

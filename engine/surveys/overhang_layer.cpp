@@ -63,7 +63,7 @@ std::vector<LayerPiece> measure(const SurveyedLayer& layer, const RowBand& band)
 }
 
 void sample_outline(const Contour& contour, double most, SurveyedLayer& layer) {
-    constexpr int least_samples = 4;
+    constexpr int min_samples = 4;
     const auto& points = contour.points;
     const std::size_t n = points.size();
     double perimeter = 0;
@@ -71,7 +71,7 @@ void sample_outline(const Contour& contour, double most, SurveyedLayer& layer) {
     if (!(perimeter > 0)) return;
     OutlinePath path;
     path.first = layer.samples.size();
-    path.count = static_cast<std::size_t>(std::max(std::ceil(perimeter / most), double(least_samples)));
+    path.count = static_cast<std::size_t>(std::max(std::ceil(perimeter / most), double(min_samples)));
     path.step = perimeter / static_cast<double>(path.count);
     double walked = 0;  // at the end of the edge before
     std::size_t next = 0;
@@ -183,8 +183,8 @@ std::unique_ptr<SurveyedLayer> survey_layer(const Layer& layer, const SurveyReso
     product->pieces = measure(*product, by.band);
     for (const LayerPiece& piece : product->pieces) product->area += piece.area;
     const std::vector<Contour> contours = layer.contours(by.tolerance);
-    constexpr double least_cell = 1;  // mm; outlines are made of edges about as long
-    product->border = ContourIndex(contours, std::max(least_cell, 2 * by.overhang));
+    constexpr double min_cell = 1;  // mm; outlines are made of edges about as long
+    product->border = ContourIndex(contours, std::max(min_cell, 2 * by.overhang));
     for (const Contour& contour : contours) sample_outline(contour, by.step, *product);
     for (OutlinePath& path : product->paths) find_piece(path, *product, by);
     return product;

@@ -150,10 +150,10 @@ double extent(const std::vector<SpanNode>& region, double step) {
 std::vector<dvec2> ways_of(const std::vector<dvec2>& bridge_ways) {
     constexpr double c = 0.92387953251128674, s = 0.38268343236508977, d = 0.70710678118654752;
     std::vector<dvec2> ways{{1, 0}, {0, 1}, {d, d}, {-d, d}, {c, s}, {s, c}, {-s, c}, {-c, s}};
-    constexpr std::size_t most_ways = 24;
+    constexpr std::size_t max_ways = 24;
     constexpr double same = 0.02;  // by which directions differ, radians
     for (const dvec2 way : bridge_ways) {
-        if (ways.size() == most_ways) break;
+        if (ways.size() == max_ways) break;
         bool fresh = true;
         for (const dvec2 w : ways) fresh = fresh && std::abs(w.x * way.y - w.y * way.x) > same;
         if (fresh) ways.push_back(way);

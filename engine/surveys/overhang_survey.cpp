@@ -222,16 +222,16 @@ void check(const Job& job, const OverhangSurveyOptions& options) {
         check_number("bond", s.bond, true);
         check_number("contact", s.contact, false);
         check_number("density", s.density, true);
-        check_number("least height", s.least_height, true);
+        check_number("least height", s.min_height, true);
     }
     if (!job.part) throw InputError("overhang survey: there is no part");
     const dvec3 size = job.bounds.size();
     if (job.bounds.empty() || !std::isfinite(size.x + size.y + size.z))
         throw InputError("overhang survey: the part's bounds are empty or infinite");
     const double side = std::max(size.x, size.y);
-    constexpr double most_rows = 1 << 15;
+    constexpr double max_rows = 1 << 15;
     const double pitch = std::min(std::max(limits.width / 4, limits.overhang / 8), limits.overhang);
-    if (side / pitch < most_rows) return;
+    if (side / pitch < max_rows) return;
     throw InputError(
         "overhang survey: an overhang of " + format_number(limits.overhang, 9) + " mm and a width of " +
         format_number(limits.width, 9) + " mm are too fine for a part of " + format_number(side, 9) +

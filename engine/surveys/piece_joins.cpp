@@ -27,7 +27,7 @@ struct PiecePoint {
 class ThinnedPoints {
   public:
     ThinnedPoints(const Box& bounds, double cell)
-        : origin_(bounds.lo), cell_(cell), most_rings_(static_cast<int>(cells_in_diagonal) + 2) {}
+        : origin_(bounds.lo), cell_(cell), max_rings_(static_cast<int>(cells_in_diagonal) + 2) {}
 
     double cell() const { return cell_; }
     std::size_t size() const { return points_.size(); }
@@ -49,7 +49,7 @@ class ThinnedPoints {
     const dvec3* nearest(dvec3 from, Wanted wanted, double& best, std::uint32_t& piece) const {
         const dvec3* found = nullptr;
         const Cell middle = cell_of(from);
-        for (int ring = 0; ring <= most_rings_; ++ring) {
+        for (int ring = 0; ring <= max_rings_; ++ring) {
             const double away = (ring - 1) * cell_;  // at least, of all in the ring
             if (ring > 0 && away > 0 && away * away >= best) break;
             visit_ring(middle, ring, [&](const Key& key, const dvec3& at) {
@@ -86,7 +86,7 @@ class ThinnedPoints {
 
     dvec3 origin_;
     double cell_;
-    int most_rings_;
+    int max_rings_;
     std::map<Key, dvec3> points_;
 };
 
@@ -272,7 +272,7 @@ PieceJoin shortest_way(const Edge& edge, const PieceSurveyor& surveyor) {
 }
 
 void check(const Job& job, const JoinSurveyOptions& options) {
-    const Interval suited = island_pitches(job);
+    const Interval suited = survey_pitch_range(job);
     if (options.pitch > 0 && suited.contains(options.pitch)) return;
     throw InputError("join survey: the pitch does not suit the part; accepted: " +
                      format_number(suited.lo, 9) + " to " + format_number(suited.hi, 9) + " mm");
@@ -291,9 +291,9 @@ JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options) {
     JoinSurvey survey;
     survey.pieces = pieces.size();
     if (pieces.size() < 2) return survey;
-    if (pieces.size() > options.most_pieces) {
+    if (pieces.size() > options.max_pieces) {
         throw InputError("the part falls into " + std::to_string(pieces.size()) +
-                         " pieces, too many to be joined; accepted: " + std::to_string(options.most_pieces) +
+                         " pieces, too many to be joined; accepted: " + std::to_string(options.max_pieces) +
                          " at most, drop islands first");
     }
     first.points.rename([&](std::uint32_t number) { return components.find(number); });

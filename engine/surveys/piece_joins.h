@@ -15,7 +15,7 @@ struct PieceJoin {
 
 struct JoinSurveyOptions {
     double pitch = 0.1;                                  ///< mm from one surveyed row to the next
-    std::size_t most_pieces = 10000;                     ///< that can be joined
+    std::size_t max_pieces = 10000;                      ///< that can be joined
     int threads = 0;                                     ///< 0: one per core
     std::function<void(const Progress&)> on_progress{};  ///< may be empty
     const CancelToken* cancel = nullptr;                 ///< may be null
@@ -33,8 +33,8 @@ struct JoinSurvey {
 /// whom (Boruvka's tree); each way is then made the shortest there is between the runs about its ends. A pure
 /// function of part, layers and pitch, the same by any number of threads. Memory depends on a few layers'
 /// runs, on the runs about the joins and on those points, not on the number of layers. Throws InputError when
-/// the pitch does not suit the job (island_pitches says which do) or there are too many pieces, Interrupted
-/// when cancelled.
+/// the pitch does not suit the job (survey_pitch_range says which do) or there are too many pieces,
+/// Interrupted when cancelled.
 JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options);
 
 }  // namespace lamella

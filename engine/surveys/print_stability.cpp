@@ -161,7 +161,7 @@ PrintStability::Edge PrintStability::weakest_edge(const Component& c, double hei
     return weakest;
 }
 
-const dvec3* PrintStability::most_helpful(const Component& c, const Edge& edge) const {
+const dvec3* PrintStability::max_helpful(const Component& c, const Edge& edge) const {
     const dvec3* furthest_out = nullptr;
     const dvec3* furthest_in = nullptr;  // there it holds the part down
     double out = -widening, in = 0;
@@ -192,12 +192,12 @@ void PrintStability::make_steady(Component& c, double height, std::vector<dvec3>
             c.hull = convex_hull(std::move(c.fresh));
             c.fresh.clear();
         }
-        if (height - c.lowest < limits_.least_height && c.hull.size() >= 3) return;
+        if (height - c.lowest < limits_.min_height && c.hull.size() >= 3) return;
         const dvec3* help = nullptr;
         if (c.hull.size() >= 3) {
             const Edge edge = weakest_edge(c, height);
             if (edge.moment >= 0) return;
-            help = most_helpful(c, edge);
+            help = max_helpful(c, edge);
         } else if (c.reach[0] > -infinity) {
             help = c.places.data();
         }

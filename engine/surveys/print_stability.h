@@ -19,7 +19,7 @@ struct StabilityLimits {
     double bond = 1;         ///< of the part to a support point, MPa: fused, not merely laid on a plate
     double contact = 0.3;    ///< area by which a support point sticks, mm^2
     double density = 1.24;   ///< of the material, g/cm^3
-    double least_height =
+    double min_height =
         1;  ///< over its hold, that a component must reach to tip, mm: below, the nozzle passes above it
 };
 
@@ -84,7 +84,7 @@ class PrintStability {
     };
     void hold(Component& component, dvec3 point) const;
     Edge weakest_edge(const Component& component, double height) const;
-    const dvec3* most_helpful(const Component& component, const Edge& edge) const;
+    const dvec3* max_helpful(const Component& component, const Edge& edge) const;
     void make_steady(Component& component, double height, std::vector<dvec3>& added);
 
     StabilityLimits limits_;

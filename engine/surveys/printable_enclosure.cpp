@@ -10,7 +10,7 @@ namespace {
 
 SpanRows grown(const SpanRows& rows, double by, double row_pitch) {
     SpanRows out;
-    grow_rows(BallRows(rows, by), row_pitch, out);
+    grow_rows(WeightedRows(rows, by), row_pitch, out);
     return out;
 }
 

@@ -36,7 +36,7 @@ class PartCavity {
   private:
     SpanRows grown(const SpanRows& rows, double by) const {
         SpanRows out;
-        grow_rows(BallRows(rows, by), rule_.row_pitch, out);
+        grow_rows(WeightedRows(rows, by), rule_.row_pitch, out);
         return out;
     }
     SpanRows shrunk(const SpanRows& rows, double by) const {
@@ -50,8 +50,8 @@ class PartCavity {
     /// The cavity above and a step about it; what would be too thin between its parts is closed.
     SpanRows grown_above() const {
         SpanRows cavity = common(grown(above_, rule_.step), part_);
-        if (rule_.least_wall == 0 || cavity.runs().empty()) return cavity;
-        const double half = rule_.least_wall / 2;
+        if (rule_.min_wall == 0 || cavity.runs().empty()) return cavity;
+        const double half = rule_.min_wall / 2;
         return common(united(cavity, shrunk(grown(cavity, half), half)), part_);
     }
 
@@ -59,7 +59,7 @@ class PartCavity {
     SpanRows without_thin_walls_lost(const SpanRows& cavity) const {
         const SpanRows hanging = overhang(cavity);
         if (hanging.runs().empty()) return cavity;
-        const SpanRows about = grown(hanging, rule_.step + rule_.least_wall / 2);
+        const SpanRows about = grown(hanging, rule_.step + rule_.min_wall / 2);
         return without(cavity, without(about, above_));
     }
 

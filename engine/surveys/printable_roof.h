@@ -9,7 +9,7 @@ namespace lamella {
 struct RoofRule {
     double step = run_unit;       ///< by which what is solid may stand out over the layer below
     double row_pitch = run_unit;  ///< from row to row; at most the step, or roofs lean along the rows alone
-    double least_wall = 0;        ///< thickness of what is left solid between parts of a cavity
+    double min_wall = 0;          ///< thickness of what is left solid between parts of a cavity
 };
 
 /// The cavity of a layer within `inside`, where the layer above has the cavity `above` (rows of equal

@@ -28,7 +28,7 @@ class ShieldSurveyor : public Backend {
           smooth_(units(options.bead)),
           rect_(grown(job.bounds.rect(), (reach_ + smooth_ + wall_ + 2 * run_unit) / units(1))),
           band_(rows_over(rect_, options.pitch)),
-          layers_(options.most_bytes, options.pitch) {}
+          layers_(options.max_bytes, options.pitch) {}
 
     int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
@@ -61,7 +61,7 @@ std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
     SpanRows print = all_rows(layer.part(), band_, scratch);
     if (layer.supports() != nullptr) print = united(print, all_rows(*layer.supports(), band_, scratch));
     SpanRows wide;
-    grow_rows(BallRows(print, reach_ + smooth_), run_unit, wide);
+    grow_rows(WeightedRows(print, reach_ + smooth_), run_unit, wide);
     shrink_rows(wide, smooth_, run_unit, product->rows);
     return product;
 }
@@ -86,8 +86,8 @@ SpanRows thickened(const SpanRows& rows, double least) {
     SpanRows core, opened, grown;
     shrink_rows(rows, least / 2, run_unit, core);
     // A row more: slivers where rows graze an outline are not thin.
-    grow_rows(BallRows(core, least / 2 + run_unit), run_unit, opened);
-    grow_rows(BallRows(without(rows, opened), least / 2), run_unit, grown);
+    grow_rows(WeightedRows(core, least / 2 + run_unit), run_unit, opened);
+    grow_rows(WeightedRows(without(rows, opened), least / 2), run_unit, grown);
     return united(rows, grown);
 }
 
@@ -106,7 +106,7 @@ void check(const Job& job, const ShieldOptions& options) {
     if (!(options.wall > 0 && options.step > 0)) refuse("the wall and the step must be above 0 mm");
     if (!(options.gap >= 0 && options.bead >= 0 && options.layers_at_once > 0))
         refuse("the gap, the bead or the number of layers taken at once is below its least");
-    check_course_pitch("shield", job, options.pitch, options.step * options.layers_at_once);
+    check_survey_pitch("shield", job, options.pitch, options.step * options.layers_at_once);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct ShieldOptions {
     double bead = 0.45;      ///< gaps narrower than twice this between its parts are closed
     double pitch = 0.1;      ///< from one surveyed row to the next; at most step * layers_at_once
     int layers_at_once = 1;  ///< that have the same shield, where layers are thin against the pitch
-    std::size_t most_bytes = std::size_t{1} << 30;       ///< of memory for the plan
+    std::size_t max_bytes = std::size_t{1} << 30;        ///< of memory for the plan
     int threads = 0;                                     ///< 0: one per core
     std::function<void(const Progress&)> on_progress{};  ///< may be empty
     const CancelToken* cancel = nullptr;                 ///< may be null
@@ -36,8 +36,8 @@ struct ShieldSurvey {
 /// Rows are exact along x and stand for `pitch` in y. A pure function of (part, supports, layers, options),
 /// the same by any number of threads. Memory is the plan's, which is of all layers: four bytes a row and
 /// eight a run, and 56 a run while it becomes boxes. Throws InputError where an option makes no sense, where
-/// the pitch is larger than a step or does not suit the job (island_pitches), and where the plan needs more
-/// than `most_bytes`; Interrupted when cancelled.
+/// the pitch is larger than a step or does not suit the job (survey_pitch_range), and where the plan needs
+/// more than `max_bytes`; Interrupted when cancelled.
 ShieldSurvey make_shield(const Job& job, const ShieldOptions& options);
 
 }  // namespace lamella

@@ -12,8 +12,8 @@ namespace lamella {
 std::string GrowingZip::begin_entry(ZipEntry entry) {
     if (entry.name.empty() || entry.name.size() > longest_zip_name)
         throw FaultError("an archive holds names of 1 to 1024 bytes");
-    constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
-    if (entry.size > most_bytes || entry.packed > most_bytes)
+    constexpr std::uint64_t max_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
+    if (entry.size > max_bytes || entry.packed > max_bytes)
         throw FaultError(entry.name + " is 4 GiB or more, too much for an archive");
     entry.offset = size_;
     std::string bytes;

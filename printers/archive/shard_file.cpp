@@ -108,8 +108,8 @@ void ShardFile::read_stamp() {
     } catch (const nlohmann::json::exception&) {
         refuse("has a damaged first line");
     }
-    constexpr int most_layers = 10'000'000;
-    if (stamp_.range.first < 0 || stamp_.range.last <= stamp_.range.first || stamp_.range.last > most_layers)
+    constexpr int max_layers = 10'000'000;
+    if (stamp_.range.first < 0 || stamp_.range.last <= stamp_.range.first || stamp_.range.last > max_layers)
         refuse("has a range of layers that is none");
 }
 

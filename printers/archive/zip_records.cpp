@@ -4,8 +4,8 @@
 namespace lamella {
 namespace {
 
-constexpr std::uint32_t most_32 = 0xffffffffU;
-constexpr std::size_t most_entries = 0xfffe;
+constexpr std::uint32_t max_32 = 0xffffffffU;
+constexpr std::size_t max_entries = 0xfffe;
 constexpr std::uint32_t plain_version = 20;   // deflate and folders
 constexpr std::uint32_t long_version = 45;    // 64-bit records
 constexpr std::uint32_t utf8_names = 0x0800;  // flags
@@ -27,7 +27,7 @@ void put_common(std::string& out, const ZipEntry& entry, ZipMethod method, std::
 }
 
 void put_in_directory(std::string& out, const ZipEntry& entry, ZipMethod method) {
-    const bool far = entry.offset >= most_32;
+    const bool far = entry.offset >= max_32;
     put_little(out, 0x02014b50, 4);
     put_little(out, far ? long_version : plain_version, 2);
     put_common(out, entry, method, far ? long_version : plain_version, true);
@@ -36,7 +36,7 @@ void put_in_directory(std::string& out, const ZipEntry& entry, ZipMethod method)
     put_little(out, 0, 2);             // disk 0
     put_little(out, 0, 2);             // no internal attributes
     put_little(out, 0, 4);             // no external attributes
-    put_little(out, far ? most_32 : entry.offset, 4);
+    put_little(out, far ? max_32 : entry.offset, 4);
     out += entry.name;
     if (!far) return;
     put_little(out, 0x0001, 2);
@@ -62,7 +62,7 @@ void put_directory(std::string& out, std::span<const ZipEntry> entries, std::uin
     const std::size_t before = out.size();
     for (const ZipEntry& entry : entries) put_in_directory(out, entry, method);
     const std::uint64_t length = out.size() - before, count = entries.size();
-    const bool large = count > most_entries || start >= most_32 || length >= most_32;
+    const bool large = count > max_entries || start >= max_32 || length >= max_32;
     if (large) {
         const std::uint64_t record = start + length;
         put_little(out, 0x06064b50, 4);
@@ -85,8 +85,8 @@ void put_directory(std::string& out, std::span<const ZipEntry> entries, std::uin
     put_little(out, 0, 2);  // the directory's disk
     put_little(out, large ? 0xffff : count, 2);
     put_little(out, large ? 0xffff : count, 2);
-    put_little(out, large ? most_32 : length, 4);
-    put_little(out, large ? most_32 : start, 4);
+    put_little(out, large ? max_32 : length, 4);
+    put_little(out, large ? max_32 : start, 4);
     put_little(out, 0, 2);  // no comment
 }
 

@@ -12,7 +12,7 @@
 namespace lamella {
 namespace {
 
-constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
+constexpr std::uint64_t max_bytes = std::numeric_limits<std::uint32_t>::max() - 1;
 }  // namespace
 
 struct ZipWriter::Deflater {
@@ -45,15 +45,15 @@ ZipWriter::~ZipWriter() {
 }
 
 void ZipWriter::put(std::string_view bytes) {
-    if (file_.size() + bytes.size() > most_bytes)
+    if (file_.size() + bytes.size() > max_bytes)
         throw FaultError(path_.string() + " would exceed 4 GiB, the most that a ZIP archive holds");
     file_.write(bytes);
 }
 
 void ZipWriter::begin_entry(std::string name) {
     end_entry();
-    constexpr std::size_t longest_name = 1024, most_entries = 65535;
-    if (name.empty() || name.size() > longest_name || entries_.size() == most_entries)
+    constexpr std::size_t longest_name = 1024, max_entries = 65535;
+    if (name.empty() || name.size() > longest_name || entries_.size() == max_entries)
         throw FaultError(path_.string() +
                          ": an archive holds up to 65535 entries with names of 1 to 1024 bytes");
     ZipEntry entry;
@@ -75,7 +75,7 @@ void ZipWriter::write(std::string_view text) {
         const std::string_view part = text.substr(0, step);
         ZipEntry& entry = entries_.back();
         entry.size += part.size();
-        if (entry.size > most_bytes)
+        if (entry.size > max_bytes)
             throw FaultError(path_.string() + ": " + entry.name +
                              " would exceed 4 GiB, the most a ZIP entry holds");
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib speaks of unsigned char

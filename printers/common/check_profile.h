@@ -17,22 +17,22 @@ enum class Process : unsigned char {
 };
 
 /// What a fault comes to: as usual for the process, or as the profile says.
-enum class Concern : unsigned char { usual, off, warn, fail };
+enum class SeverityOverride : unsigned char { usual, off, warn, fail };
 
-/// Sizes in mm; a negative one is the usual one of the process (see usual_limits).
+/// Sizes in mm; a negative one is the usual one of the process (see default_limits).
 struct CheckProfile {
     Process process = Process::usual;
-    double pitch = 0;                ///< from row to row of the check; 0: what suits the other sizes
-    int places = 10;                 ///< faults of each kind that are told of
-    double least_thickness = -1;     ///< of walls and struts, within layers
-    double least_thickness_up = -1;  ///< the same upright; 0: layers are looked at one by one
-    double least_gap = -1;           ///< width of void, within layers
-    double least_gap_up = -1;        ///< the same upright; 0: layers are looked at one by one
-    double least_neck = -1;          ///< thickness of what joins large parts
-    double large_part = -1;          ///< volume from which a part is large, mm^3
-    double least_cavity = -1;        ///< volume from which a closed void matters, mm^3
-    double least_cup = -1;           ///< volume from which a suction cup matters, mm^3
-    std::array<Concern, check_count> concerns{};  ///< by Check
+    double pitch = 0;              ///< from row to row of the check; 0: what suits the other sizes
+    int places = 10;               ///< faults of each kind that are told of
+    double min_thickness = -1;     ///< of walls and struts, within layers
+    double min_thickness_up = -1;  ///< the same upright; 0: layers are looked at one by one
+    double min_gap = -1;           ///< width of void, within layers
+    double min_gap_up = -1;        ///< the same upright; 0: layers are looked at one by one
+    double min_neck = -1;          ///< thickness of what joins large parts
+    double large_part = -1;        ///< volume from which a part is large, mm^3
+    double min_cavity = -1;        ///< volume from which a closed void matters, mm^3
+    double min_cup = -1;           ///< volume from which a suction cup matters, mm^3
+    std::array<SeverityOverride, check_count> concerns{};  ///< by Check
 };
 
 }  // namespace lamella

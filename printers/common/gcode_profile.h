@@ -24,8 +24,8 @@ struct GcodeProfile {
     double fan = 1;                             ///< share of its full speed
     int fan_off_layers = 1;                     ///< first layers without fan
     int fan_ramp_layers = 0;                    ///< over which it then comes to its speed
-    double least_layer_time = 0;                ///< s; layers that would be faster are slowed down
-    double least_speed = 10;                    ///< below which no layer is slowed down
+    double min_layer_time = 0;                  ///< s; layers that would be faster are slowed down
+    double min_speed = 10;                      ///< below which no layer is slowed down
     double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0,
            thin_speed = 0;      ///< of beads by what they are for; 0: print_speed
     double bridge_speed = 0;    ///< of beads over the void; 0: as if they were held

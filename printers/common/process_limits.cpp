@@ -16,10 +16,10 @@ namespace {
 
 struct Rule {
     Check check;
-    Verdict verdict;
+    Severity verdict;
 };
 
-constexpr Verdict fail = Verdict::fail, warn = Verdict::warn, off = Verdict::off;
+constexpr Severity fail = Severity::fail, warn = Severity::warn, off = Severity::off;
 
 void apply(PrintLimits& limits, std::initializer_list<Rule> rules) {
     for (const Rule& rule : rules) limits.verdicts[static_cast<std::size_t>(rule.check)] = rule.verdict;
@@ -109,15 +109,15 @@ PrintLimits cutting_limits(const PrinterProfile& profile) {
 
 double chosen(double given, double usual) { return given < 0 ? usual : given; }
 
-Verdict chosen(Concern given, Verdict usual) {
+Severity chosen(SeverityOverride given, Severity usual) {
     switch (given) {
-        case Concern::off:
+        case SeverityOverride::off:
             return off;
-        case Concern::warn:
+        case SeverityOverride::warn:
             return warn;
-        case Concern::fail:
+        case SeverityOverride::fail:
             return fail;
-        case Concern::usual:
+        case SeverityOverride::usual:
             break;
     }
     return usual;
@@ -137,7 +137,7 @@ Process process_of(const PrinterProfile& profile) {
     return Process::resin;
 }
 
-PrintLimits usual_limits(Process process, const PrinterProfile& profile) {
+PrintLimits default_limits(Process process, const PrinterProfile& profile) {
     switch (process) {
         case Process::filament:
             return filament_limits(profile);
@@ -153,16 +153,16 @@ PrintLimits usual_limits(Process process, const PrinterProfile& profile) {
 }
 
 PrintLimits process_limits(const PrinterProfile& profile) {
-    PrintLimits limits = usual_limits(process_of(profile), profile);
+    PrintLimits limits = default_limits(process_of(profile), profile);
     const CheckProfile& check = profile.check;
-    limits.thickness = chosen(check.least_thickness, limits.thickness);
-    limits.thickness_up = chosen(check.least_thickness_up, limits.thickness_up);
-    limits.gap = chosen(check.least_gap, limits.gap);
-    limits.gap_up = chosen(check.least_gap_up, limits.gap_up);
-    limits.neck = chosen(check.least_neck, limits.neck);
+    limits.thickness = chosen(check.min_thickness, limits.thickness);
+    limits.thickness_up = chosen(check.min_thickness_up, limits.thickness_up);
+    limits.gap = chosen(check.min_gap, limits.gap);
+    limits.gap_up = chosen(check.min_gap_up, limits.gap_up);
+    limits.neck = chosen(check.min_neck, limits.neck);
     limits.large_part = chosen(check.large_part, limits.large_part);
-    limits.cavity = chosen(check.least_cavity, limits.cavity);
-    limits.cup = chosen(check.least_cup, limits.cup);
+    limits.cavity = chosen(check.min_cavity, limits.cavity);
+    limits.cup = chosen(check.min_cup, limits.cup);
     for (std::size_t i = 0; i < check_count; ++i) {
         limits.verdicts[i] = chosen(check.concerns[i], limits.verdicts[i]);
     }

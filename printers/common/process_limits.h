@@ -13,7 +13,7 @@ Process process_of(const PrinterProfile& profile);
 /// Least sizes and verdicts of a process where nothing else is known, after the table of manufacturing
 /// constraints by process in J. Dumas, "Controllable Shape Synthesis for Digital Fabrication", 2017 (table
 /// 2.1). Sizes that depend on the machine (lines, pixels, kerf) are the profile's.
-PrintLimits usual_limits(Process process, const PrinterProfile& profile);
+PrintLimits default_limits(Process process, const PrinterProfile& profile);
 
 /// The usual limits of the profile's process with what its CheckProfile says over them, and its supports'
 /// free_stretch, own_bridge, spacing and gap. The overhang and the build volume depend on the job and are

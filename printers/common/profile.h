@@ -31,12 +31,12 @@ struct ImageProfile {
     bool portrait = false;  ///< image columns run along +y of the plate
     Antialiasing antialiasing = Antialiasing::rows;
     int sub_rows = 4;
-    int bits = 8;           ///< of a pixel in PNG stacks: 1, 8 or 16
-    int sub_layers = 1;     ///< planes a layer whose images are averaged
-    double gamma = 1;       ///< grey is coverage to this power
-    double least_grey = 0;  ///< of a pixel that is touched at all, 0 to 1
-    double full_grey = 1;   ///< of a pixel that is covered wholly, 0 to 1
-    double margin = 0;      ///< at the display's edge, that a part must stay clear of, mm
+    int bits = 8;          ///< of a pixel in PNG stacks: 1, 8 or 16
+    int sub_layers = 1;    ///< planes a layer whose images are averaged
+    double gamma = 1;      ///< grey is coverage to this power
+    double min_grey = 0;   ///< of a pixel that is touched at all, 0 to 1
+    double full_grey = 1;  ///< of a pixel that is covered wholly, 0 to 1
+    double margin = 0;     ///< at the display's edge, that a part must stay clear of, mm
 };
 
 /// How a display's pixels stand in the colours of an archive's images.

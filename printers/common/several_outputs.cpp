@@ -10,7 +10,7 @@ namespace {
 struct Products : LayerProduct {
     explicit Products(const std::vector<std::unique_ptr<Backend>>& to) : outputs(to) {}
 
-    void carry(Parcel& parcel) override {
+    void serialize(Archive& parcel) override {
         each.resize(outputs.size());
         for (std::size_t i = 0; i < outputs.size(); ++i) {
             bool is_there = each[i] != nullptr;
@@ -19,7 +19,7 @@ struct Products : LayerProduct {
             if (!each[i]) each[i] = outputs[i]->empty_product();
             if (!each[i]) throw FaultError("what was made of a layer cannot be carried");
             parcel(each[i]->area, each[i]->support_area);
-            each[i]->carry(parcel);
+            each[i]->serialize(parcel);
         }
     }
 

@@ -36,7 +36,7 @@ double reach_beside(const PrinterProfile& profile, double layer_height) {
 }
 
 struct GcodeProduct : LayerProduct {
-    void carry(Parcel& parcel) override {
+    void serialize(Archive& parcel) override {
         parcel(text, first, last, trail, filament, support_filament, slowed, seconds, islands_left_out);
     }
 
@@ -95,7 +95,7 @@ class Gcode : public Backend {
         for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
         // What goes round it comes first; then supports, for the part comes to rest on them. They are filled
         // whatever the part is.
-        const std::optional<Footing> footing = this->footing(layer);
+        const std::optional<LayerBelow> footing = this->footing(layer);
         const std::optional<PlacedPolygons> core = this->core(layer);
         const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
         Toolpaths paths = round(layer, contours, supports);
@@ -163,13 +163,13 @@ class Gcode : public Backend {
 
   private:
     Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density,
-                   const Surroundings& around) const {
+                   const LayerNeighborhood& around) const {
         const ToolpathProfile& t = profile_.toolpath;
         return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around,
                               layer.cancel());
     }
     /// What the layer rests on; none on the bed.
-    std::optional<Footing> footing(const Layer& layer) const {
+    std::optional<LayerBelow> footing(const Layer& layer) const {
         if (layer.index() == 0) return std::nullopt;
         return neighbours_->footing(layer.index(), filament_.line_width / 4);
     }

@@ -11,16 +11,16 @@ namespace lamella {
 
 std::size_t longest_line(Flavour flavour) { return flavour == Flavour::grbl ? 79 : 95; }
 
-std::string_view usual_start_script(Flavour flavour) {
+std::string_view default_start_script(Flavour flavour) {
     // The homed position of a laser is what its user has set it to.
     if (flavour == Flavour::grbl) return "";
     return "M140 S{bed_temperature}\nM104 S{nozzle_temperature}\nG28\nM190 S{bed_temperature}\n"
            "M109 S{nozzle_temperature}";
 }
 
-std::string_view usual_layer_script(Flavour flavour) { return flavour == Flavour::grbl ? "M0" : ""; }
+std::string_view default_layer_script(Flavour flavour) { return flavour == Flavour::grbl ? "M0" : ""; }
 
-std::string_view usual_end_script(Flavour flavour) {
+std::string_view default_end_script(Flavour flavour) {
     return flavour == Flavour::grbl ? "M2" : "M104 S0\nM140 S0\nM107\nM84";
 }
 

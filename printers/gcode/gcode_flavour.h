@@ -15,9 +15,9 @@ namespace lamella {
 std::size_t longest_line(Flavour flavour);
 
 /// Scripts that hold where a profile has none; see gcode_script.h for their variables.
-std::string_view usual_start_script(Flavour flavour);
-std::string_view usual_layer_script(Flavour flavour);
-std::string_view usual_end_script(Flavour flavour);
+std::string_view default_start_script(Flavour flavour);
+std::string_view default_layer_script(Flavour flavour);
+std::string_view default_end_script(Flavour flavour);
 
 /// The fan at a share of its full speed, 0 to 1.
 std::string fan_line(Flavour flavour, double share);

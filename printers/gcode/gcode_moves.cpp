@@ -216,8 +216,8 @@ std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position,
 }
 
 void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile) {
-    if (profile.least_layer_time <= 0 || moves.empty()) return;
-    if (total_of(seconds_of(moves, position, profile)) >= profile.least_layer_time) return;
+    if (profile.min_layer_time <= 0 || moves.empty()) return;
+    if (total_of(seconds_of(moves, position, profile)) >= profile.min_layer_time) return;
     const std::vector<GcodeMove> fast = moves;
     double fastest = 0;
     for (const GcodeMove& move : fast) {
@@ -227,16 +227,16 @@ void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProf
         moves = fast;
         for (GcodeMove& move : moves) {
             if (move.kind != Kind::extrude) continue;
-            slow(move, std::max(move.speed * factor, std::min(profile.least_speed, move.speed)));
+            slow(move, std::max(move.speed * factor, std::min(profile.min_speed, move.speed)));
         }
         return total_of(seconds_of(moves, position, profile));
     };
-    double too_fast = 1, slow_enough = std::min(1.0, profile.least_speed / std::max(fastest, 1e-9));
-    if (apply(slow_enough) < profile.least_layer_time) return;
+    double too_fast = 1, slow_enough = std::min(1.0, profile.min_speed / std::max(fastest, 1e-9));
+    if (apply(slow_enough) < profile.min_layer_time) return;
     constexpr int halvings = 20;  // to a millionth of the speed
     for (int i = 0; i < halvings; ++i) {
         const double middle = (too_fast + slow_enough) / 2;
-        (apply(middle) < profile.least_layer_time ? too_fast : slow_enough) = middle;
+        (apply(middle) < profile.min_layer_time ? too_fast : slow_enough) = middle;
     }
     apply(slow_enough);
 }

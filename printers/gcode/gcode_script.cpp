@@ -123,15 +123,15 @@ void check_scripts(const GcodeProfile& profile) {
 }
 
 std::string start_script(const GcodeProfile& profile) {
-    return profile.start_script.empty() ? std::string(usual_start_script(profile.flavour))
+    return profile.start_script.empty() ? std::string(default_start_script(profile.flavour))
                                         : profile.start_script;
 }
 std::string layer_script(const GcodeProfile& profile) {
-    return profile.layer_script.empty() ? std::string(usual_layer_script(profile.flavour))
+    return profile.layer_script.empty() ? std::string(default_layer_script(profile.flavour))
                                         : profile.layer_script;
 }
 std::string end_script(const GcodeProfile& profile) {
-    return profile.end_script.empty() ? std::string(usual_end_script(profile.flavour)) : profile.end_script;
+    return profile.end_script.empty() ? std::string(default_end_script(profile.flavour)) : profile.end_script;
 }
 
 }  // namespace lamella

@@ -25,8 +25,8 @@ void check_gcode_profile(const GcodeProfile& profile) {
     check("first_layer_nozzle_temperature", profile.first_layer_nozzle_temperature, 0, 500);
     check("first_layer_bed_temperature", profile.first_layer_bed_temperature, 0, 250);
     check("fan", profile.fan, 0, 1);
-    check("least_layer_time", profile.least_layer_time, 0, 3600);
-    check("least_speed", profile.least_speed, slowest, fastest);
+    check("least_layer_time", profile.min_layer_time, 0, 3600);
+    check("least_speed", profile.min_speed, slowest, fastest);
     for (const auto& [key, speed] :
          {std::pair("wall_speed", profile.wall_speed),
           std::pair("inner_wall_speed", profile.inner_wall_speed),
@@ -120,7 +120,7 @@ std::string gcode_settings(const PrinterProfile& profile) {
                        f.travel_speed, f.retraction, f.retraction_speed, f.tolerance) +
            fmt::format(" heat {} {} fan {} {} {} time {} {} speeds {} {} {} {} {}",
                        g.first_layer_nozzle_temperature, g.first_layer_bed_temperature, g.fan,
-                       g.fan_off_layers, g.fan_ramp_layers, g.least_layer_time, g.least_speed, g.wall_speed,
+                       g.fan_off_layers, g.fan_ramp_layers, g.min_layer_time, g.min_speed, g.wall_speed,
                        g.inner_wall_speed, g.infill_speed, g.solid_speed, g.thin_speed) +
            fmt::format(" bridges {} {} {}", g.bridge_speed, g.bridge_flow, g.bridge_fan) +
            fmt::format(" motion {} {} {} {} {} {} {} {} prime {}", g.acceleration, g.wall_acceleration,

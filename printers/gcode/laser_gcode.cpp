@@ -21,8 +21,8 @@ namespace lamella {
 namespace {
 
 struct LaserProduct : LayerProduct {
-    void carry(Parcel& parcel) override {
-        plan.carry(parcel);
+    void serialize(Archive& parcel) override {
+        plan.serialize(parcel);
         parcel(text, seconds, length, slowed);
     }
 

@@ -8,7 +8,7 @@ namespace lamella {
 namespace {
 
 /// The speed that a move can have anywhere.
-double most_speed(const MotionMove& move) {
+double max_speed(const MotionMove& move) {
     return move.radius > 0 ? std::min(move.speed, std::sqrt(move.acceleration * move.radius)) : move.speed;
 }
 
@@ -20,7 +20,7 @@ double reachable(double speed, const MotionMove& move) {
 /// Seconds of a move from one speed to another, faster in between as far as it can.
 double trapezoid(const MotionMove& move, double from, double to) {
     const double a = move.acceleration;
-    const double most = most_speed(move);
+    const double most = max_speed(move);
     const double speeding = (most * most - from * from) / (2 * a);
     const double slowing = (most * most - to * to) / (2 * a);
     if (speeding + slowing <= move.length) {
@@ -36,7 +36,7 @@ double corner_speed(const MotionMove& before, const MotionMove& after, double ju
     constexpr double straight = 1e-9;
     const double product = before.out.x * after.in.x + before.out.y * after.in.y;
     const bool stands = before.out == dvec2(0) || after.in == dvec2(0);
-    const double most = std::min(most_speed(before), most_speed(after));
+    const double most = std::min(max_speed(before), max_speed(after));
     if (stands || product <= -1 + straight) return 0;
     if (product >= 1 - straight) return most;
     // Halves of the angle between the two legs, as in grbl: 180 degrees straight on, 0 back again.

@@ -25,7 +25,7 @@ GreyTable grey_table(const ImageProfile& profile, double share) {
     for (std::size_t value = 1; value < table.size(); ++value) {
         const double coverage = static_cast<double>(value) / white;
         const double toned = profile.gamma == 1 ? coverage : power(coverage, profile.gamma);
-        const double grey = profile.least_grey + (profile.full_grey - profile.least_grey) * toned;
+        const double grey = profile.min_grey + (profile.full_grey - profile.min_grey) * toned;
         table[value] = static_cast<std::uint16_t>(std::floor(white * grey * share + 0.5));
     }
     return table;

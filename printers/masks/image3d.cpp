@@ -30,7 +30,7 @@ constexpr std::string_view stack_model_start =
     "<metadata name=\"Application\">Lamella</metadata>\n<resources>\n";
 
 struct SheetProduct : LayerProduct {
-    void carry(Parcel& parcel) override { parcel(part, supports); }
+    void serialize(Archive& parcel) override { parcel(part, supports); }
 
     std::string part;
     std::string supports;  ///< empty for a job without
@@ -40,7 +40,7 @@ struct SheetProduct : LayerProduct {
 ImageProfile grid_about(const Box& bounds, ImageProfile image) {
     if (image.format != ImageFormat::png)
         throw InputError("an image3d's sheets are PNG files; accepted: format = \"png\"");
-    if (image.gamma != 1 || image.least_grey != 0 || image.full_grey != 1) {
+    if (image.gamma != 1 || image.min_grey != 0 || image.full_grey != 1) {
         throw InputError(
             "an image3d's greys are shares of voxels; accepted: gamma = 1, least_grey = 0, "
             "full_grey = 1");

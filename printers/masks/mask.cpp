@@ -51,10 +51,10 @@ void check_profile(const ImageProfile& profile) {
     if (!(profile.gamma >= 0.1 && profile.gamma <= 10)) {
         throw InputError(fmt::format("gamma = {}: must be 0.1 to 10", profile.gamma));
     }
-    if (!(profile.least_grey >= 0 && profile.least_grey <= profile.full_grey && profile.full_grey <= 1)) {
+    if (!(profile.min_grey >= 0 && profile.min_grey <= profile.full_grey && profile.full_grey <= 1)) {
         throw InputError(
             fmt::format("least_grey = {}, full_grey = {}: must be 0 <= least_grey <= full_grey <= 1",
-                        profile.least_grey, profile.full_grey));
+                        profile.min_grey, profile.full_grey));
     }
     if (!(profile.margin >= 0)) {
         throw InputError(fmt::format("display_margin = {} mm: must be 0 or more", profile.margin));
@@ -94,7 +94,7 @@ int lines_a_row(const ImageProfile& profile) {
 class SliceMask {
   public:
     SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile,
-              std::span<KeptLines> kept)
+              std::span<LineCache> kept)
         : slice_(&slice),
           layout_(&layout),
           antialiasing_(profile.antialiasing),
@@ -124,7 +124,7 @@ class SliceMask {
             const RowBand band = layout_->rows(row, count, sub_);
             spans_.clear();
             slice_->spans(band, scratch_, spans_);
-            for (KeptLines& lines : kept_) lines.add(band, spans_);
+            for (LineCache& lines : kept_) lines.add(band, spans_);
             if (antialiasing_ == Antialiasing::off) {
                 threshold(band, spans_, runs, white_);
             } else {
@@ -137,7 +137,7 @@ class SliceMask {
     /// All rows that hold something were added.
     void finish() {
         if (antialiasing_ == Antialiasing::exact) return;
-        for (KeptLines& lines : kept_) lines.finish(layout_->rows(0, 0, sub_));
+        for (LineCache& lines : kept_) lines.finish(layout_->rows(0, 0, sub_));
     }
 
     double pixels() const { return pixels_; }  ///< covered so far
@@ -147,7 +147,7 @@ class SliceMask {
     const MaskLayout* layout_;
     Antialiasing antialiasing_;
     int sub_;
-    std::span<KeptLines> kept_;
+    std::span<LineCache> kept_;
     int white_ = white_of_8_bits;
     RowSpan rows_{0, 0};
     Scratch scratch_;
@@ -246,13 +246,13 @@ std::vector<const SliceField*> planes_of(const Layer& layer, MaskedSolid which, 
 
 }  // namespace
 
-dvec2 display_room(const ImageProfile& profile) {
+dvec2 display_area_limits(const ImageProfile& profile) {
     return dvec2(profile.width * profile.pixel_x, profile.height * profile.pixel_y) - 2 * profile.margin;
 }
 
 MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     check_profile(profile);
-    const dvec2 room = display_room(profile);
+    const dvec2 room = display_area_limits(profile);
     const dvec3 size = part_bounds.size();
     // A part as large as the display fits, whatever the rounding of its bounds.
     constexpr double slack = 1e-9;
@@ -300,7 +300,7 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
 }
 
 std::optional<RowBand> mask_lines(const ImageProfile& profile, const Box& part_bounds) {
-    const dvec2 room = display_room(profile);
+    const dvec2 room = display_area_limits(profile);
     const dvec3 size = part_bounds.size();
     const bool reads_lines = profile.antialiasing != Antialiasing::exact && profile.sub_layers == 1;
     if (!reads_lines || size.x > room.x || size.y > room.y) return {};

@@ -39,7 +39,7 @@ class MaskLayout {
 };
 
 /// What a display has room for, mm: all of it but the margin at its edge.
-dvec2 display_room(const ImageProfile& profile);
+dvec2 display_area_limits(const ImageProfile& profile);
 
 /// All lines of a layer that masks are made of. None where they look at other things as well, or where the
 /// part is larger than the display. Throws InputError for a profile that makes no sense.

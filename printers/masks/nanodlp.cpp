@@ -24,8 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr int max_layers = 100'000;
 
 struct NanoMask : MaskFile {
-    void carry(Parcel& parcel) override {
-        MaskFile::carry(parcel);
+    void serialize(Archive& parcel) override {
+        MaskFile::serialize(parcel);
         parcel(figures);
     }
 

@@ -49,7 +49,7 @@ nlohmann::ordered_json describe_mask(const ImageProfile& image) {
     if (image.bits != plain.bits) json["bits"] = image.bits;
     if (image.sub_layers != plain.sub_layers) json["sub_layers"] = image.sub_layers;
     if (image.gamma != plain.gamma) json["gamma"] = image.gamma;
-    if (image.least_grey != plain.least_grey) json["least_grey"] = image.least_grey;
+    if (image.min_grey != plain.min_grey) json["least_grey"] = image.min_grey;
     if (image.full_grey != plain.full_grey) json["full_grey"] = image.full_grey;
     return json;
 }

@@ -13,7 +13,7 @@
 namespace lamella {
 
 struct MaskFile : LayerProduct {
-    void carry(Parcel& parcel) override { parcel(file); }
+    void serialize(Archive& parcel) override { parcel(file); }
 
     std::vector<std::byte> file;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double largest_radius = 1000;   // mm; flatter ones are lines, and firmware computes in floats
 constexpr std::size_t fewest_points = 4;  // any three points lie on a circle
-constexpr std::size_t most_points = 512;  // that one arc stands for; bounds the work
+constexpr std::size_t max_points = 512;   // that one arc stands for; bounds the work
 
 double distance_to_segment(dvec2 p, dvec2 a, dvec2 b) {
     const dvec2 way = b - a;
@@ -125,7 +125,7 @@ std::vector<PathPiece> arc_pieces(std::span<const dvec2> points, double toleranc
     while (at + 1 < points.size()) {
         std::optional<Arc> best;
         std::size_t end = at;
-        for (std::size_t last = at + fewest_points - 1; last < points.size() && last - at < most_points;
+        for (std::size_t last = at + fewest_points - 1; last < points.size() && last - at < max_points;
              ++last) {
             const auto arc = fit_arc(points.subspan(at, last - at + 1), tolerance, unit);
             if (!arc) break;

@@ -198,14 +198,14 @@ Polygons offset_polygons(const Polygons& polygons, double by) {
 }
 
 Polygons erode_polygons(const Polygons& polygons, double radius) {
-    constexpr double least_step = 0.25;  // mm
+    constexpr double min_step = 0.25;  // mm
     Polygons result;
     for (Polygons& piece : split_pieces(polygons)) {
         const Interval x = extent(piece, {1, 0}), y = extent(piece, {0, 1});
         if (std::min(x.width(), y.width()) < 2 * radius) continue;
-        double step = least_step;
+        double step = min_step;
         for (double done = 0; done < radius && !piece.empty(); done += step) {
-            step = std::min(std::max(least_step, done), radius - done);
+            step = std::min(std::max(min_step, done), radius - done);
             piece = offset_polygons(piece, -step);
         }
         result.insert(result.end(), piece.begin(), piece.end());

@@ -12,7 +12,6 @@ namespace {
 using Point = PolygonSight::Point;
 using Corner = PolygonSight::Corner;
 
-
 double distance(Point a, Point b) {
     const auto x = static_cast<double>(a.X - b.X), y = static_cast<double>(a.Y - b.Y);
     return std::sqrt(x * x + y * y);
@@ -23,7 +22,8 @@ int sign(std::int64_t v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 /// On which side of the line from `from` through a corner its two edges lie: 1 left, -1 right, 0 if the line
 /// goes through between them, so that no shortest way that comes along it bends there.
 int edges_side(Point from, const Corner& c) {
-    const int before = sign(PolygonSight::side(from, c.at, c.before)), after = sign(PolygonSight::side(from, c.at, c.after));
+    const int before = sign(PolygonSight::side(from, c.at, c.before)),
+              after = sign(PolygonSight::side(from, c.at, c.after));
     if (before * after < 0) return 0;
     return before != 0 ? before : after;
 }
@@ -31,8 +31,8 @@ int edges_side(Point from, const Corner& c) {
 /// The search among the corners of an ellipse.
 class Search {
   public:
-    Search(const PolygonSight& inside, Point from, Point to, double longest, std::int64_t most_steps)
-        : inside_(inside), from_(from), to_(to), longest_(longest), most_steps_(most_steps) {
+    Search(const PolygonSight& inside, Point from, Point to, double longest, std::int64_t max_steps)
+        : inside_(inside), from_(from), to_(to), longest_(longest), max_steps_(max_steps) {
         const auto reach = static_cast<ClipperLib::cInt>(longest / 2) + 1;
         const ClipperLib::cInt middle = (from.X + to.X) / 2;
         const auto& bends = inside.bends();
@@ -48,7 +48,7 @@ class Search {
 
     std::optional<std::vector<Point>> run() {
         push_from(start, 0);
-        while (!open_.empty() && steps_ < most_steps_) {
+        while (!open_.empty() && steps_ < max_steps_) {
             const Step step = open_.top();
             open_.pop();
             if (parents_[index(step.to)] != unseen) continue;
@@ -120,7 +120,7 @@ class Search {
     const PolygonSight& inside_;
     Point from_, to_;
     double longest_;
-    std::int64_t most_steps_, steps_ = 0;
+    std::int64_t max_steps_, steps_ = 0;
     bool cut_short_ = false;
     std::vector<Corner> corners_;
     std::vector<int> parents_;  // of each corner that has been reached, and of the target
@@ -130,12 +130,12 @@ class Search {
 }  // namespace
 
 std::optional<std::vector<Point>> shortest_way(const PolygonSight& inside, Point from, Point to,
-                                               double longest, std::int64_t most_steps) {
+                                               double longest, std::int64_t max_steps) {
     std::int64_t steps = 0;
     if (inside.sees(from, to, steps)) return std::vector<Point>();
     constexpr double first_detour = 1.5, growth = 2;
-    for (double reach = first_detour * distance(from, to); steps < most_steps; reach *= growth) {
-        Search search(inside, from, to, std::min(reach, longest), most_steps - steps);
+    for (double reach = first_detour * distance(from, to); steps < max_steps; reach *= growth) {
+        Search search(inside, from, to, std::min(reach, longest), max_steps - steps);
         if (auto way = search.run()) return way;
         if (!search.cut_short() || reach >= longest) break;
         steps += search.steps();

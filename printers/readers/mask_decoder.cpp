@@ -52,7 +52,7 @@ class OpenImage {
         if (!page) reject(why);
         page_ = *page;
         if (page_.width < 1 || page_.height < 1 || page_.width > 65535 || page_.height > 65535 ||
-            std::int64_t{page_.width} * page_.height > most_mask_pixels || page_.channels < 1 ||
+            std::int64_t{page_.width} * page_.height > max_mask_pixels || page_.channels < 1 ||
             page_.channels > 4 || page_.depth > 1 || page_.deep) {
             reject(fmt::format("it is said to be of {} x {} px with {} channels, which no mask is",
                                page_.width, page_.height, page_.channels));

@@ -22,7 +22,7 @@ struct MaskSize {
 MaskSize image_size(const std::string& name, std::string_view bytes, const std::string& where);
 
 /// Decodes an image whose format the ending of `name` tells (.png, .tif, .bmp, .pgm). Throws InputError,
-/// beginning with `where`, when it is damaged, larger than most_mask_pixels, or, once unpacked, not of the
+/// beginning with `where`, when it is damaged, larger than max_mask_pixels, or, once unpacked, not of the
 /// size that is expected.
 MaskImage decode_mask(const std::string& name, std::string_view bytes, MaskSize expected, MaskPacking packing,
                       const std::string& where);

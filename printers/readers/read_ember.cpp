@@ -19,8 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t ember_block = 512;
-constexpr std::uint64_t most_kept = std::uint64_t{1} << 30U;  // bytes of all files together
-constexpr double ember_pixel = 0.05;                          // mm, of the machine's projector
+constexpr std::uint64_t max_kept = std::uint64_t{1} << 30U;  // bytes of all files together
+constexpr double ember_pixel = 0.05;                         // mm, of the machine's projector
 
 /// The unpacked bytes of a gzip file, any number of members one after another.
 class GzipReader {
@@ -134,7 +134,7 @@ class EmberFile : public JobFile {
             std::string name(header.substr(0, std::min(header.find('\0'), std::size_t{100})));
             if (name.starts_with("./")) name.erase(0, 2);
             const char kind = header[156];
-            if (size > most_kept || (kept += size + ember_block) > most_kept)
+            if (size > max_kept || (kept += size + ember_block) > max_kept)
                 reject("it unpacks to more than 1 GiB, the most that is read of an Ember archive");
             std::string content = read_content(in, size);
             if ((kind == '0' || kind == '\0') && !name.empty())

@@ -180,7 +180,7 @@ class GooFile : public JobFile {
         facts_.width = static_cast<int>(in.number(2));
         facts_.height = static_cast<int>(in.number(2));
         if (facts_.width < 1 || facts_.height < 1 ||
-            std::int64_t{facts_.width} * facts_.height > most_mask_pixels) {
+            std::int64_t{facts_.width} * facts_.height > max_mask_pixels) {
             reject(fmt::format("its masks are said to be of {} x {} px, which no display is", facts_.width,
                                facts_.height));
         }

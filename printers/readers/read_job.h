@@ -39,7 +39,7 @@ struct MaskImage {
 };
 
 /// The largest mask that is read, px: more than twice the largest display.
-inline constexpr std::int64_t most_mask_pixels = std::int64_t{1} << 28;
+inline constexpr std::int64_t max_mask_pixels = std::int64_t{1} << 28;
 
 /// An open job. Masks are decoded one at a time, when they are asked for.
 class JobFile {

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_json_bytes = std::size_t{1} << 26U, max_png_bytes = std::size_t{1} << 28U;  // bytes
-constexpr double cm3 = 1000;                                                                  // mm^3
+constexpr double cm3 = 1000;                                                                          // mm^3
 
 class NanoDlpFile : public JobFile {
   public:

@@ -44,8 +44,8 @@ class PngStackFile : public JobFile {
                              ": this folder holds no job.json, which a folder of masks has once it is "
                              "complete");
         }
-        const Json job =
-            Json::parse(read_bounded(description, max_description_bytes, description.string()), nullptr, false);
+        const Json job = Json::parse(read_bounded(description, max_description_bytes, description.string()),
+                                     nullptr, false);
         if (text_of(job, "format") != "lamella-layers")
             throw InputError(description.string() + ": this is no description of layers by lamella");
         read_facts(job);
@@ -55,8 +55,8 @@ class PngStackFile : public JobFile {
     MaskImage layer(int index) const override {
         const std::string name = fmt::format("{:05}{}", index + first_, ending_);
         const std::string where = (path_ / name).string();
-        return decode_mask(name, read_bounded(path_ / name, max_mask_bytes, where), {facts_.width, facts_.height},
-                           MaskPacking::plain, where);
+        return decode_mask(name, read_bounded(path_ / name, max_mask_bytes, where),
+                           {facts_.width, facts_.height}, MaskPacking::plain, where);
     }
 
   private:

@@ -12,7 +12,8 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t max_config_bytes = std::size_t{1} << 20U, max_image_bytes = std::size_t{1} << 28U;  // bytes
+constexpr std::size_t max_config_bytes = std::size_t{1} << 20U,
+                      max_image_bytes = std::size_t{1} << 28U;  // bytes
 constexpr double mm3_per_ml = 1000;
 
 using Description = std::map<std::string, std::string, std::less<>>;
@@ -61,7 +62,8 @@ class Sl1File : public JobFile {
         if (const auto ml = positive(machine, "usedMaterial")) facts_.volume = *ml * mm3_per_ml;
         constexpr int first_layers = 3;  // that the machine exposes like the first one
         facts_.first_layers = first_layers;
-        if (archive_.has("prusaslicer.ini")) read_display(parse(archive_.read("prusaslicer.ini", max_config_bytes)));
+        if (archive_.has("prusaslicer.ini"))
+            read_display(parse(archive_.read("prusaslicer.ini", max_config_bytes)));
         if (facts_.width == 0) {
             const MaskSize size = image_size(names_[0], archive_.read(names_[0], max_image_bytes), where(0));
             facts_.width = size.width;

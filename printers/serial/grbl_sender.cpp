@@ -10,7 +10,7 @@ namespace {
 
 constexpr double grbl_status_interval = 0.2;  // s; more often costs the reply line
 constexpr double ask_patience = 2;            // s
-constexpr int most_tries = 10;
+constexpr int max_tries = 10;
 constexpr double idle_patience = 3;  // s that GRBL is idle although lines are unanswered
 constexpr double hold_interval = 0.1;
 constexpr double hold_patience = 5;  // s from the hold to standing still
@@ -83,7 +83,7 @@ void GrblSender::check_time(double now) {
         }
         return;
     }
-    if (++tries_ > most_tries) {
+    if (++tries_ > max_tries) {
         stop(StopKind::unanswered, "nothing at the port answers like GRBL; is it on, and is --baud right?");
         return;
     }

@@ -11,10 +11,10 @@
 namespace lamella {
 namespace {
 
-constexpr double lift = 5;            // mm that a parked nozzle stands over the part
-constexpr double retraction = 2;      // mm that keep it from oozing there
-constexpr double prime = 8;           // mm of filament that fill a nozzle which has stood cold
-constexpr double least_nozzle = 150;  // degrees below which nothing is extruded
+constexpr double lift = 5;          // mm that a parked nozzle stands over the part
+constexpr double retraction = 2;    // mm that keep it from oozing there
+constexpr double prime = 8;         // mm of filament that fill a nozzle which has stood cold
+constexpr double min_nozzle = 150;  // degrees below which nothing is extruded
 
 std::optional<double> word(std::string_view command, char letter) {
     for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;
@@ -114,7 +114,7 @@ std::vector<std::string> MachineState::modes() const {
 
 std::vector<std::string> MachineState::leave(double park_x, double park_y, double highest) const {
     std::vector<std::string> lines{"G90", "M83"};
-    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(-retraction) + " F1800");
+    if (nozzle_ >= min_nozzle) lines.push_back("G1 E" + number(-retraction) + " F1800");
     if (!located()) return lines;
     lines.push_back("G0 Z" + number(lifted(at_[2], highest)) + " F600");
     lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
@@ -130,7 +130,7 @@ std::vector<std::string> MachineState::come_back(double highest) const {
         lines.push_back("G0 X" + number(at_[0]) + " Y" + number(at_[1]) + " F6000");
         lines.push_back("G0 Z" + number(at_[2]) + " F600");
     }
-    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
+    if (nozzle_ >= min_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
     for (std::string& line : modes()) lines.push_back(std::move(line));
     return lines;
 }
@@ -146,13 +146,13 @@ std::vector<std::string> MachineState::take_up(double z, double park_x, double p
     lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
     if (bed_ > 0) lines.push_back("M190 S" + number(bed_));
     if (nozzle_ > 0) lines.push_back("M109 S" + number(nozzle_));
-    if (nozzle_ >= least_nozzle) {
+    if (nozzle_ >= min_nozzle) {
         lines.push_back("G1 E" + number(prime) + " F120");
         lines.push_back("G1 E" + number(-retraction) + " F1800");
     }
     lines.push_back("G0 X" + number(at_[0]) + " Y" + number(at_[1]) + " F6000");
     lines.push_back("G0 Z" + number(at_[2]) + " F600");
-    if (nozzle_ >= least_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
+    if (nozzle_ >= min_nozzle) lines.push_back("G1 E" + number(retraction) + " F1800");
     lines.push_back(fan_ > 0 ? "M106 S" + number(fan_) : "M107");
     for (std::string& line : modes()) lines.push_back(std::move(line));
     return lines;

@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-constexpr int most_askings = 10;             // for one line
+constexpr int max_askings = 10;              // for one line
 constexpr std::int64_t believable = 32;      // lines that the count of oks may be ahead of the truth
 constexpr std::int64_t careful_lines = 256;  // after a resend
 constexpr double missing_ok = 0.5;           // s in which the ok of a resend comes, if it does
@@ -94,11 +94,11 @@ void MarlinSender::on_prompt(std::string_view text) {
 }
 
 void MarlinSender::note_planner(const Reply& reply) {
-    if (reply.slots_free) most_slots_free_ = std::max(most_slots_free_, *reply.slots_free);
+    if (reply.slots_free) max_slots_free_ = std::max(max_slots_free_, *reply.slots_free);
     if (!reply.planner_free) return;
-    most_planner_free_ = std::max(most_planner_free_, *reply.planner_free);
+    max_planner_free_ = std::max(max_planner_free_, *reply.planner_free);
     ++statistics_.advanced;
-    if (2 * *reply.planner_free > most_planner_free_) ++statistics_.starved;
+    if (2 * *reply.planner_free > max_planner_free_) ++statistics_.starved;
 }
 
 void MarlinSender::acknowledge(std::int64_t number) {
@@ -192,7 +192,7 @@ void MarlinSender::go_back(std::int64_t number, double now) {
     asked_ = number;
     asked_sent_ = -1;
     recheck_at_ = never;
-    if (asked_times_ > most_askings) {
+    if (asked_times_ > max_askings) {
         stop(StopKind::lost_count, "the printer has asked " + std::to_string(asked_times_) +
                                        " times for line " + std::to_string(number) + " (" +
                                        sent(number).command + ") and still cannot read it");

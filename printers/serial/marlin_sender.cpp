@@ -17,7 +17,7 @@ constexpr double impatient = 3;         // s without an ok from firmware that sa
 constexpr double patient = 30;          // and from any other
 constexpr double slow_impatient = 4.5;  // for commands that take long: busy comes every 2 s
 constexpr double slow_patient = 60;
-constexpr int most_tickles = 20;
+constexpr int max_tickles = 20;
 constexpr int silent_tickles = 5;
 constexpr double careful_pause = 0.1;  // s between lines while the link has faults, unless all are answered
 constexpr double relink_patience = 3;  // s in which a board that was reset says so
@@ -108,7 +108,7 @@ bool MarlinSender::fits(std::size_t bytes, double now) const {
     if (waits_unanswered()) return false;
     if (cursor_ < careful_until_ && now < last_start_ + careful_pause) return false;
     // No more lines than there are slots for, where the printer tells their number and the one that runs.
-    if (settings_.within_slots && most_slots_free_ >= 0 && cursor_ - 1 - acked_ > most_slots_free_)
+    if (settings_.within_slots && max_slots_free_ >= 0 && cursor_ - 1 - acked_ > max_slots_free_)
         return false;
     return before + bytes <= settings_.window;
 }
@@ -272,7 +272,7 @@ void MarlinSender::tickle(double now) {
                                        std::to_string(silent_tickles) + " lines");
         return;
     }
-    if (tickles_ > most_tickles) {
+    if (tickles_ > max_tickles) {
         stop(StopKind::unanswered, "the printer talks but answers no line any more");
         return;
     }

@@ -132,8 +132,8 @@ class MarlinSender : public LineSender {
     bool reports_temperatures_ = false;
     bool known_firmware_ = false;
     bool asked_again_ = false;
-    int most_planner_free_ = 0;
-    int most_slots_free_ = -1;
+    int max_planner_free_ = 0;
+    int max_slots_free_ = -1;
 
     // The end: reports off, all motion done, and an answer that can only be that of the last line.
     std::size_t finish_step_ = 0;

@@ -55,19 +55,19 @@ struct LineSettings {
     double spacing() const { return width - side_loss(height); }
     /// The width of a bead that lays `area` mm^2 over `length`, as far as it does not bulge over the layer.
     double width_for(double area, double length) const {
-        return std::min(bead_width(area / length * height, height), width * most_extra_flow);
+        return std::min(bead_width(area / length * height, height), width * max_extra_flow);
     }
     /// Thickness of a wall that one bead with all its extra flow fills.
-    double thickest() const { return most_extra_flow * width - side_loss(height); }
+    double thickest() const { return max_extra_flow * width - side_loss(height); }
     /// The same where the bead's width follows the wall's thickness.
     double thickest_tapered() const { return widest_tapered * width - side_loss(height); }
     /// Smaller pieces get no bead, mm^2.
-    double least_area() const { return width * width / 4; }
+    double min_area() const { return width * width / 4; }
 
-    static constexpr double most_extra_flow = 1.3;  ///< more would bulge
-    static constexpr double least_flow = 0.7;       ///< less would leave gaps
-    static constexpr double narrowest = 0.3;        ///< thinner threads, in widths, tear
-    static constexpr double widest_tapered = 1.5;   ///< in widths; thicker parts take two beads
+    static constexpr double max_extra_flow = 1.3;  ///< more would bulge
+    static constexpr double min_flow = 0.7;        ///< less would leave gaps
+    static constexpr double narrowest = 0.3;       ///< thinner threads, in widths, tear
+    static constexpr double widest_tapered = 1.5;  ///< in widths; thicker parts take two beads
 };
 
 }  // namespace lamella

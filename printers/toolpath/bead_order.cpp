@@ -140,9 +140,9 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
     };
     // Long stretches cost as much as they are long, so that many points get shorter ones only.
     const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
-    constexpr double least_gain = 1e-6;  // mm
-    constexpr int most_rounds = 20;
-    for (int round = 0; round < most_rounds; ++round) {
+    constexpr double min_gain = 1e-6;  // mm
+    constexpr int max_rounds = 20;
+    for (int round = 0; round < max_rounds; ++round) {
         bool shorter = false;
         for (std::size_t p = 0; p < n; ++p) {
             for (const std::uint32_t q : neighbours[p]) {
@@ -150,10 +150,10 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
                 if (b - a > longest) continue;
                 // To bring p and q together: turn what lies between them, with the later or the earlier of
                 // both.
-                if (a + 1 <= b && gain(a + 1, b) > least_gain) {
+                if (a + 1 <= b && gain(a + 1, b) > min_gain) {
                     turn(a + 1, b);
                     shorter = true;
-                } else if (b >= 1 && a <= b - 1 && gain(a, b - 1) > least_gain) {
+                } else if (b >= 1 && a <= b - 1 && gain(a, b - 1) > min_gain) {
                     turn(a, b - 1);
                     shorter = true;
                 }

@@ -14,7 +14,7 @@ struct Spans {
     double longest = 0;  ///< mm
 };
 
-Spans spans_along(const Polygons& hanging, const Footing& footing, dvec2 direction, double width) {
+Spans spans_along(const Polygons& hanging, const LayerBelow& footing, dvec2 direction, double width) {
     const Interval across = extent(hanging, {-direction.y, direction.x});
     const int count = std::max(1, static_cast<int>(across.width() / width));
     const double pitch = across.width() / count;
@@ -31,7 +31,7 @@ Spans spans_along(const Polygons& hanging, const Footing& footing, dvec2 directi
 
 }  // namespace
 
-dvec2 bridge_direction(const Polygons& hanging, const Footing& footing, double width) {
+dvec2 bridge_direction(const Polygons& hanging, const LayerBelow& footing, double width) {
     constexpr int tries = 36;
     constexpr double alike = 0.02;  // share of the region by which directions may differ and count as equal
     std::array<dvec2, tries> directions;

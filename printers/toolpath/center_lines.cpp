@@ -314,10 +314,10 @@ std::vector<CenterLine> center_lines(const Polygons& piece, double thickness, do
     // The lines must carry the piece's volume with the flow that belongs to the thickness.
     double total = 0;
     for (const CenterLine& line : lines) total += length_of(line);
-    constexpr double least_flow = 0.85;
-    constexpr double most_flow = 1.35;
+    constexpr double min_flow = 0.85;
+    constexpr double max_flow = 1.35;
     const double flow = total > 0 ? area_of(piece) / (total * thickness) : infinity;
-    if (!(flow >= least_flow && flow <= most_flow)) return {};
+    if (!(flow >= min_flow && flow <= max_flow)) return {};
     return lines;
 }
 

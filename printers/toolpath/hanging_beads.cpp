@@ -44,7 +44,7 @@ void append(Stretch next, std::vector<Stretch>& stretches) {
         stretches.push_back(next);
 }
 
-std::vector<Stretch> stretches_of(const Line& line, const Footing& footing, double step) {
+std::vector<Stretch> stretches_of(const Line& line, const LayerBelow& footing, double step) {
     std::vector<Stretch> stretches;
     for (std::size_t i = 1; i < line.points.size(); ++i) {
         const double length = line.ways[i] - line.ways[i - 1];
@@ -102,7 +102,7 @@ Bead piece_of(const Bead& bead, const Line& line, const Stretch& stretch) {
 
 }  // namespace
 
-std::vector<Bead> cut_hanging(const std::vector<Bead>& beads, const Footing& footing) {
+std::vector<Bead> cut_hanging(const std::vector<Bead>& beads, const LayerBelow& footing) {
     std::vector<Bead> cut;
     cut.reserve(beads.size());
     for (const Bead& bead : beads) {

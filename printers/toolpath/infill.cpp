@@ -55,7 +55,7 @@ std::vector<Bead> solid_lines(const Polygons& region, dvec2 direction, const Lin
             lines_in(*within, direction, across.lo + pitch / 2, pitch, count, line);
         double length = 0;
         for (const Segment& s : lines) length += s.length();
-        const bool enough = area <= length * spacing * LineSettings::most_extra_flow;
+        const bool enough = area <= length * spacing * LineSettings::max_extra_flow;
         if (!enough && (within != &region || length < spacing)) continue;
         return beads_along(lines, line.width_for(area, length), Role::solid_infill);
     }

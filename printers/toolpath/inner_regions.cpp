@@ -8,9 +8,9 @@
 namespace lamella {
 namespace {
 
-constexpr double anchor = 3;         // by which bridges and solid parts reach over what holds them, in widths
-constexpr double least_bridge = 9;   // what is smaller, in widths squared, is filled as if it were held
-constexpr double least_sparse = 64;  // what is smaller, in widths squared, becomes solid
+constexpr double anchor = 3;       // by which bridges and solid parts reach over what holds them, in widths
+constexpr double min_bridge = 9;   // what is smaller, in widths squared, is filled as if it were held
+constexpr double min_sparse = 64;  // what is smaller, in widths squared, becomes solid
 
 /// Without what is narrower than `width` mm.
 Polygons opened(const Polygons& polygons, double width) {
@@ -19,7 +19,7 @@ Polygons opened(const Polygons& polygons, double width) {
 }
 
 /// Whether as much of a region hangs as a bridge has at least; by points a width apart.
-bool may_hang(const Polygons& region, const Footing& footing, double width) {
+bool may_hang(const Polygons& region, const LayerBelow& footing, double width) {
     const Interval across = extent(region, {0, 1});
     const int rows = std::max(1, static_cast<int>(across.width() / width));
     const double pitch = across.width() / rows;
@@ -31,7 +31,7 @@ bool may_hang(const Polygons& region, const Footing& footing, double width) {
                 hanging += pitch * s.length() / points;
         }
     }
-    return hanging > least_bridge * width * width / 2;  // for the points are coarse
+    return hanging > min_bridge * width * width / 2;  // for the points are coarse
 }
 
 /// Where infill must be solid, because a surface is near.
@@ -41,27 +41,27 @@ Polygons solid_part(const Polygons& region, const PlacedPolygons& core, double w
     Polygons solid = intersect_polygons(offset_polygons(bare, anchor * width), region);
     // What is left sparse has room for more than its own border.
     for (const Polygons& rest : split_pieces(subtract_polygons(region, solid))) {
-        if (area_of(rest) < least_sparse * width * width || opened(rest, 2 * width).empty())
+        if (area_of(rest) < min_sparse * width * width || opened(rest, 2 * width).empty())
             solid = unite_polygons(solid, rest);
     }
     return solid;
 }
 
 /// What nothing is under, as far as a bead hangs over it as a whole.
-Polygons hanging_part(const Polygons& region, const Footing& footing, double width) {
+Polygons hanging_part(const Polygons& region, const LayerBelow& footing, double width) {
     if (!may_hang(region, footing, width)) return {};
     Polygons bridges;
     const Polygons bare = subtract_polygons(region, footing.section().near(box_of(region)));
     for (const Polygons& piece : split_pieces(opened(bare, width))) {
-        if (area_of(piece) >= least_bridge * width * width)
+        if (area_of(piece) >= min_bridge * width * width)
             bridges.insert(bridges.end(), piece.begin(), piece.end());
     }
     return bridges;
 }
 
 /// The bridges over what hangs of a solid region, with a strip beside it that anchors their lines.
-std::vector<InnerRegion> bridges_over(const Polygons& hanging, const Polygons& solid, const Footing& footing,
-                                      double width) {
+std::vector<InnerRegion> bridges_over(const Polygons& hanging, const Polygons& solid,
+                                      const LayerBelow& footing, double width) {
     std::vector<InnerRegion> bridges;
     for (Polygons& piece :
          split_pieces(intersect_polygons(offset_polygons(hanging, anchor * width), solid))) {
@@ -73,17 +73,17 @@ std::vector<InnerRegion> bridges_over(const Polygons& hanging, const Polygons& s
     return bridges;
 }
 
-void append_pieces(const Polygons& polygons, InnerRegion::Fill fill, double least_area,
+void append_pieces(const Polygons& polygons, InnerRegion::Fill fill, double min_area,
                    std::vector<InnerRegion>& regions) {
     for (Polygons& piece : split_pieces(polygons)) {
-        if (area_of(piece) >= least_area) regions.push_back({std::move(piece), fill});
+        if (area_of(piece) >= min_area) regions.push_back({std::move(piece), fill});
     }
 }
 
 }  // namespace
 
-std::vector<InnerRegion> divide_inside(const Polygons& region, const Surroundings& around, double density,
-                                       const LineSettings& line) {
+std::vector<InnerRegion> divide_inside(const Polygons& region, const LayerNeighborhood& around,
+                                       double density, const LineSettings& line) {
     const bool all_solid = density > densest_lattice;
     const Polygons solid = all_solid     ? region
                            : around.core ? solid_part(region, *around.core, line.width)
@@ -95,7 +95,7 @@ std::vector<InnerRegion> divide_inside(const Polygons& region, const Surrounding
     if (!hanging.empty()) regions = bridges_over(hanging, solid, *around.footing, line.width);
     Polygons other = solid;
     for (const InnerRegion& bridge : regions) other = subtract_polygons(other, bridge.region);
-    const double least = line.least_area();
+    const double least = line.min_area();
     append_pieces(other, InnerRegion::Fill::solid, least, regions);
     if (!all_solid)
         append_pieces(subtract_polygons(region, solid), InnerRegion::Fill::sparse, least, regions);

@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-constexpr double most_detour = 3;  // beyond it the filament is better drawn back
+constexpr double max_detour = 3;  // beyond it the filament is better drawn back
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::optional<std::vector<dvec2>> InnerTravel::way_within(Region& region, dvec2 
     const auto begin = region.sight->enter(ends[0], reach), end = region.sight->enter(ends[1], reach);
     if (!begin || !end) return std::nullopt;
     auto corners =
-        shortest_way(*region.sight, *begin, *end, most_detour * polygon_scale * glm::distance(from, to));
+        shortest_way(*region.sight, *begin, *end, max_detour * polygon_scale * glm::distance(from, to));
     if (!corners) return std::nullopt;
     if (*begin != ends[0]) corners->insert(corners->begin(), *begin);
     if (*end != ends[1]) corners->push_back(*end);

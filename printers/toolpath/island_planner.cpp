@@ -20,8 +20,8 @@ Role wall_role(int walls_laid) { return walls_laid == 0 ? Role::external_perimet
 
 }  // namespace
 
-IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around,
-                             const CancelToken* cancel)
+IslandPlanner::IslandPlanner(const ToolpathSettings& settings, int layer_index,
+                             const LayerNeighborhood& around, const CancelToken* cancel)
     : settings_(settings),
       line_(settings.line),
       around_(around),
@@ -63,9 +63,9 @@ void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls
     if (thin.lines.empty()) return fill_thick(exact, piece, walls_laid);
     // What is left in pieces too small for beads of their own comes with the lines, too.
     double area = area_of(exact);
-    if (!thin.whole && area - thin.area >= line_.least_area()) {
+    if (!thin.whole && area - thin.area >= line_.min_area()) {
         for (const Polygons& rest : split_pieces(subtract_polygons(piece, thin.covered))) {
-            if (area_of(rest) < line_.least_area()) continue;
+            if (area_of(rest) < line_.min_area()) continue;
             area -= area_of(rest);
             fill_thick(rest, rest, walls_laid);
         }
@@ -86,7 +86,7 @@ void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int
     const std::size_t first = beads_.size();
     const double area = area_of(exact), wanted = area * line_.height;
     if (!lay_walls(exact, piece, walls_laid)) return;
-    const auto starves = [&] { return volume_from(first) * LineSettings::most_extra_flow < wanted; };
+    const auto starves = [&] { return volume_from(first) * LineSettings::max_extra_flow < wanted; };
     if (starves()) {
         // Its wall is a speck: loops nearer to the border are longer, and a chord spans it.
         beads_.resize(first);
@@ -98,7 +98,7 @@ void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int
     }
     const double laid = volume_from(first);
     if (!(laid > 0)) return;
-    const double flow = std::clamp(wanted / laid, LineSettings::least_flow, LineSettings::most_extra_flow);
+    const double flow = std::clamp(wanted / laid, LineSettings::min_flow, LineSettings::max_extra_flow);
     const auto scale = [&](double& width) {
         const double section = bead_area(width, line_.height) * flow;
         width = std::min(bead_width(section, line_.height), LineSettings::widest_tapered * line_.width);
@@ -137,7 +137,7 @@ bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int 
     const int sparse_before = sparse_regions_;
     for (const Polygons& region : regions) {
         if (walls_laid + 1 < settings_.walls) {
-            if (area_of(region) >= line_.least_area()) fill(region, region, walls_laid + 1);
+            if (area_of(region) >= line_.min_area()) fill(region, region, walls_laid + 1);
         } else {
             fill_inside(region);
         }

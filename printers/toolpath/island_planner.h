@@ -9,10 +9,10 @@ namespace lamella {
 /// Plans island after island of one layer; see plan_toolpaths.
 class IslandPlanner {
   public:
-    IslandPlanner(const ToolpathSettings& settings, int layer_index, const Surroundings& around,
+    IslandPlanner(const ToolpathSettings& settings, int layer_index, const LayerNeighborhood& around,
                   const CancelToken* cancel);
 
-    /// Beads of a connected piece with its holes, of at least LineSettings::least_area().
+    /// Beads of a connected piece with its holes, of at least LineSettings::min_area().
     std::vector<Bead> plan(const Polygons& island);
 
   private:
@@ -28,7 +28,7 @@ class IslandPlanner {
 
     ToolpathSettings settings_;
     LineSettings line_;
-    Surroundings around_;
+    LayerNeighborhood around_;
     const CancelToken* cancel_;
     dvec2 direction_;
     int sparse_regions_ = 0;  ///< of the island, that beads do not fill

@@ -26,7 +26,7 @@ std::shared_ptr<const LayerOutlines> NeighbourLayers::outlines(int index) const 
     return {entry, &entry->outlines};
 }
 
-Footing NeighbourLayers::footing(int index, double pitch) const {
+LayerBelow NeighbourLayers::footing(int index, double pitch) const {
     const auto below = outlines(index - 1);
     Polygons section = to_polygons(below->part);
     if (!below->supports.empty()) section = unite_polygons(section, to_polygons(below->supports));

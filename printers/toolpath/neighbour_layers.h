@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "engine/layers/layer.h"
-#include "printers/toolpath/footing.h"
+#include "printers/toolpath/layer_below.h"
 
 namespace lamella {
 
@@ -26,7 +26,7 @@ class NeighbourLayers {
     /// The sections of a layer, 0 <= index < Job::layer_count.
     std::shared_ptr<const LayerOutlines> outlines(int index) const;
     /// The layer below this one, which must not be the first.
-    Footing footing(int index, double pitch) const;
+    LayerBelow footing(int index, double pitch) const;
     /// What is solid in each of so many layers below and above this one; there are none below the first and
     /// above the last.
     PlacedPolygons core(int index, int below, int above) const;

@@ -18,7 +18,7 @@ std::vector<Bead> tapered_beads(const ThinParts& parts, double area, const LineS
     if (!(laid > 0)) return {};
     const double wanted = area / laid;
     const double flow = std::clamp(wanted, 1.0, 1 + ends / laid);
-    const double wider = std::clamp(wanted / flow, LineSettings::least_flow, LineSettings::most_extra_flow);
+    const double wider = std::clamp(wanted / flow, LineSettings::min_flow, LineSettings::max_extra_flow);
     std::vector<Bead> beads;
     for (const TaperedLine& path : parts.lines) {
         Bead bead;

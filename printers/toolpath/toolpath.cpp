@@ -30,7 +30,7 @@ std::vector<Polygons> find_islands(const std::vector<Contour>& contours) {
 }  // namespace
 
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index, const Surroundings& around, const CancelToken* cancel) {
+                         int layer_index, const LayerNeighborhood& around, const CancelToken* cancel) {
     Toolpaths result;
     const std::vector<Polygons> islands = find_islands(contours);
     result.islands = static_cast<int>(islands.size());
@@ -42,7 +42,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     for (const Polygons& island : islands) {
         for (const dvec2& p : to_points(island.front())) all = unite(all, Rect{p, p});
         std::vector<Bead> beads;
-        if (area_of(island) >= settings.line.least_area()) beads = planner.plan(island);
+        if (area_of(island) >= settings.line.min_area()) beads = planner.plan(island);
         if (beads.empty()) {
             ++result.islands_left_out;
             continue;

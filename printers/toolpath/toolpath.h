@@ -7,7 +7,7 @@
 #include "engine/contours/contours.h"
 #include "printers/common/profile.h"
 #include "printers/toolpath/bead.h"
-#include "printers/toolpath/footing.h"
+#include "printers/toolpath/layer_below.h"
 
 namespace lamella {
 
@@ -20,8 +20,8 @@ struct ToolpathSettings {
 };
 
 /// What a layer's paths must know of the layers round it.
-struct Surroundings {
-    const Footing* footing = nullptr;      ///< what it rests on; null: the bed
+struct LayerNeighborhood {
+    const LayerBelow* footing = nullptr;   ///< what it rests on; null: the bed
     const PlacedPolygons* core = nullptr;  ///< where layers below and above are solid, so that infill may be
                                            ///< sparse; null: everywhere
 };
@@ -46,7 +46,7 @@ struct Toolpaths {
 /// Infill over the void runs along the bridge (see bridge_direction), and what hangs of any bead is marked
 /// and a bead by itself (see cut_hanging). Throws Interrupted when `cancel`, which may be null, asks for it.
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
-                         int layer_index, const Surroundings& around = {},
+                         int layer_index, const LayerNeighborhood& around = {},
                          const CancelToken* cancel = nullptr);
 
 }  // namespace lamella

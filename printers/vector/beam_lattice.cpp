@@ -21,7 +21,7 @@ constexpr int lattice_decimals = 5;
 constexpr double units_per_mm = 1e5;
 constexpr double shortest = 1 / units_per_mm;  // mm; nodes that differ are at least this far apart
 constexpr double farthest = 1e6;               // mm
-constexpr std::size_t most_beams = (std::size_t{1} << 31U) - 1;
+constexpr std::size_t max_beams = (std::size_t{1} << 31U) - 1;
 
 /// A place in units of 1e-5 mm.
 using Node = std::array<std::int64_t, 3>;
@@ -43,7 +43,7 @@ struct NodeHash {
 
 void check(std::span<const Beam> beams) {
     if (beams.empty()) throw InputError("a beam lattice needs beams, and there are none");
-    if (beams.size() > most_beams) throw InputError("a beam lattice holds at most 2^31 - 1 beams");
+    if (beams.size() > max_beams) throw InputError("a beam lattice holds at most 2^31 - 1 beams");
     for (std::size_t i = 0; i < beams.size(); ++i) {
         const Beam& beam = beams[i];
         bool good = beam.ra > 0 && beam.rb > 0 && beam.ra <= farthest && beam.rb <= farthest;

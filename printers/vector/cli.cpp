@@ -19,7 +19,7 @@ namespace {
 
 constexpr int part_id = 1, support_id = 2;
 constexpr std::uint64_t layer_command = 127, polyline_command = 130;
-constexpr double most_units = 1e9;  // that a coordinate may be
+constexpr double max_units = 1e9;  // that a coordinate may be
 
 /// What goes into a label: printable ASCII without what parts fields and begins commands.
 std::string label_text(const std::string& name) {
@@ -95,7 +95,7 @@ class CliText {
 };
 
 struct CliProduct : LayerProduct {
-    void carry(Parcel& parcel) override { parcel(commands); }
+    void serialize(Archive& parcel) override { parcel(commands); }
 
     std::string commands;
 };
@@ -151,11 +151,11 @@ class Cli : public Backend {
         double farthest = job.layer_count * job.layer_height;
         for (const dvec3& corner : {job.bounds.lo, job.bounds.hi})
             farthest = std::max({farthest, std::abs(corner.x), std::abs(corner.y)});
-        if (farthest / cli_.cli_units > most_units) {
+        if (farthest / cli_.cli_units > max_units) {
             throw InputError(
                 fmt::format("cli_units = {} mm: the part's coordinates are more than 1e9 of them; "
                             "accepted: {:.1g} mm or more",
-                            cli_.cli_units, farthest / most_units));
+                            cli_.cli_units, farthest / max_units));
         }
     }
 

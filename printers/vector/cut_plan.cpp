@@ -13,7 +13,7 @@ namespace {
 
 constexpr double score_inset = 0.2;       // mm; nearer to the border the cut itself shows the place
 constexpr double shortest_score = 1;      // mm
-constexpr double least_digit = 1.5;       // mm; what a laser still engraves legibly
+constexpr double min_digit = 1.5;         // mm; what a laser still engraves legibly
 constexpr double number_clearance = 0.5;  // mm
 
 double length_of(const std::vector<dvec2>& line) {
@@ -79,7 +79,7 @@ std::optional<NumberPlace> number_place(const Polygons& section, const std::vect
     const dvec2 unit = number_size(number, 1);
     const double reach = std::sqrt(unit.x * unit.x + unit.y * unit.y) / 2;
     const auto place = [&](double h) { return clear_place(section, scores, h * reach + number_clearance); };
-    double lo = std::min(least_digit, height);
+    double lo = std::min(min_digit, height);
     if (const auto center = place(height)) return NumberPlace{*center, height};
     auto best = place(lo);
     if (!best) return std::nullopt;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/base/parcel.h"
+#include "engine/base/archive.h"
 #include "engine/layers/layer.h"
 #include "printers/common/profile.h"
 #include "printers/vector/sheet.h"
@@ -12,7 +12,7 @@ namespace lamella {
 
 /// The paths of a layer and what became of it on the way.
 struct CutPlan {
-    void carry(Parcel& parcel) {
+    void serialize(Archive& parcel) {
         parcel(paths, extent, area, pieces, closed_holes, merged_pieces, unnumbered);
     }
 

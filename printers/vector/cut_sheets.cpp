@@ -18,7 +18,7 @@ namespace lamella {
 namespace {
 
 struct CutProduct : LayerProduct {
-    void carry(Parcel& parcel) override { plan.carry(parcel); }
+    void serialize(Archive& parcel) override { plan.serialize(parcel); }
 
     CutPlan plan;
 };

@@ -9,8 +9,8 @@ namespace lamella {
 namespace {
 
 constexpr int grid = 24;  // candidates along either side
-constexpr std::size_t most_border_points = 200;
-constexpr double least_distance = 3;  // diameters
+constexpr std::size_t max_border_points = 200;
+constexpr double min_distance = 3;  // diameters
 
 double distance(dvec2 a, dvec2 b) {
     const dvec2 way = b - a;
@@ -31,7 +31,7 @@ std::vector<dvec2> candidates(const Polygons& clear) {
     for (const ClipperLib::Path& polygon : clear) {
         for (const dvec2& p : to_points(polygon)) border.push_back(p);
     }
-    const std::size_t step = border.size() / most_border_points + 1;
+    const std::size_t step = border.size() / max_border_points + 1;
     for (std::size_t i = 0; i < border.size(); i += step) found.push_back(border[i]);
     return found;
 }
@@ -56,7 +56,7 @@ bool fits_one_way(dvec2 a, dvec2 b, dvec2 c, double diameter) {
     std::ranges::sort(sides);
     const dvec2 ab = b - a, ac = c - a;
     const double height = std::abs(ab.x * ac.y - ab.y * ac.x) / sides[2];
-    return sides[0] >= least_distance * diameter && sides[1] - sides[0] >= diameter &&
+    return sides[0] >= min_distance * diameter && sides[1] - sides[0] >= diameter &&
            sides[2] - sides[1] >= diameter && height >= diameter;
 }
 
@@ -76,7 +76,7 @@ bool is_inside(const Polygons& polygons, dvec2 point) {
 std::vector<dvec2> dowel_places(const Polygons& clear, dvec2 middle, int count, double diameter) {
     const std::vector<dvec2> all = candidates(clear);
     std::vector<dvec2> best;
-    double most = least_distance * diameter;
+    double most = min_distance * diameter;
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const double apart = distance(all[i], all[j]);

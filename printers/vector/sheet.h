@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/archive.h"
 #include "engine/base/geometry.h"
-#include "engine/base/parcel.h"
 
 namespace lamella {
 
@@ -19,7 +19,7 @@ enum class CutPurpose : unsigned char {
 inline constexpr int cut_purposes = 4;
 
 struct SheetPath {
-    void carry(Parcel& parcel) { parcel(purpose, layer, closed, points); }
+    void serialize(Archive& parcel) { parcel(purpose, layer, closed, points); }
 
     CutPurpose purpose = CutPurpose::outer;
     int layer = 0;

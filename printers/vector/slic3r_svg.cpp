@@ -12,7 +12,7 @@ namespace lamella {
 namespace {
 
 struct Slic3rProduct : LayerProduct {
-    void carry(Parcel& parcel) override { parcel(polygons); }
+    void serialize(Archive& parcel) override { parcel(polygons); }
 
     std::string polygons;
 };

@@ -59,7 +59,7 @@ std::string slice_text(double top, const std::vector<GridPolygon>& polygons) {
 }
 
 struct Slice3mfProduct : LayerProduct {
-    void carry(Parcel& parcel) override {
+    void serialize(Archive& parcel) override {
         parcel(part.bytes, part.size, part.crc, supports.bytes, supports.size, supports.crc);
     }
 

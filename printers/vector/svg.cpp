@@ -20,7 +20,7 @@ namespace lamella {
 namespace {
 
 struct SvgProduct : LayerProduct {
-    void carry(Parcel& parcel) override { parcel(path, supports); }
+    void serialize(Archive& parcel) override { parcel(path, supports); }
 
     std::string path;      ///< path data; empty for an empty layer
     std::string supports;  ///< the same of what holds the part

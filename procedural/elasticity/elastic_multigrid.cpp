@@ -13,12 +13,13 @@ namespace {
 using Stiffness = std::array<std::array<double, hex_unknowns>, hex_unknowns>;
 using Block = std::array<float, 9>;
 
-constexpr int power_steps = 12;           // to the greatest eigenvalue
-constexpr double safety = 1.1;            // above what they find
-constexpr double smoothed_share = 6;      // the smoother damps eigenvalues down to this part of the greatest
-constexpr std::size_t most_dense = 1200;  // unknowns of a grid that is solved directly
-constexpr int sweeps_instead = 8;         // of smoothing, where there are more
-constexpr double negligible_stiffness = 1e-5;       // of the stiffness: less than rounding to single precision leaves
+constexpr int power_steps = 12;          // to the greatest eigenvalue
+constexpr double safety = 1.1;           // above what they find
+constexpr double smoothed_share = 6;     // the smoother damps eigenvalues down to this part of the greatest
+constexpr std::size_t max_dense = 1200;  // unknowns of a grid that is solved directly
+constexpr int sweeps_instead = 8;        // of smoothing, where there are more
+constexpr double negligible_stiffness =
+    1e-5;  // of the stiffness: less than rounding to single precision leaves
 
 /// Weight of coarse node A at node a of the child in octant `child`.
 double weight(std::size_t child, std::size_t a, std::size_t coarse) {
@@ -219,7 +220,7 @@ void ElasticMultigrid::Level::smooth(const float* right, float* at, bool from_ze
 
 void ElasticMultigrid::Level::factorise() {
     const auto unknowns = static_cast<Eigen::Index>(3 * grid.nodes());
-    if (3 * grid.nodes() > most_dense) return;
+    if (3 * grid.nodes() > max_dense) return;
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(unknowns, unknowns);
     for (std::size_t node = 0; node < grid.nodes(); ++node) {
         const auto neighbours = grid.neighbours(node);

@@ -111,7 +111,7 @@ CaseNumbers Solution::ease(const CaseNumbers& squares, double tolerance) {
 
 int Solution::solve(const HomogenizationOptions& options) {
     CaseNumbers before{};
-    for (int i = 0; i < options.most_iterations; ++i) {
+    for (int i = 0; i < options.max_iterations; ++i) {
         const CaseNumbers squares = products(nodes(), rest_.data(), rest_.data());
         const double share = largest(squares);
         if (options.on_progress) options.on_progress(i, share);
@@ -142,7 +142,7 @@ int Solution::solve(const HomogenizationOptions& options) {
         });
         before = now;
     }
-    throw FaultError("a structure was not homogenised in " + std::to_string(options.most_iterations) +
+    throw FaultError("a structure was not homogenised in " + std::to_string(options.max_iterations) +
                      " iterations");
 }
 

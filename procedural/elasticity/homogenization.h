@@ -10,7 +10,7 @@ namespace lamella {
 
 struct HomogenizationOptions {
     double tolerance = 1e-7;  ///< of the forces that are left, as a share of the loads
-    int most_iterations = 2000;
+    int max_iterations = 2000;
     int threads = 0;  ///< 0: one per core
     /// Told after each iteration, with the forces left over the loads; may be empty.
     std::function<void(int iteration, double left)> on_progress{};

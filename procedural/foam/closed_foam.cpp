@@ -44,7 +44,7 @@ Interval range_within(const Graded& graded, const Box& region, Interval limits, 
             std::min(std::max(range.hi, limits.lo), limits.hi)};
 }
 
-NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamGround& ground) {
+NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamSeeding& ground) {
     const Interval walls = range_within(settings.wall, settings.foam.region, {0, infinity},
                                         "the foam's wall thickness in mm", "finite and at least 0");
     const bool constant = settings.wall->constant().has_value();
@@ -70,11 +70,11 @@ Graded window_share(const ClosedFoamSettings& settings) {
 ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings)
     : ClosedFoam(settings, prepare_foam(settings.foam)) {}
 
-ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings, const FoamGround& ground)
+ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings, const FoamSeeding& ground)
     : ClosedFoam(settings.foam.region, ground, {wall_radius(settings, ground), window_share(settings), 0},
                  settings.foam.cache_bytes) {}
 
-ClosedFoam::ClosedFoam(const Box& region, const FoamGround& ground, const WallSettings& walls,
+ClosedFoam::ClosedFoam(const Box& region, const FoamSeeding& ground, const WallSettings& walls,
                        std::size_t cache_bytes)
     : PieceFoam(region, ground.cell, ground.cells,
                 std::max(ground.largest_radius(), walls.radius.largest() + walls.growth), cache_bytes),
@@ -87,7 +87,7 @@ ClosedFoam::ClosedFoam(const Box& region, const FoamGround& ground, const WallSe
 
 FieldPtr ClosedFoam::offset(double d) const {
     if (!(d >= 0) || !std::isfinite(d)) return nullptr;
-    const FoamGround ground = ground_.grown(d);
+    const FoamSeeding ground = ground_.grown(d);
     WallSettings walls = walls_;
     walls.growth += d;
     return FieldPtr(new ClosedFoam(grown(bounds(), d), ground, walls, cache_bytes_));

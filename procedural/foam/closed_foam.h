@@ -36,11 +36,11 @@ class ClosedFoam : public PieceFoam<FoamPiece> {
     FieldPtr offset(double d) const override;
 
   private:
-    ClosedFoam(const ClosedFoamSettings& settings, const FoamGround& ground);
-    ClosedFoam(const Box& region, const FoamGround& ground, const WallSettings& walls,
+    ClosedFoam(const ClosedFoamSettings& settings, const FoamSeeding& ground);
+    ClosedFoam(const Box& region, const FoamSeeding& ground, const WallSettings& walls,
                std::size_t cache_bytes);
 
-    FoamGround ground_;
+    FoamSeeding ground_;
     WallSettings walls_;
     std::size_t cache_bytes_;
     CellUnits<FramedMaker<WallMaker>> units_;

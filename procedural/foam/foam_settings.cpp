@@ -16,8 +16,8 @@ namespace {
 // that lies far away, and every coarse cell still expects 8 seeds.
 constexpr double cells_per_coarse_side = 4, graded_cells_per_coarse_side = 2;
 constexpr double bcc_side = 1.2599210498948732;  // of a cube with two cells, in cells
-constexpr double most_cells_per_slice = 1e8;
-constexpr double most_variation = 40;
+constexpr double max_cells_per_slice = 1e8;
+constexpr double max_variation = 40;
 constexpr double max_beam_share = 0.45;  // share of the local cell
 
 /// A radius where cells are large enough for it, else the share of the cell that leaves an opening.
@@ -84,12 +84,12 @@ void check_region(const Box& region, double smallest_cell) {
         throw InputError("the foam's region is empty or not finite; give a box with finite corners");
     }
     const dvec3 size = region.size(), cells = size / smallest_cell;
-    if (!(cells.x * cells.y <= most_cells_per_slice)) {
+    if (!(cells.x * cells.y <= max_cells_per_slice)) {
         throw InputError(
             fmt::format("a layer of the foam would cut {:.0f} cells; with a region of {} x {} mm the "
                         "cell size must be at least {:.4g} mm",
                         cells.x * cells.y, size.x, size.y,
-                        smallest_cell * std::sqrt(cells.x * cells.y / most_cells_per_slice)));
+                        smallest_cell * std::sqrt(cells.x * cells.y / max_cells_per_slice)));
     }
 }
 
@@ -124,24 +124,24 @@ std::optional<SurfaceFrame> surface_frame(const FoamSettings& settings, const No
 
 }  // namespace
 
-FoamGround FoamGround::grown(double by) const {
-    FoamGround thicker = *this;
+FoamSeeding FoamSeeding::grown(double by) const {
+    FoamSeeding thicker = *this;
     thicker.radius = radius.grown(by);
     if (frame) thicker.frame = frame->grown(by);
     return thicker;
 }
 
-FoamGround prepare_foam(const FoamSettings& settings) {
+FoamSeeding prepare_foam(const FoamSettings& settings) {
     const auto constant_cell = settings.cell->constant();
     if (constant_cell) positive_range(*settings.cell, {dvec3(0), dvec3(1)}, "the foam's cell size");
     check_region(settings.region, constant_cell.value_or(infinity));
     const Interval cells = positive_range(*settings.cell, settings.region, "the foam's cell size");
     check_region(settings.region, cells.lo);
-    if (cells.hi > most_variation * cells.lo) {
+    if (cells.hi > max_variation * cells.lo) {
         throw InputError(
             fmt::format("the foam's cell size varies from {:.4g} to {:.4g} mm; the largest may "
                         "be {} times the smallest: give it limits",
-                        cells.lo, cells.hi, most_variation));
+                        cells.lo, cells.hi, max_variation));
     }
     const GradingPtr cell = make_clamped_grading(settings.cell.pointer(), cells);
     std::shared_ptr<const Density> density;
@@ -163,7 +163,7 @@ FoamGround prepare_foam(const FoamSettings& settings) {
             surface_frame(settings, radius)};
 }
 
-std::vector<Seed> FoamGround::seeds_in(const Box& box) const {
+std::vector<Seed> FoamSeeding::seeds_in(const Box& box) const {
     std::vector<Seed> seeds = tree->seeds_in(stretch.to_seeds(box));
     if (stretch.identity()) return seeds;
     for (Seed& seed : seeds) seed.position = stretch.to_part(seed.position);

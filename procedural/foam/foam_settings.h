@@ -34,7 +34,7 @@ struct FoamSettings {
 };
 
 /// Seeds, cell sizes and radii of checked settings: what all foams on seeds start from.
-struct FoamGround {
+struct FoamSeeding {
     std::shared_ptr<const SeedTree> tree;
     GradingPtr cell;  ///< mm, in the part's space, clamped to `cells`
     Interval cells;   ///< the cell sizes of the region, mm
@@ -47,12 +47,12 @@ struct FoamGround {
         return frame ? std::max(radius.largest(), frame->largest_radius()) : radius.largest();
     }
     /// The ground of the foam with beams thicker by a length, mm.
-    FoamGround grown(double by) const;
+    FoamSeeding grown(double by) const;
     /// All seeds in the closed box of the part's space, by key.
     std::vector<Seed> seeds_in(const Box& box) const;
 };
 
 /// Throws InputError for settings out of range; `what` names the thing in messages ("the foam").
-FoamGround prepare_foam(const FoamSettings& settings);
+FoamSeeding prepare_foam(const FoamSettings& settings);
 
 }  // namespace lamella

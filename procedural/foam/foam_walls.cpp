@@ -8,7 +8,7 @@ namespace lamella {
 namespace {
 
 /// A gap between triangles thinner than this is closed by rounding anyway, mm.
-constexpr double least_gap = 1e-7;
+constexpr double min_gap = 1e-7;
 
 double distance_to_line(dvec3 p, dvec3 a, dvec3 b) {
     const dvec3 along = b - a;
@@ -134,7 +134,7 @@ bool WallMaker::has_crest(const Corner& middle, std::size_t spoke) const {
     if (!first || !second) return true;
     // The tangent planes' normals differ across the spoke only.
     const dvec3 between = first->normals[0] - second->normals[0];
-    if (length(between) * std::max(middle.radius, at.radius) < least_gap) return false;
+    if (length(between) * std::max(middle.radius, at.radius) < min_gap) return false;
     return glm::dot(between, after.place - middle.place) < 0;
 }
 

@@ -80,7 +80,7 @@ struct NearestSource::Search {
     }
 };
 
-NearestSource::NearestSource(const FoamGround& ground, const NearestFoamSettings& settings,
+NearestSource::NearestSource(const FoamSeeding& ground, const NearestFoamSettings& settings,
                              double farthest_ratio)
     : tree_(ground.tree),
       tapered_(ground.radius),
@@ -178,7 +178,7 @@ void NearestSource::append(const Seed& own, std::vector<Beam>& beams) {
 NearestFoam::NearestFoam(const NearestFoamSettings& settings)
     : NearestFoam(within_limits(settings), prepare_foam(settings.foam)) {}
 
-NearestFoam::NearestFoam(const NearestFoamSettings& settings, const FoamGround& ground)
+NearestFoam::NearestFoam(const NearestFoamSettings& settings, const FoamSeeding& ground)
     : BeamFoam(settings.foam.region, ground.cell, ground.cells, ground.radius.largest(),
                settings.foam.cache_bytes),
       ground_(ground),

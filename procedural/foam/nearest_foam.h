@@ -42,7 +42,7 @@ class NearestSource {
   public:
     using Piece = Beam;
     /// `settings` are checked.
-    NearestSource(const FoamGround& ground, const NearestFoamSettings& settings, double farthest_ratio);
+    NearestSource(const FoamSeeding& ground, const NearestFoamSettings& settings, double farthest_ratio);
 
     void gather(const Box& /*box*/) { known_.clear(); }
     void append(const Seed& own, std::vector<Beam>& beams);
@@ -84,9 +84,9 @@ class NearestFoam : public BeamFoam {
     std::vector<Seed> seeds_in(const Box& box) const { return ground_.seeds_in(box); }
 
   private:
-    NearestFoam(const NearestFoamSettings& settings, const FoamGround& ground);
+    NearestFoam(const NearestFoamSettings& settings, const FoamSeeding& ground);
 
-    FoamGround ground_;
+    FoamSeeding ground_;
     PieceUnits<NearestSource> units_;
 };
 

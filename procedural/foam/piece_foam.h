@@ -98,9 +98,9 @@ Interval PieceFoam<Piece>::range(const Box& box) const {
 /// Strips of some thousand cells in a plane.
 template <typename Piece>
 int PieceFoam<Piece>::strips_of(const Box& region, double cell) {
-    constexpr double cells_per_strip = 8192, most_strips = 256;
+    constexpr double cells_per_strip = 8192, max_strips = 256;
     const dvec2 cells = region.rect().size() / cell;
-    return std::max(static_cast<int>(std::min(cells.x * cells.y / cells_per_strip, most_strips)), 1);
+    return std::max(static_cast<int>(std::min(cells.x * cells.y / cells_per_strip, max_strips)), 1);
 }
 
 template <typename Piece>

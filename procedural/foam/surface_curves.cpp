@@ -11,7 +11,7 @@ namespace {
 constexpr int steps = SurfaceTracer::steps;
 constexpr std::size_t points_along = steps + 1;
 constexpr double narrow = 1e-3;  // share of a step
-constexpr std::size_t most_edges = 20000;
+constexpr std::size_t max_edges = 20000;
 
 /// The point of an edge that is i steps from a; the same bits seen from b.
 dvec3 on_edge(dvec3 a, dvec3 b, int i) {
@@ -78,7 +78,7 @@ std::vector<dvec3> SurfaceTracer::inside(dvec3 a, dvec3 b) {
     if (fresh) entry->second = find_inside(entry->first.first, entry->first.second);
     std::vector<dvec3> ends = entry->second;
     if (turned) std::reverse(ends.begin(), ends.end());
-    if (edges_.size() > most_edges) edges_.clear();
+    if (edges_.size() > max_edges) edges_.clear();
     return ends;
 }
 

@@ -9,7 +9,7 @@ namespace lamella {
 namespace {
 
 constexpr double flatness = 0.02;  // share of the radius that a beam may leave its curve by
-constexpr std::size_t most_faces = 5000;
+constexpr std::size_t max_faces = 5000;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::size_t SurfaceFrame::append(const VoronoiCell& cell, const Seed& own, std::
     for (std::size_t v = 0; v < cell.vertex_count(); ++v) box.include(own.position + cell.vertex(v));
     if (tracer_.side_of(stretch.to_part(box)) != SurfaceTracer::Side::both) return 0;
     const std::size_t left_out = faces_.list(cell, own, sites, stretch, CellFaces::Which::all);
-    if (known_.size() > most_faces) known_.clear();
+    if (known_.size() > max_faces) known_.clear();
     const std::size_t first = beams.size();
     curves_.clear();
     for (const CellFaces::Face& face : faces_.faces()) {

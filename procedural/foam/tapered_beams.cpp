@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-constexpr int most_splits = 4;
+constexpr int max_splits = 4;
 constexpr double bend = 0.02;  // share of the radius
 
 /// A radius grown by a length.
@@ -51,7 +51,7 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
         parts_.clear();
         for (std::size_t i = 0; i < places_.size(); i += 2)
             parts_.push_back({{places_[i], found_[i], places_[i + 1], found_[i + 1]}, false});
-        for (int splits = 0; splits < most_splits; ++splits) {
+        for (int splits = 0; splits < max_splits; ++splits) {
             if (!split()) break;
         }
         for (const Part& part : parts_) beams.push_back(part.beam);

@@ -7,7 +7,7 @@ namespace lamella {
 
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings) : VoronoiFoam(settings, prepare_foam(settings)) {}
 
-VoronoiFoam::VoronoiFoam(const FoamSettings& settings, FoamGround ground)
+VoronoiFoam::VoronoiFoam(const FoamSettings& settings, FoamSeeding ground)
     : BeamFoam(settings.region, ground.cell, ground.cells, ground.largest_radius(), settings.cache_bytes),
       settings_(settings),
       ground_(std::move(ground)),

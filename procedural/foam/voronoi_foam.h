@@ -33,10 +33,10 @@ class VoronoiFoam : public BeamFoam {
     double expected_volume_fraction(dvec3 p) const;
 
   private:
-    VoronoiFoam(const FoamSettings& settings, FoamGround ground);
+    VoronoiFoam(const FoamSettings& settings, FoamSeeding ground);
 
     FoamSettings settings_;
-    FoamGround ground_;
+    FoamSeeding ground_;
     std::shared_ptr<const CellUnits<FramedMaker<BeamMaker>>> units_;
 };
 

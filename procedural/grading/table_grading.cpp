@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/whole_file.h"
 #include "engine/base/text.h"
+#include "engine/base/whole_file.h"
 #include "procedural/grading/table_curve.h"
 #include "procedural/grading/text_rows.h"
 

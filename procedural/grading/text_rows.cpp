@@ -57,7 +57,8 @@ std::vector<double> numbers_of(const std::vector<std::string_view>& cells, const
     numbers.reserve(cells.size());
     for (const std::string_view cell : cells) {
         const auto number = parse_double(cell);
-        if (!number) throw InputError(where + excerpt(cell) + " is not a number (such as 12.5, with a point)");
+        if (!number)
+            throw InputError(where + excerpt(cell) + " is not a number (such as 12.5, with a point)");
         numbers.push_back(*number);
     }
     return numbers;

@@ -11,7 +11,7 @@ namespace lamella {
 namespace {
 
 constexpr double root_half = 0.70710678118654757;
-constexpr double most_coarse_cubes = 1e9;  // that one query may visit
+constexpr double max_coarse_cubes = 1e9;  // that one query may visit
 
 bool before(const glm::i64vec3& a, const glm::i64vec3& b) {
     if (a.z != b.z) return a.z < b.z;
@@ -48,14 +48,14 @@ CellOctree::CellOctree(GradingPtr size, const Box& region, std::size_t cache_byt
     : size_(std::move(size)), region_(region), wanted_(cache_bytes), balanced_(cache_bytes) {
     const Interval sizes = positive_range(*size_, region, "the lattice's cell size");
     coarse_side_ = sizes.hi;
-    least_size_ = sizes.lo;
+    min_size_ = sizes.lo;
     // Sides are exact, so comparing them decides the same everywhere.
     while (side(levels_) * root_half > sizes.lo) {
-        if (++levels_ > most_halvings) {
+        if (++levels_ > max_halvings) {
             throw InputError(
                 fmt::format("the lattice's cell size goes from {:.6g} to {:.6g} mm; the largest may be "
                             "{} times the smallest",
-                            sizes.lo, sizes.hi, 1 << most_halvings));
+                            sizes.lo, sizes.hi, 1 << max_halvings));
         }
     }
 }
@@ -69,7 +69,7 @@ bool CellOctree::too_large(const OctreeCell& cell) const {
     if (cell.level >= levels_) return false;
     const Box cube = box(cell);
     const Box near{glm::clamp(cube.lo, region_.lo, region_.hi), glm::clamp(cube.hi, region_.lo, region_.hi)};
-    return std::max(size_->range(near).lo, least_size_) < side(cell.level) * root_half;
+    return std::max(size_->range(near).lo, min_size_) < side(cell.level) * root_half;
 }
 
 bool CellOctree::Divisions::contains(const OctreeCell& cell) const {
@@ -163,9 +163,9 @@ void CellOctree::for_each(const Box& where, const std::function<void(const Octre
     constexpr double margin = 1e-6;
     const glm::i64vec3 first = index(where.lo, -margin), last = index(where.hi, margin);
     const dvec3 count(last - first + std::int64_t{1});
-    if (count.x * count.y * count.z > most_coarse_cubes) {
+    if (count.x * count.y * count.z > max_coarse_cubes) {
         throw InputError(fmt::format("a box of {:.3g} cells is asked for; accepted: at most {:.0g}",
-                                     count.x * count.y * count.z, most_coarse_cubes));
+                                     count.x * count.y * count.z, max_coarse_cubes));
     }
     for_each_index(first, last, [&](const glm::i64vec3& coarse) {
         const OctreeCell cell{coarse, 0};

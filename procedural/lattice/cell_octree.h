@@ -25,9 +25,9 @@ struct OctreeCell {
 /// and thread-safe; a pure function of the grading and the region.
 class CellOctree {
   public:
-    static constexpr int most_halvings = 6;
+    static constexpr int max_halvings = 6;
 
-    /// Throws InputError where sizes are not positive and finite or differ by more than 2^most_halvings.
+    /// Throws InputError where sizes are not positive and finite or differ by more than 2^max_halvings.
     CellOctree(GradingPtr size, const Box& region, std::size_t cache_bytes);
 
     double coarse_side() const { return coarse_side_; }
@@ -67,7 +67,7 @@ class CellOctree {
 
     GradingPtr size_;
     Box region_;
-    double coarse_side_, least_size_;
+    double coarse_side_, min_size_;
     int levels_ = 0;
     mutable CellCache<Divisions> wanted_, balanced_;
 };

@@ -36,7 +36,7 @@ bool operator<(const GridStrut& s, const GridStrut& t) {
 
 LatticeStruts::LatticeStruts(std::shared_ptr<const CellOctree> cells, const std::vector<Strut>& unit_cell)
     : cells_(std::move(cells)),
-      step_(cells_->coarse_side() / static_cast<double>(cell_steps << CellOctree::most_halvings)) {
+      step_(cells_->coarse_side() / static_cast<double>(cell_steps << CellOctree::max_halvings)) {
     for (const Strut& strut : unit_cell) {
         GridStrut s{on_grid(strut.a), on_grid(strut.b)};
         if (key(s.b) < key(s.a)) std::swap(s.a, s.b);
@@ -53,7 +53,7 @@ dvec3 LatticeStruts::position(const glm::i64vec3& grid_point) const {
 std::vector<GridStrut> LatticeStruts::meeting(const Box& box) const {
     std::vector<GridStrut> found;
     cells_->for_each(box, [&](const OctreeCell& cell) {
-        const int scale = CellOctree::most_halvings - cell.level;
+        const int scale = CellOctree::max_halvings - cell.level;
         const glm::i64vec3 corner = cell.index * cell_steps;
         for (const GridStrut& s : cell_) {
             const GridStrut here{(corner + s.a) * (std::int64_t{1} << scale),

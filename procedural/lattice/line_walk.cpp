@@ -12,7 +12,7 @@ namespace {
 constexpr double stretch = 8 * run_unit;
 constexpr double smallest_step = run_unit / 4.0;
 constexpr double precise = 1.0 / 64;  // run units
-constexpr int most_rounds = 16;
+constexpr int max_rounds = 16;
 /// Borders of stretches that are asked for at once: enough for what asking costs to be shared.
 constexpr std::size_t many_points = 1 << 14;
 
@@ -134,7 +134,7 @@ class ValueWalk {
     void narrow() {
         std::vector<Turn*> open;
         for (Turn& turn : turns_) open.push_back(&turn);
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < max_rounds; ++round) {
             std::erase_if(open, [](const Turn* turn) { return turn->is_found(); });
             if (open.empty()) return;
             points_.clear();

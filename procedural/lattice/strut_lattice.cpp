@@ -10,8 +10,8 @@
 namespace lamella {
 namespace {
 
-constexpr double most_beams_per_slice = 5e7;
-constexpr double most_cells_per_side = 1e6;
+constexpr double max_beams_per_slice = 5e7;
+constexpr double max_cells_per_side = 1e6;
 
 /// Keeps the radius to what the region asks for.
 LatticeSettings checked(const LatticeSettings& settings) {
@@ -40,12 +40,12 @@ void check_count(const LatticeSettings& settings, const LatticeStruts& struts) {
     const dvec3 cells = settings.region.size() / least;
     const double beams = (cells.x + 1) * (cells.y + 1) * static_cast<double>(struts.per_cell());
     const double longest = std::max(cells.x, std::max(cells.y, cells.z));
-    if (beams <= most_beams_per_slice && longest <= most_cells_per_side) return;
+    if (beams <= max_beams_per_slice && longest <= max_cells_per_side) return;
     throw InputError(
         fmt::format("a layer of the lattice could cut {:.3g} beams of cells of {:.4g} mm, {:.0f} cells along "
                     "the longest side; accepted: at most {:.0f} beams and {:.0f} cells, with larger cells or "
                     "a smaller region",
-                    beams, least, longest, most_beams_per_slice, most_cells_per_side));
+                    beams, least, longest, max_beams_per_slice, max_cells_per_side));
 }
 
 /// A grading that beyond a box has the number of the nearest point in it.

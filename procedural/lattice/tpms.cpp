@@ -11,7 +11,7 @@
 namespace lamella {
 namespace {
 
-constexpr double most_periods = 10'000;
+constexpr double max_periods = 10'000;
 
 const char* name_of(TpmsKind kind) {
     switch (kind) {
@@ -43,11 +43,11 @@ TpmsSettings checked(const TpmsSettings& settings) {
         positive_range(*settings.thickness, region, fmt::format("the {}'s thickness", name));
     const dvec3 size = region.size();
     const double longest = std::max(size.x, std::max(size.y, size.z));
-    if (longest > most_periods * period.lo) {
+    if (longest > max_periods * period.lo) {
         throw InputError(
             fmt::format("the {}'s period goes down to {:.6g} mm, which makes more than {} periods along a "
                         "region of {:.6g} mm; it must be at least {:.4g} mm",
-                        name, period.lo, most_periods, longest, longest / most_periods));
+                        name, period.lo, max_periods, longest, longest / max_periods));
     }
     TpmsSettings result = settings;
     result.period = make_clamped_grading(settings.period, period);

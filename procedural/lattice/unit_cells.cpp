@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t most_struts = 64;
+constexpr std::size_t max_struts = 64;
 
 dvec3 corner(int i) { return dvec3(i & 1, (i >> 1) & 1, i >> 2); }
 
@@ -72,9 +72,9 @@ std::vector<Strut> unit_cell(std::string_view name) {
 
 void check_unit_cell(const std::vector<Strut>& struts) {
     if (struts.empty()) throw InputError("the unit cell has no struts; give at least one");
-    if (struts.size() > most_struts) {
+    if (struts.size() > max_struts) {
         throw InputError(
-            fmt::format("the unit cell has {} struts; accepted: at most {}", struts.size(), most_struts));
+            fmt::format("the unit cell has {} struts; accepted: at most {}", struts.size(), max_struts));
     }
     for (std::size_t i = 0; i < struts.size(); ++i) {
         const Strut& s = struts[i];
@@ -86,8 +86,8 @@ void check_unit_cell(const std::vector<Strut>& struts) {
             throw InputError(text() + " leaves the unit cube; accepted: coordinates from 0 to 1");
         }
         const dvec3 way = s.b - s.a;
-        if (glm::dot(way, way) < least_strut * least_strut) {
-            throw InputError(text() + fmt::format(" has no length; accepted: {} or more", least_strut));
+        if (glm::dot(way, way) < min_strut * min_strut) {
+            throw InputError(text() + fmt::format(" has no length; accepted: {} or more", min_strut));
         }
     }
 }

@@ -22,9 +22,9 @@ struct Strut {
 std::vector<Strut> unit_cell(std::string_view name);
 
 /// The shortest strut, in cells.
-inline constexpr double least_strut = 1e-3;
+inline constexpr double min_strut = 1e-3;
 
-/// Throws InputError for a list that is empty, has more than 64 struts, a strut shorter than least_strut or
+/// Throws InputError for a list that is empty, has more than 64 struts, a strut shorter than min_strut or
 /// one outside the unit cube.
 void check_unit_cell(const std::vector<Strut>& struts);
 

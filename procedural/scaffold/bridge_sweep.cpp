@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {}  // namespace
 
-BridgeWorth::BridgeWorth(const ScaffoldShape& shape) {
+BridgeScore::BridgeScore(const ScaffoldShape& shape) {
     const double pillar = shape.round_pillars ? pi / 4 * shape.pillar * shape.pillar
                                               : (2 * shape.pillar - shape.wall) * shape.wall;
     const double middle = (shape.tip + shape.bar_width) / 2;

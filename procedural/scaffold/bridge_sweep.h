@@ -33,13 +33,13 @@ struct BridgeCandidate {
 /// What lengths are worth. The published gain of a bar is the length of the legs' parts below it that it
 /// saves, less its own two legs and its length; the score takes off the longest connector for each element.
 /// Here bars and connectors count by their sections against a pillar's, so that what is saved is material.
-class BridgeWorth {
+class BridgeScore {
   public:
     /// A bar is charged for the whole of its legs, which bars below often take over: on real models it takes
     /// least material in all to count the bars themselves for less than they are.
     static constexpr double share_of_bar = 0.75;
 
-    explicit BridgeWorth(const ScaffoldShape& shape);
+    explicit BridgeScore(const ScaffoldShape& shape);
     double gain(double saved, double legs, double bar) const { return saved - legs - bar_ * bar; }
     double score(double gain, std::size_t held, double longest_connector) const {
         return gain - connector_ * static_cast<double>(held) * longest_connector;
@@ -91,7 +91,7 @@ class BridgeSweep {
     void visit_near(dvec2 place, const Visit& visit) const;
 
     ScaffoldShape shape_;
-    BridgeWorth worth_;
+    BridgeScore worth_;
     double reach_;  ///< mm within which elements can share a bar
     std::vector<ScaffoldElement> elements_;
     std::unordered_map<std::int64_t, std::vector<std::size_t>> grid_;

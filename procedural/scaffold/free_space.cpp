@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-constexpr double least_step = 0.1;  // mm; between two points so far apart the room is at most half less
+constexpr double min_step = 0.1;  // mm; between two points so far apart the room is at most half less
 constexpr double far_enough =
     4;  // mm of room beyond what is needed; to know of more costs more than it saves
 constexpr double on_surface = 0.02;      // mm
@@ -63,7 +63,7 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
         const double here = room(a + way * at, distance + far_enough);
         if (here < distance) return false;
         if (at >= length) return true;
-        at = std::min(length, at + std::max(here - distance, least_step));
+        at = std::min(length, at + std::max(here - distance, min_step));
     }
 }
 
@@ -84,13 +84,13 @@ bool FreeSpace::clear_from_contact(dvec3 contact, dvec3 end, double distance, do
     const dvec3 way = (end - contact) / length;
     const std::optional<double> left = leaves_part(contact, way);
     if (!left) return false;
-    double at = std::min(*left + 3 * least_step, length);
+    double at = std::min(*left + 3 * min_step, length);
     while (true) {
-        const double needed = std::min(distance, slope * (at - *left - least_step));
+        const double needed = std::min(distance, slope * (at - *left - min_step));
         const double here = room(contact + way * at, distance + far_enough);
         if (here < needed) return false;
         if (at >= length) return true;
-        at = std::min(length, at + std::max((here - needed) / (1 + slope), least_step));
+        at = std::min(length, at + std::max((here - needed) / (1 + slope), min_step));
     }
 }
 
@@ -103,7 +103,7 @@ FreeSpace::Fall FreeSpace::fall(dvec3 p, dvec3 direction, double distance) const
         const double here = room(p + direction * at, distance + far_enough);
         if (clear && here < distance) {
             clear = false;
-            fall.clear = std::max(0.0, at - least_step);
+            fall.clear = std::max(0.0, at - min_step);
         }
         if (here <= on_surface) {
             fall.hits = at;
@@ -115,7 +115,7 @@ FreeSpace::Fall FreeSpace::fall(dvec3 p, dvec3 direction, double distance) const
         }
         if (at >= length) break;
         const double step = clear ? here - distance : here / 2;
-        at = std::min(length, at + std::max(step, clear ? least_step : on_surface));
+        at = std::min(length, at + std::max(step, clear ? min_step : on_surface));
     }
     if (clear) {
         fall.clear = length;

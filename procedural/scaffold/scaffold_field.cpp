@@ -10,7 +10,7 @@
 #include "engine/solids/beam_slice.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/primitives.h"
-#include "procedural/scaffold/upright.h"
+#include "procedural/scaffold/prism.h"
 
 namespace lamella {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 /// Pieces by number: uprights first, then beams.
 class Pieces {
   public:
-    Pieces(std::vector<Upright> uprights, std::vector<Beam> beams)
+    Pieces(std::vector<Prism> uprights, std::vector<Beam> beams)
         : uprights_(std::move(uprights)), beams_(std::move(beams)) {
         std::vector<Interval> heights;
         std::vector<dvec3> centers;
@@ -52,13 +52,13 @@ class Pieces {
             });
         return best;
     }
-    void at_height(double z, std::vector<Upright>& uprights, std::vector<Beam>& beams) const {
+    void at_height(double z, std::vector<Prism>& uprights, std::vector<Beam>& beams) const {
         std::vector<std::uint32_t> numbers;
         by_height_.query({z, z}, numbers);
         for (const std::uint32_t i : numbers) {
             if (i >= uprights_.size()) {
                 beams.push_back(beams_[i - uprights_.size()]);
-            } else if (const Upright& upright = uprights_[i]; upright.lo <= z && z < upright.hi) {
+            } else if (const Prism& upright = uprights_[i]; upright.lo <= z && z < upright.hi) {
                 uprights.push_back(upright);
             }
         }
@@ -75,7 +75,7 @@ class Pieces {
         return i < uprights_.size() ? lamella::signed_distance(uprights_[i], p)
                                     : lamella::signed_distance(beams_[i - uprights_.size()], p);
     }
-    std::vector<Upright> uprights_;
+    std::vector<Prism> uprights_;
     std::vector<Beam> beams_;
     std::vector<Box> boxes_;
     IntervalIndex by_height_;
@@ -85,7 +85,7 @@ class Pieces {
 
 class ScaffoldSlice : public SampledSlice {
   public:
-    ScaffoldSlice(const Field& field, const std::vector<Upright>& uprights, const std::vector<Beam>& beams,
+    ScaffoldSlice(const Field& field, const std::vector<Prism>& uprights, const std::vector<Beam>& beams,
                   double z)
         : SampledSlice(field, z), uprights_(uprights), beams_(beams, z) {}
 
@@ -104,14 +104,14 @@ class ScaffoldSlice : public SampledSlice {
 
 class ScaffoldField : public Field {
   public:
-    ScaffoldField(std::vector<Upright> uprights, std::vector<Beam> beams)
+    ScaffoldField(std::vector<Prism> uprights, std::vector<Beam> beams)
         : pieces_(std::move(uprights), std::move(beams)) {}
 
     double value(dvec3 p) const override { return pieces_.distance(p, infinity); }
     double value_within(dvec3 p, double limit) const override { return pieces_.distance(p, limit); }
     Box bounds() const override { return pieces_.box(); }
     const SliceField& slice(SliceContext& context, double z) const override {
-        std::vector<Upright> uprights;
+        std::vector<Prism> uprights;
         std::vector<Beam> beams;
         pieces_.at_height(z, uprights, beams);
         return context.make<ScaffoldSlice>(*this, uprights, beams, z);
@@ -121,10 +121,10 @@ class ScaffoldField : public Field {
     Pieces pieces_;
 };
 
-Upright bar_piece(const ScaffoldBar& bar, const ScaffoldShape& shape) {
+Prism bar_piece(const ScaffoldBar& bar, const ScaffoldShape& shape) {
     const dvec2 way = dvec2(bar.b) - dvec2(bar.a);
     const double length = std::sqrt(glm::dot(way, way));
-    Upright piece;
+    Prism piece;
     piece.center = (dvec2(bar.a) + dvec2(bar.b)) * 0.5;
     piece.direction = length > 0 ? way / length : dvec2(1, 0);
     piece.half = dvec2(length + shape.bar_width, shape.bar_width) * 0.5;
@@ -133,9 +133,9 @@ Upright bar_piece(const ScaffoldBar& bar, const ScaffoldShape& shape) {
     return piece;
 }
 
-void append_pillar(const ScaffoldPillar& pillar, const ScaffoldShape& shape, std::vector<Upright>& pieces) {
+void append_pillar(const ScaffoldPillar& pillar, const ScaffoldShape& shape, std::vector<Prism>& pieces) {
     const double half = shape.pillar / 2;
-    Upright piece{pillar.at, {1, 0}, dvec2(half), pillar.bottom, pillar.top, shape.round_pillars};
+    Prism piece{pillar.at, {1, 0}, dvec2(half), pillar.bottom, pillar.top, shape.round_pillars};
     if (shape.round_pillars) {
         pieces.push_back(piece);
     } else {
@@ -153,7 +153,7 @@ void append_pillar(const ScaffoldPillar& pillar, const ScaffoldShape& shape, std
 }  // namespace
 
 FieldPtr make_scaffold_field(const Scaffold& scaffold) {
-    std::vector<Upright> uprights;
+    std::vector<Prism> uprights;
     for (const ScaffoldPillar& pillar : scaffold.pillars) append_pillar(pillar, scaffold.shape, uprights);
     for (const ScaffoldBar& bar : scaffold.bars) uprights.push_back(bar_piece(bar, scaffold.shape));
     if (uprights.empty() && scaffold.connectors.empty()) return make_empty();

@@ -15,7 +15,7 @@
 
 #include "engine/base/error.h"
 #include "procedural/scaffold/bridge_sweep.h"
-#include "procedural/scaffold/scaffold_legs.h"
+#include "procedural/scaffold/support_router.h"
 
 namespace lamella {
 namespace {
@@ -102,7 +102,7 @@ class Synthesis {
     }
 
   private:
-    static constexpr std::size_t most_refused = 12;  // bars of an anchor; where so many fail, the rest will
+    static constexpr std::size_t max_refused = 12;  // bars of an anchor; where so many fail, the rest will
     static constexpr auto directions = static_cast<std::size_t>(BridgeSweep::directions);
 
     bool cancelled() const { return options_.cancel && options_.cancel->cancelled(); }
@@ -134,7 +134,7 @@ class Synthesis {
     void stand();
 
     FreeSpace space_;
-    LegFinder legs_;
+    SupportRouter legs_;
     BridgeSweep sweep_;
     SynthesisOptions options_;
     oneapi::tbb::task_arena arena_;
@@ -171,7 +171,7 @@ void Synthesis::look_again(const std::vector<std::size_t>& elements) {
         const std::size_t element = elements[k / directions];
         Anchor& anchor = anchors_[element * directions + k % directions];
         anchor.best.reset();
-        if (anchor.refused.size() < most_refused) {
+        if (anchor.refused.size() < max_refused) {
             anchor.best = sweep_.best(element, static_cast<int>(k % directions), anchor.refused);
         }
         anchor.checked.reset();
@@ -230,7 +230,7 @@ std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) {
         saved += bar.a.z - held.landing;
         longest = std::max(longest, glm::distance(held.touch, under(bar, element)));
     }
-    const BridgeWorth worth(shape);
+    const BridgeScore worth(shape);
     bar.gain = worth.gain(saved, checked.first.length + checked.last.length + 2 * shape.bar_height, length);
     bar.score = worth.score(bar.gain, bar.held.size(), longest);
     if (bar.gain <= 0) return {};
@@ -252,7 +252,7 @@ void Synthesis::make_bars() {
             anchor.checked = check(*anchor.best);
             if (!anchor.checked) {
                 anchor.refused.push_back(anchor.best->key);
-                if (anchor.refused.size() < most_refused) look_again_at(entry.anchor);
+                if (anchor.refused.size() < max_refused) look_again_at(entry.anchor);
                 continue;
             }
             // A bar worth less than it seemed has to wait for its turn.

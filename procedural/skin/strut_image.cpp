@@ -14,7 +14,7 @@ namespace lamella {
 namespace {
 
 constexpr double pixels_in_a_strut = 8;
-constexpr std::int64_t most_pixels = std::int64_t{1} << 24;
+constexpr std::int64_t max_pixels = std::int64_t{1} << 24;
 constexpr double largest_picture = 8192;  // px along a side
 
 void check(const Volume& picture, const StrutImageSettings& s) {
@@ -50,7 +50,7 @@ std::vector<double> grey_of(const Volume& picture) {
 int division(int width, int height, const StrutImageSettings& settings) {
     int times = 1;
     const double wanted = settings.size / width * pixels_in_a_strut / settings.strut;
-    const auto room = [&](int n) { return std::int64_t{n} * width * n * height <= most_pixels; };
+    const auto room = [&](int n) { return std::int64_t{n} * width * n * height <= max_pixels; };
     while (times < wanted && room(times + 2)) times += 2;
     return times;
 }

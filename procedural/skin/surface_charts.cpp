@@ -11,8 +11,8 @@ namespace {
 
 constexpr int levels = 5;  // of cubes: the largest_chart are 16 times as wide as the finest
 constexpr int largest_chart = 1 << (levels - 1);
-constexpr double most_cubes = 1e5;  // along the body's diagonal
-constexpr std::size_t most_leaves = 20'000'000;
+constexpr double max_cubes = 1e5;  // along the body's diagonal
+constexpr std::size_t max_leaves = 20'000'000;
 constexpr double slope_step = 1e-3;  // of the finest cube
 
 int level_of(double side, double finest) {
@@ -56,7 +56,7 @@ std::size_t SurfaceCharts::Hash::operator()(const Key& key) const {
 
 SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : finest_(finest) {
     const double across = diagonal(body.bounds()) / finest;
-    if (!(finest > 0) || !(across < most_cubes)) {
+    if (!(finest > 0) || !(across < max_cubes)) {
         throw InputError(fmt::format("struts are too narrow for a body of {:.4g} mm; accepted: wider ones",
                                      diagonal(body.bounds())));
     }
@@ -70,7 +70,7 @@ SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : f
         [&](const LatticeCube& cube) {
             const auto chart = chart_of(body, cube.box().center(), step);
             if (!chart) return;
-            if (leaves.size() == most_leaves) {
+            if (leaves.size() == max_leaves) {
                 throw InputError("struts are too narrow for so large a surface; accepted: wider ones");
             }
             leaves_[{level_of(cube.side, finest_), cube.index}] = *chart;

@@ -38,9 +38,9 @@ class SeedGrid {
         return true;
     }
     void add(const SurfaceFoot& foot) {
-        if (seeds_.size() == most_surface_seeds) {
+        if (seeds_.size() == max_surface_seeds) {
             throw InputError(fmt::format("the skin would have more than {} windows; accepted: larger ones",
-                                         most_surface_seeds));
+                                         max_surface_seeds));
         }
         cells_[key(cell(foot.place))].push_back(static_cast<std::uint32_t>(seeds_.size()));
         seeds_.push_back(foot);
@@ -173,9 +173,9 @@ std::vector<SurfaceFoot> scatter_on_surface(const Field& body, double pitch, std
         const CounterHash hash(seed, 0, cube.index.x, cube.index.y, cube.index.z);
         const dvec3 share(hash.uniform(0), hash.uniform(1), hash.uniform(2));
         candidates.push_back({hash.bits(3), cube.box().lo + share * cube.side});
-        if (candidates.size() > 24 * most_surface_seeds) {
+        if (candidates.size() > 24 * max_surface_seeds) {
             throw InputError(fmt::format("the skin would have more than {} windows; accepted: larger ones",
-                                         most_surface_seeds));
+                                         max_surface_seeds));
         }
     });
     std::stable_sort(candidates.begin(), candidates.end(),

@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {
 
-constexpr int most_steps = 8;
+constexpr int max_steps = 8;
 
 /// The corners of a tetrahedron about the origin.
 constexpr std::array<std::array<double, 3>, 4> tetrahedron{
@@ -49,7 +49,7 @@ std::optional<dvec3> rising(const Field& body, dvec3 p, double step) {
 
 std::optional<SurfaceFoot> foot_on_surface(const Field& body, dvec3 p, double precision) {
     SurfaceFoot foot{p, {}};
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
         const double value = body.value(foot.place);
         const auto normal = rising(body, foot.place, precision);
         if (!normal || !std::isfinite(value)) return std::nullopt;

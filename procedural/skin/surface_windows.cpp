@@ -74,7 +74,7 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
     for (const SurfaceFoot& seed : seeds) {
         halves.push_back(half_strut(*settings.strut, seed.place));
         widest = std::max(widest, 2 * halves.back());
-        least_inset_ = std::min(least_inset_, halves.back());
+        min_inset_ = std::min(min_inset_, halves.back());
     }
     reach_ = reach_in_pitches * (settings.window + widest) + settings.depth;
     cells_.reserve(seeds.size());
@@ -85,7 +85,7 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
     faces_.shrink_to_fit();
     // What lies beyond a wall is solid for half a strut at least, unless the other side of a thin wall is
     // near.
-    for (Cell& cell : cells_) cell.beyond = least_inset_;
+    for (Cell& cell : cells_) cell.beyond = min_inset_;
     std::vector<std::uint32_t> near;
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
         if (cells_[i].walls_end == cells_[i].end) continue;
@@ -96,7 +96,7 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
 }
 
 SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own,
-                                               double half, double least_room) {
+                                               double half, double min_room) {
     struct Neighbour {
         double squared;
         std::uint32_t seed;
@@ -141,7 +141,7 @@ SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& s
             add_face(other.seed);
     }
     made.end = static_cast<std::uint32_t>(faces_.size());
-    made.closed = room < least_room;
+    made.closed = room < min_room;
     made.corner = std::max(std::min(corner_, room), 0.0);
     return made;
 }

@@ -51,7 +51,7 @@ class SurfaceWindows : public WindowPattern {
     /// How far apart seeds are at most whose cells can come near each other, mm.
     double neighbourhood() const { return 2 * std::sqrt(3.0) * reach_; }
 
-    Cell make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own, double half, double least_room);
+    Cell make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own, double half, double min_room);
     double excess(const Cell& cell, dvec3 q) const;
     /// How far a point (from the seed) is from the planes of a cell's faces, mm.
     struct Ways {
@@ -61,9 +61,9 @@ class SurfaceWindows : public WindowPattern {
     Ways ways_out(const Cell& cell, dvec3 q) const;
 
     PointTree tree_;
-    double reach_;                   ///< half side of the cube that a cell is cut from, mm
-    double corner_;                  ///< mm
-    double least_inset_ = infinity;  ///< mm
+    double reach_;                 ///< half side of the cube that a cell is cut from, mm
+    double corner_;                ///< mm
+    double min_inset_ = infinity;  ///< mm
     std::vector<Cell> cells_;
     std::vector<Face> faces_;
     std::size_t closed_ = 0;

@@ -197,10 +197,10 @@ void skip_lines(std::istream& in, std::int64_t count, const std::string& name) {
 
 /// Refuses a file too short for what its header announces, before memory is taken for it.
 void check_length(std::istream& in, const NrrdHeader& header, std::size_t count, const std::string& name) {
-    constexpr std::uint64_t most_packing = 1032;  // of deflate
+    constexpr std::uint64_t max_packing = 1032;  // of deflate
     const std::uint64_t left = bytes_left(in, name), size = count * sample_bytes(header.type);
     const bool possible = header.encoding == NrrdEncoding::raw    ? left >= size
-                          : header.encoding == NrrdEncoding::gzip ? left * most_packing >= size
+                          : header.encoding == NrrdEncoding::gzip ? left * max_packing >= size
                                                                   : left + 1 >= 2 * count;
     if (possible) return;
     if (header.encoding == NrrdEncoding::text) {

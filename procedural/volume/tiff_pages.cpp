@@ -107,7 +107,7 @@ class Directories {
 }  // namespace
 
 std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string& name) {
-    constexpr std::size_t most_pages = 1000000;
+    constexpr std::size_t max_pages = 1000000;
     constexpr std::uint64_t classic = 42, big = 43;
     char order[2] = {};
     if (!in.read(order, 2) || order[0] != order[1] || (order[0] != 'I' && order[0] != 'M'))
@@ -120,7 +120,7 @@ std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string&
     auto at = directories.first();
     std::size_t pages = 0;
     for (; at && *at != 0; ++pages) {
-        if (pages == most_pages) throw InputError(name + ": its chain of TIFF pages has no end");
+        if (pages == max_pages) throw InputError(name + ": its chain of TIFF pages has no end");
         const auto next = directories.next(*at);
         if (next && !directories.holds_its_samples(*at)) {
             throw InputError(name + ": the file is cut off: samples of its page " + std::to_string(pages) +

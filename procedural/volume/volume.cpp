@@ -203,12 +203,12 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
                        const std::string& path) {
     std::uint64_t voxels = 1;
     for (const std::size_t side : size) {
-        if (side > Volume::most_voxels || voxels * side > Volume::most_voxels) {
+        if (side > Volume::max_voxels || voxels * side > Volume::max_voxels) {
             reject_volume(path, "the volume is larger than 2,147,483,648 voxels; reduce its resolution");
         }
         voxels *= side;
     }
-    if (voxels * bytes_each > Volume::most_bytes) {
+    if (voxels * bytes_each > Volume::max_bytes) {
         reject_volume(path,
                       "the volume takes more than 4 GiB of memory; reduce its resolution or store its "
                       "samples in a smaller type");

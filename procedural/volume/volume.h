@@ -24,8 +24,8 @@ using VolumeSamples =
 /// A grid of samples, x fastest, then y, then z.
 struct Volume {
     /// The largest volume that is read.
-    static constexpr std::uint64_t most_voxels = std::uint64_t{1} << 31U;
-    static constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30U;
+    static constexpr std::uint64_t max_voxels = std::uint64_t{1} << 31U;
+    static constexpr std::uint64_t max_bytes = std::uint64_t{4} << 30U;
 
     std::array<std::size_t, 3> size{};  ///< samples along x, y and z, each at least 1
     VolumeSamples samples;

@@ -39,7 +39,7 @@ class VolumeGrading : public Grading {
             const auto axis = static_cast<int>(i);
             touched.lo[i] = split(lo[axis], i).lower;
             touched.hi[i] = split(hi[axis], i).upper;
-            is_small = is_small && touched.hi[i] - touched.lo[i] <= most_stops;
+            is_small = is_small && touched.hi[i] - touched.lo[i] <= max_stops;
         }
         const SampleExtremes<T> samples = pyramid_.over(touched);
         Interval range{static_cast<double>(samples.lo), static_cast<double>(samples.hi)};
@@ -50,7 +50,7 @@ class VolumeGrading : public Grading {
 
   private:
     /// Boxes over this many voxels a side are cut along the planes of the centres.
-    static constexpr std::size_t most_stops = 5;
+    static constexpr std::size_t max_stops = 5;
 
     /// In voxels from the first centre, kept between the outermost ones. Monotone, also when rounded.
     dvec3 in_voxels(dvec3 p) const {
@@ -92,7 +92,7 @@ class VolumeGrading : public Grading {
     /// The extremes over a box of few voxels: between the planes of the centres the number is linear along
     /// each axis, so it is extreme at corners.
     Interval at_stops(dvec3 lo, dvec3 hi, Interval samples) const {
-        std::array<std::array<Between, most_stops + 2>, 3> stops;
+        std::array<std::array<Between, max_stops + 2>, 3> stops;
         VoxelBox all{{0, 0, 0}, {0, 0, 0}};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);

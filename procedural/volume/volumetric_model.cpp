@@ -24,9 +24,9 @@ using Node = FormulaBuilder::Node;
 
 constexpr std::string_view supported[] = {"/production/", "/material/", "/trianglesets/", "/volumetric/",
                                           "/implicit/"};
-constexpr std::size_t most_level_sets = 10'000;
-constexpr std::size_t most_objects = 1'000'000;  // that one name leads to
-constexpr std::size_t most_triangles = 50'000'000;
+constexpr std::size_t max_level_sets = 10'000;
+constexpr std::size_t max_objects = 1'000'000;  // that one name leads to
+constexpr std::size_t max_triangles = 50'000'000;
 
 /// The component that a name ends in: 0 to 2 for .x to .z, which is taken off; below 0 for none.
 int take_component(std::string_view& name) {
@@ -151,7 +151,7 @@ class VolumetricModel::Impl {
         std::vector<PlacedObject> found;
         const auto take = [&](const PlacedObject& object) {
             model_.for_each_within(object, [&](const PlacedObject& placed) {
-                if (found.size() == most_objects)
+                if (found.size() == max_objects)
                     reject(source_, "object " + excerpt(which) + " is placed more than 1,000,000 times");
                 part(placed.part);
                 found.push_back(placed);
@@ -300,8 +300,7 @@ class VolumetricModel::Impl {
         bool has_mesh = false;
         for (const PlacedObject& placed : objects) {
             if (const auto level_set = read_level_set(model_, placed)) {
-                if (solids.size() == most_level_sets)
-                    reject(source_, "it places more than 10,000 level sets");
+                if (solids.size() == max_level_sets) reject(source_, "it places more than 10,000 level sets");
                 solids.push_back(level_set_field(placed, *level_set));
             } else if (const pugi::xml_node mesh = core_child(placed.object, "mesh")) {
                 add(meshes, placed.part, mesh, scaled(placed.transform, model_.unit_mm()));
@@ -323,7 +322,7 @@ class VolumetricModel::Impl {
         const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
         if (fresh) entry->second = read_object_mesh(model_, in, node);
         const ObjectMesh& mesh = entry->second;
-        if (welder.offered() + mesh.triangles.size() > most_triangles)
+        if (welder.offered() + mesh.triangles.size() > max_triangles)
             reject(source_, "it places more than 50,000,000 triangles");
         std::vector<std::uint32_t> welded;
         welded.reserve(mesh.vertices.size());

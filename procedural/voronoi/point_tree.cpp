@@ -40,8 +40,7 @@ void PointTree::search(dvec3 p, Nearest& best) const {
         [&](const Node& node) {
             for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
                 const double d = squared_length(sorted_[k] - p);
-                if (d < best.squared || (d == best.squared && order_[k] < best.point))
-                    best = {order_[k], d};
+                if (d < best.squared || (d == best.squared && order_[k] < best.point)) best = {order_[k], d};
             }
         });
 }

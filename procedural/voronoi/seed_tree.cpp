@@ -18,7 +18,7 @@ constexpr double seeds_of_bcc_leaf = 2;
 constexpr double bcc_leaf_seeds = 5.656854249492381;  // between the 2 of a leaf and the 16 of its children
 constexpr double share_rounding =
     1 + 1e-9;  // a share of exactly eight seeds must not split by a share_rounding error
-constexpr std::size_t most_nodes = std::size_t{1} << 22;
+constexpr std::size_t max_nodes = std::size_t{1} << 22;
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
 constexpr std::size_t block_cache_bytes = std::size_t{256} << 20;
 constexpr std::size_t idle_block_bytes = std::size_t{1} << 19;
@@ -177,7 +177,7 @@ void SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) cons
     const double densest = density_->range(box).hi, most = is_patterned() ? bcc_leaf_seeds : leaf_seeds;
     if (densest * (size.x * size.y * size.z) <= most * share_rounding) return;
     const auto first_child = growth.block.nodes.size();
-    if (level == deepest_level || first_child > most_nodes) {
+    if (level == deepest_level || first_child > max_nodes) {
         throw InputError("the density reaches " + std::to_string(densest) +
                          " seeds per mm^3, too dense for a coarse cell of " + std::to_string(side_) +
                          " mm; choose a smaller coarse cell or a lower density");

@@ -65,7 +65,7 @@ HollowReport hollow_out(const Recipe& recipe, Job& designed) {
     options.bead = steps.bead;
     options.chamber = cavity.chamber / most;
     const double volume_scale = scale.x * scale.y * scale.z;
-    options.least_volume = cavity.least / volume_scale;
+    options.min_volume = cavity.least / volume_scale;
     options.pitch = steps.pitch;
     options.layers_at_once = steps.layers_at_once;
     const HollowSurvey survey = told("[cavity]", [&] { return hollow_out(designed, options); });

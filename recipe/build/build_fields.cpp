@@ -36,12 +36,12 @@ FieldPtr placed(FieldPtr solid, const Placement& place) {
 }
 
 template <Shape shape>
-FieldPtr shape_field(const FieldMaking& making) {
+FieldPtr shape_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
     return make_shape(shape, {field.radius, field.size, field.height, field.tube}, making.place);
 }
 
-FieldPtr mesh_field(const FieldMaking& making) {
+FieldPtr mesh_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
     return read_solid(field.file, field.unit, field.scale, making.place, making.report);
 }
@@ -60,7 +60,7 @@ Box before_placing(const Box& box, const Placement& place) {
 
 /// The inside of a formula within the box that the recipe gives, or that is about the part, or that a search
 /// finds.
-FieldPtr bounded(const FieldMaking& making, GradedFormula formula) {
+FieldPtr bounded(const FieldBuildContext& making, GradedFormula formula) {
     Box bounds;
     if (!making.recipe.bounds.empty()) {
         for (const auto& corner : making.recipe.bounds) bounds.include({corner[0], corner[1], corner[2]});
@@ -72,16 +72,16 @@ FieldPtr bounded(const FieldMaking& making, GradedFormula formula) {
     return placed(make_formula_field(formula.formula, std::move(formula.others), bounds), making.place);
 }
 
-FieldPtr formula_field(const FieldMaking& making) {
+FieldPtr formula_field(const FieldBuildContext& making) {
     return bounded(making, making.gradings.formula_of(making.recipe.formula));
 }
 
-FieldPtr vm_field(const FieldMaking& making) {
+FieldPtr vm_field(const FieldBuildContext& making) {
     const std::string& file = making.recipe.file;
     return bounded(making, {read_vm(whole_file(file, "a .vm file"), file), {}});
 }
 
-FieldPtr package_field(const FieldMaking& making) {
+FieldPtr package_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
     if (!field.function.empty() && !field.object.empty()) {
         throw InputError(field.where +
@@ -101,7 +101,9 @@ FieldPtr package_field(const FieldMaking& making) {
     return placed(field.object.empty() ? model.built() : model.object(field.object), making.place);
 }
 
-FieldPtr host_field(const FieldMaking& making) { return placed(making.recipe.host.pointer, making.place); }
+FieldPtr host_field(const FieldBuildContext& making) {
+    return placed(making.recipe.host.pointer, making.place);
+}
 
 }  // namespace
 

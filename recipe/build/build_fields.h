@@ -49,7 +49,7 @@ FieldPtr build_field(const FieldRecipe& field, Gradings& gradings, const std::op
                      std::optional<MeshReport>& report);
 
 /// A [[field]] in the making.
-struct FieldMaking {
+struct FieldBuildContext {
     const FieldRecipe& recipe;
     Gradings& gradings;
     const std::optional<Box>& within;
@@ -60,7 +60,7 @@ struct FieldMaking {
 /// A kind of [[field]]: its keys, and how it is made.
 struct FieldBuilder {
     Kind kind;
-    FieldPtr (*make)(const FieldMaking&);
+    FieldPtr (*make)(const FieldBuildContext&);
 };
 std::span<const FieldBuilder> field_builders();
 

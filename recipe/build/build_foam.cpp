@@ -14,13 +14,13 @@ namespace lamella {
 namespace {
 
 /// Keeps a further graded number with the foam and gives what is made of it.
-GradingPtr further(FoamMaking& making, const char* key, const GradedNumber& number, Interval limits) {
+GradingPtr further(FoamBuildContext& making, const char* key, const GradedNumber& number, Interval limits) {
     making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
     return making.built.others.back().made;
 }
 
 /// Cells about seeds in a pattern, the same stretch everywhere.
-FoamSettings seeded(FoamMaking& making, SeedPattern pattern) {
+FoamSettings seeded(FoamBuildContext& making, SeedPattern pattern) {
     const FoamRecipe& foam = making.recipe;
     FoamSettings settings;
     settings.cell = making.built.cell.made;
@@ -50,7 +50,7 @@ double period_of(const FoamSettings& settings) {
 }
 
 /// Beams along the edges of the seeds' cells.
-void edges(FoamMaking& making, SeedPattern pattern) {
+void edges(FoamBuildContext& making, SeedPattern pattern) {
     const FoamSettings settings = seeded(making, pattern);
     BuiltFoam& built = making.built;
     const auto made = make_voronoi_foam(settings);
@@ -63,11 +63,11 @@ void edges(FoamMaking& making, SeedPattern pattern) {
     built.volume_fraction = [made](dvec3 p) { return made->expected_volume_fraction(p); };
 }
 
-void voronoi(FoamMaking& making) { edges(making, SeedPattern::jittered); }
+void voronoi(FoamBuildContext& making) { edges(making, SeedPattern::jittered); }
 
-void kelvin(FoamMaking& making) { edges(making, SeedPattern::bcc); }
+void kelvin(FoamBuildContext& making) { edges(making, SeedPattern::bcc); }
 
-void closed(FoamMaking& making) {
+void closed(FoamBuildContext& making) {
     const FoamRecipe& foam = making.recipe;
     ClosedFoamSettings settings;
     settings.foam = seeded(making, SeedPattern::jittered);
@@ -88,7 +88,7 @@ void closed(FoamMaking& making) {
     };
 }
 
-void nearest_seeds(FoamMaking& making) {
+void nearest_seeds(FoamBuildContext& making) {
     const FoamRecipe& foam = making.recipe;
     NearestFoamSettings settings;
     settings.foam.cell = making.built.cell.made;
@@ -109,14 +109,14 @@ void nearest_seeds(FoamMaking& making) {
 }
 
 template <TpmsKind surface>
-void periodic(FoamMaking& making) {
+void periodic(FoamBuildContext& making) {
     BuiltFoam& built = making.built;
     built.period = built.cell.made->constant().value_or(0);
     built.field =
         make_tpms({surface, making.recipe.network, built.cell.made, built.member.made, making.region});
 }
 
-void lattice(FoamMaking& making) {
+void lattice(FoamBuildContext& making) {
     const FoamRecipe& foam = making.recipe;
     LatticeSettings settings;
     for (const auto& row : foam.struts) {
@@ -134,7 +134,7 @@ void lattice(FoamMaking& making) {
 
 /// A kind with the range of its cells and members among what it takes.
 FoamBuilder kind(std::string word, std::string member, std::vector<std::string> needs,
-                 std::vector<std::string> takes, void (*make)(FoamMaking&)) {
+                 std::vector<std::string> takes, void (*make)(FoamBuildContext&)) {
     needs.insert(needs.begin(), {"cell", member});
     takes.insert(takes.end(), {"cell_min", "cell_max", member + "_min", member + "_max"});
     return {{std::move(word), std::move(needs), std::move(takes)}, std::move(member), make};
@@ -172,9 +172,9 @@ BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradin
     built.member = std::move(sizes.member);
     const std::map<std::string, GradingPtr> cell{{std::string(cell_name), built.cell.made}};
     try {
-        FoamMaking making{foam, region, gradings, cell, repeats_after, built};
+        FoamBuildContext making{foam, region, gradings, cell, repeats_after, built};
         builder_of(foam).make(making);
-    } catch (const PlacedError&) {
+    } catch (const LocatedError&) {
         throw;
     } catch (const InputError& error) {
         throw InputError("foam (" + foam.kind + "): " + error.what());

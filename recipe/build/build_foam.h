@@ -34,7 +34,7 @@ BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradin
                      std::int64_t repeats_after = 0);
 
 /// A foam in the making: what its cells and members have become of already, and what its kind adds.
-struct FoamMaking {
+struct FoamBuildContext {
     const FoamRecipe& recipe;
     const Box& region;
     Gradings& gradings;
@@ -47,7 +47,7 @@ struct FoamMaking {
 struct FoamBuilder {
     Kind kind;
     std::string member;  ///< the key that says how thick its members are: "beam" or "wall"
-    void (*make)(FoamMaking&);
+    void (*make)(FoamBuildContext&);
 };
 std::span<const FoamBuilder> foam_builders();
 

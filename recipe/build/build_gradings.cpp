@@ -112,10 +112,10 @@ GradingPtr Gradings::named(const std::string& name) {
             if (builder.kind.word != grading.kind) continue;
             try {
                 return made_[name] = builder.make(grading, *this);
-            } catch (const PlacedError&) {
+            } catch (const LocatedError&) {
                 throw;
             } catch (const InputError& error) {
-                throw PlacedError(grading.where + " `" + name + "`: " + error.what());
+                throw LocatedError(grading.where + " `" + name + "`: " + error.what());
             }
         }
     }
@@ -133,10 +133,10 @@ GradedFormula Gradings::formula_of(const GradedNumber& number,
             names.push_back(name);
         }
         return {parse_formula(number.formula(), names), std::move(others)};
-    } catch (const PlacedError&) {
+    } catch (const LocatedError&) {
         throw;
     } catch (const InputError& error) {
-        throw PlacedError(number.where + ": " + error.what());
+        throw LocatedError(number.where + ": " + error.what());
     }
 }
 
@@ -175,7 +175,7 @@ double greatest_of(const GradedUse& use, const std::string& where, const Field& 
     }
     const std::string remedy =
         key ? fmt::format(", or {} / {}, which holds where there is none", key->name(), key->flag) : "";
-    throw PlacedError(
+    throw LocatedError(
         fmt::format("{}: {:.3g} % of the part has no number; accepted: a formula with a number "
                     "at every point of it{}",
                     where, 100.0 * found.undefined / found.points, remedy));

@@ -14,7 +14,7 @@
 namespace lamella {
 
 /// A message that says already which key of the recipe it is about.
-struct PlacedError : InputError {
+struct LocatedError : InputError {
     using InputError::InputError;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/layers/survey_rows.h"
 #include "engine/solids/box_solid.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/shell.h"
@@ -16,7 +17,7 @@ namespace lamella {
 
 namespace {
 
-constexpr int most_layers = 10'000'000;
+constexpr int max_layers = 10'000'000;
 
 /// A skin with windows before it is drilled, and the thickest that it is, mm.
 struct CutSkin {
@@ -77,7 +78,7 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
         built.skin = graded("skin.thickness", thickness,
                             {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
         return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits, side);
-    } catch (const PlacedError&) {
+    } catch (const LocatedError&) {
         throw;
     } catch (const InputError& error) {
         throw InputError((thickness.where.empty() ? "skin.thickness" : thickness.where) + ": " +
@@ -86,11 +87,11 @@ FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
 }
 
 int layers_of(double height, double layer_height) {
-    if (height / layer_height > most_layers) {
+    if (height / layer_height > max_layers) {
         throw InputError(
             fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
                         "layers; accepted: {} mm or more",
-                        layer_height, height, most_layers, height / most_layers));
+                        layer_height, height, max_layers, height / max_layers));
     }
     return count_layers(height, layer_height);
 }
@@ -103,16 +104,16 @@ void set_layers(const Recipe& recipe, Job& job) {
 }
 
 /// The least that a graded number of the foam becomes in the part's box.
-double least_of(const GradedUse& use, const Box& bounds) { return tight_range(*use.made, bounds).lo; }
+double min_of(const GradedUse& use, const Box& bounds) { return tight_range(*use.made, bounds).lo; }
 
 double survey_pitch(const BuiltJob& built, Interval suited) {
     constexpr double without_foam = 0.1;
     double pitch = without_foam;
     if (built.foam) {
         const bool beams = built.foam->member.key == "foam.beam";
-        pitch = least_of(built.foam->member, built.designed.bounds) / (beams ? 3 : 6);
+        pitch = min_of(built.foam->member, built.designed.bounds) / (beams ? 3 : 6);
         for (const GradedUse& other : built.foam->others) {
-            if (other.key == "foam.wall") pitch = std::min(pitch, least_of(other, built.designed.bounds) / 6);
+            if (other.key == "foam.wall") pitch = std::min(pitch, min_of(other, built.designed.bounds) / 6);
         }
     }
     return std::min(std::max(pitch, suited.lo), suited.hi);
@@ -160,7 +161,7 @@ BuiltJob build_job(const Recipe& recipe) {
 
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options) {
     const bool given = recipe.foam && recipe.foam->islands_pitch > 0;
-    const Interval suited = island_pitches(built.designed);
+    const Interval suited = survey_pitch_range(built.designed);
     options.pitch = given ? recipe.foam->islands_pitch : survey_pitch(built, suited);
     if (!suited.contains(options.pitch)) {
         throw InputError(

@@ -41,10 +41,10 @@ class RegionFields {
             FieldPtr& even = even_[region.field];
             if (!even) even = make_unit_slope(made, part_);
             return even;
-        } catch (const PlacedError&) {
+        } catch (const LocatedError&) {
             throw;
         } catch (const InputError& error) {
-            throw PlacedError(fmt::format("{}.field `{}`: {}", region.where, region.field, error.what()));
+            throw LocatedError(fmt::format("{}.field `{}`: {}", region.where, region.field, error.what()));
         }
     }
 

@@ -79,10 +79,10 @@ FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body,
         report.emplace().pattern = builder.kind.word;
         try {
             return builder.cut(recipe, std::move(shell), body, depth, gradings, *report);
-        } catch (const PlacedError&) {
+        } catch (const LocatedError&) {
             throw;
         } catch (const InputError& error) {
-            throw PlacedError("skin (" + builder.kind.word + "): " + error.what());
+            throw LocatedError("skin (" + builder.kind.word + "): " + error.what());
         }
     }
     return shell;
@@ -120,7 +120,7 @@ std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, 
             holes.push_back(drill(body, hole.at, hole.direction, hole.radius, hole.depth, depth));
             holes.back().through = hole.through;
         } catch (const InputError& error) {
-            throw PlacedError(hole.where + ": " + error.what());
+            throw LocatedError(hole.where + ": " + error.what());
         }
     }
     return holes;

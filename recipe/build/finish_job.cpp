@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-Surroundings finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options) {
+SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options) {
     const auto progress_of = [&](const char* what) {
         return [&options, what](const Progress& progress) {
             if (options.on_progress) options.on_progress(what, progress);
@@ -19,7 +19,7 @@ Surroundings finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptio
         drop_islands(recipe, built, survey);
     }
     repair_job(recipe, built, {options.threads, progress_of("repairs"), options.cancel});
-    Surroundings around;
+    SupportStructures around;
     around.supports = add_supports(recipe, built,
                                    {options.plans, options.threads, progress_of("supports"), options.cancel});
     around.shield = add_shield(recipe, built.job, {options.threads, options.cancel});

@@ -19,13 +19,13 @@ struct FinishOptions {
 };
 
 /// What stands about the part; what was done to the part itself stands in the BuiltJob.
-struct Surroundings {
+struct SupportStructures {
     std::optional<BuiltSupports> supports;
     std::optional<ShieldSurvey> shield;
 };
 
 /// Leaves out islands, repairs the part, holds it up and shields it, in this order and each where the recipe
 /// asks for it. Throws InputError where the settings do not suit the part, Interrupted when cancelled.
-Surroundings finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options);
+SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options);
 
 }  // namespace lamella

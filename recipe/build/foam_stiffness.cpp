@@ -17,8 +17,8 @@ namespace lamella {
 namespace {
 
 constexpr double elements_in_a_radius = 4;
-constexpr int least_elements = 32, most_elements = 320, elements_step = 16;
-constexpr double most_solid_elements = 1e6;  // for memory below 2 GiB
+constexpr int min_elements = 32, max_elements = 320, elements_step = 16;
+constexpr double max_solid_elements = 1e6;  // for memory below 2 GiB
 
 double constant_of(const GradedUse& use) {
     const auto number = use.made->constant();
@@ -70,8 +70,8 @@ int suited_elements(const BuiltFoam& foam, double period, int threads) {
     const int steps = static_cast<int>(std::ceil(std::min(wanted, 1e6) / elements_step));
     constexpr int coarse = 64;
     const double share = std::max(sample_of(foam, period, coarse, threads).share(), 1e-4);
-    const int bearable = static_cast<int>(std::cbrt(most_solid_elements / share) / elements_step);
-    return std::clamp(std::min(steps, bearable) * elements_step, least_elements, most_elements);
+    const int bearable = static_cast<int>(std::cbrt(max_solid_elements / share) / elements_step);
+    return std::clamp(std::min(steps, bearable) * elements_step, min_elements, max_elements);
 }
 
 /// The share of the work that is done when the forces that are left have fallen to `left`: they fall by

@@ -6,20 +6,21 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/layers/survey_rows.h"
 #include "engine/surveys/island_survey.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr std::size_t most_cavities = 1000;
+constexpr std::size_t max_cavities = 1000;
 
 double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
-    const Interval suited = island_pitches(job);
+    const Interval suited = survey_pitch_range(job);
     const double given = recipe.skin->drain_pitch;
     if (given == 0) return std::min(std::max(depth / 3, suited.lo), suited.hi);
     if (!suited.contains(given)) {
-        throw PlacedError(
+        throw LocatedError(
             fmt::format("skin.drain_pitch / --drain-pitch: {} mm does not suit the part; accepted: {:.4g} to "
                         "{:.4g} mm, the latter being 16 layers",
                         given, suited.lo, suited.hi));
@@ -41,11 +42,11 @@ DrilledHole drain(const Field& body, dvec3 at, double radius, double depth) {
 
 DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body, double depth) {
     const SkinRecipe& skin = *recipe.skin;
-    constexpr double least_radius = 0.5;
-    const double radius = skin.drain_radius > 0 ? skin.drain_radius : std::max(0.5 * depth, least_radius);
+    constexpr double min_radius = 0.5;
+    const double radius = skin.drain_radius > 0 ? skin.drain_radius : std::max(0.5 * depth, min_radius);
     CavitySurveyOptions options;
     options.pitch = survey_pitch(recipe, job, depth);
-    options.most = most_cavities + 1;
+    options.most = max_cavities + 1;
     CavitySurvey survey = survey_cavities(job, options);
     DrainReport report;
     report.cavities = survey.count;
@@ -54,11 +55,11 @@ DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body
     for (Cavity& cavity : survey.cavities) {
         if (cavity.volume >= least) report.drained.push_back(cavity);
     }
-    if (report.drained.size() > most_cavities) {
-        throw PlacedError(
+    if (report.drained.size() > max_cavities) {
+        throw LocatedError(
             fmt::format("skin.drains / --drains: the part has more than {} closed cavities to drain, {} in "
                         "all; accepted: a foam of open cells, or no drains",
-                        most_cavities, report.cavities));
+                        max_cavities, report.cavities));
     }
     report.small = survey.count - report.drained.size();
     for (const Cavity& cavity : report.drained) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/layers/survey_rows.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "engine/surveys/island_survey.h"
@@ -18,7 +19,7 @@ constexpr double pitches_in_a_strut = 4;
 
 /// The least pitch that suits a job for what is `size` mm thick.
 double pitch_for(const Job& job, double size) {
-    const Interval suited = island_pitches(job);
+    const Interval suited = survey_pitch_range(job);
     return std::min(std::max(size / pitches_in_a_strut, suited.lo), suited.hi);
 }
 
@@ -51,7 +52,7 @@ CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check chec
                          const RepairOptions& options) {
     const Job job = make_scaled(recipe, built.designed);
     PrintCheckOptions checked;
-    checked.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    checked.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     checked.limits.thickness = checked.limits.gap = limit;
     checked.pitch = check_pitch(job, checked.limits);
     PrintCheck surveyor(job, checked);

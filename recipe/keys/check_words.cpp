@@ -64,7 +64,7 @@ std::string room_text(dvec3 room) {
 
 }  // namespace
 
-std::string process_name(Process process) { return words(process)[static_cast<std::size_t>(process)]; }
+std::string process_name(Process process) { return choice_names(process)[static_cast<std::size_t>(process)]; }
 std::string check_name(Check check) { return words_of(check).name; }
 std::string check_fault(Check check) { return words_of(check).fault; }
 std::string check_advice(Check check) { return words_of(check).advice; }
@@ -110,7 +110,7 @@ std::string size_text(Check check, double size) {
 
 const char* outcome_word(const CheckResult& result) {
     if (result.passed()) return "pass";
-    return result.verdict == Verdict::fail ? "FAIL" : "warn";
+    return result.verdict == Severity::fail ? "FAIL" : "warn";
 }
 
 std::string layers_text(const Fault& fault) {

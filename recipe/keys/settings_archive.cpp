@@ -3,7 +3,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(PanelPixels) {
+const std::vector<std::string>& choice_names(PanelPixels) {
     static const std::vector<std::string> list{"rgb", "packed", "grey"};
     return list;
 }

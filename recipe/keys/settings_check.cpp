@@ -4,11 +4,11 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(Process) {
+const std::vector<std::string>& choice_names(Process) {
     static const std::vector<std::string> list{"usual", "filament", "resin", "powder", "cutting"};
     return list;
 }
-const std::vector<std::string>& words(Concern) {
+const std::vector<std::string>& choice_names(SeverityOverride) {
     static const std::vector<std::string> list{"usual", "off", "warn", "fail"};
     return list;
 }
@@ -19,7 +19,7 @@ constexpr Limits size_limits{-1, 1000};
 constexpr Limits volume_limits{-1, 1e9};
 
 template <auto member>
-void add_check_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_check_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     static constexpr auto place = [](Recipe & r) -> auto& { return r.printer.check.*member; };
     t.push_back(row<place>("check", key, flag, std::move(facts)));
 }
@@ -52,28 +52,28 @@ void add_concerns(std::vector<Setting>& t, std::index_sequence<checks...> /*all*
 
 void add_sizes(std::vector<Setting>& t) {
     using C = CheckProfile;
-    add_size<&C::least_thickness>(t, "least_thickness", "--check-least-thickness", false,
-                                  "Least thickness of walls and struts within layers",
-                                  "of filament the nozzle's width, of resin 0.4 or two pixels, of powder "
-                                  "0.8, of sheets 1");
-    add_size<&C::least_thickness_up>(t, "least_thickness_up", "--check-least-thickness-up", false,
-                                     "Least thickness upright, 0: layers are looked at one by one",
-                                     "of powder 0.8, else 0");
-    add_size<&C::least_gap>(t, "least_gap", "--check-least-gap", false, "Least width of void within layers",
-                            "of filament the nozzle's width, of resin 0.5 or two pixels, of powder 0.5, of "
-                            "sheets the kerf or 0.2");
-    add_size<&C::least_gap_up>(t, "least_gap_up", "--check-least-gap-up", false,
-                               "Least width of void upright, 0: layers are looked at one by one",
-                               "of powder 0.5, else 0");
-    add_size<&C::least_neck>(t, "least_neck", "--check-least-neck", false,
-                             "Least thickness of what joins large parts",
-                             "of filament two lines, of resin 0.6, of powder and sheets 2");
+    add_size<&C::min_thickness>(t, "least_thickness", "--check-least-thickness", false,
+                                "Least thickness of walls and struts within layers",
+                                "of filament the nozzle's width, of resin 0.4 or two pixels, of powder "
+                                "0.8, of sheets 1");
+    add_size<&C::min_thickness_up>(t, "least_thickness_up", "--check-least-thickness-up", false,
+                                   "Least thickness upright, 0: layers are looked at one by one",
+                                   "of powder 0.8, else 0");
+    add_size<&C::min_gap>(t, "least_gap", "--check-least-gap", false, "Least width of void within layers",
+                          "of filament the nozzle's width, of resin 0.5 or two pixels, of powder 0.5, of "
+                          "sheets the kerf or 0.2");
+    add_size<&C::min_gap_up>(t, "least_gap_up", "--check-least-gap-up", false,
+                             "Least width of void upright, 0: layers are looked at one by one",
+                             "of powder 0.5, else 0");
+    add_size<&C::min_neck>(t, "least_neck", "--check-least-neck", false,
+                           "Least thickness of what joins large parts",
+                           "of filament two lines, of resin 0.6, of powder and sheets 2");
     add_size<&C::large_part>(t, "large_part", "--check-large-part", true, "Volume from which a part is large",
                              "1000");
-    add_size<&C::least_cavity>(t, "least_cavity", "--check-least-cavity", true,
-                               "Volume from which a closed void matters", "1");
-    add_size<&C::least_cup>(t, "least_cup", "--check-least-cup", true,
-                            "Volume from which a suction cup matters", "10");
+    add_size<&C::min_cavity>(t, "least_cavity", "--check-least-cavity", true,
+                             "Volume from which a closed void matters", "1");
+    add_size<&C::min_cup>(t, "least_cup", "--check-least-cup", true,
+                          "Volume from which a suction cup matters", "10");
 }
 
 }  // namespace

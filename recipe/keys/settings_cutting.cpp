@@ -3,16 +3,16 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(Laser) {
+const std::vector<std::string>& choice_names(Laser) {
     static const std::vector<std::string> list{"none",   "generic",   "lightburn", "trotec",
                                                "epilog", "glowforge", "xtool"};
     return list;
 }
-const std::vector<std::string>& words(Ties) {
+const std::vector<std::string>& choice_names(Ties) {
     static const std::vector<std::string> list{"none", "join", "refuse"};
     return list;
 }
-const std::vector<std::string>& words(SvgDialect) {
+const std::vector<std::string>& choice_names(SvgDialect) {
     static const std::vector<std::string> list{"plain", "slic3r"};
     return list;
 }
@@ -20,7 +20,7 @@ const std::vector<std::string>& words(SvgDialect) {
 namespace {
 
 template <auto member>
-void add_cutting_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_cutting_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     constexpr auto place = [](Recipe & r) -> auto& { return r.printer.cutting.*member; };
     t.push_back(row<place>("printer", key, flag, std::move(facts)));
 }

@@ -6,12 +6,12 @@ namespace lamella {
 namespace {
 
 template <auto member>
-void add_cavity_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_cavity_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::cavity, member>("cavity", key, flag, std::move(facts)));
 }
 
 template <auto member>
-void add_shield_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_shield_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::shield, member>("shield", key, flag, std::move(facts)));
 }
 

@@ -3,7 +3,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(CliFormat) {
+const std::vector<std::string>& choice_names(CliFormat) {
     static const std::vector<std::string> list{"binary", "ascii"};
     return list;
 }

@@ -7,7 +7,7 @@ namespace {
 constexpr Limits radii{0.005, 500};
 
 template <auto member>
-void add_frame_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_frame_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::frame, member>("frame", key, flag, std::move(facts)));
 }
 

@@ -3,7 +3,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(Flavour) {
+const std::vector<std::string>& choice_names(Flavour) {
     static const std::vector<std::string> list{"marlin", "klipper", "reprapfirmware", "grbl"};
     return list;
 }
@@ -17,13 +17,13 @@ constexpr Limits accelerations_or_none{0, 1e6};
 constexpr Limits share{0, 1};
 
 template <auto member>
-void add_gcode_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_gcode_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     constexpr auto place = [](Recipe & r) -> auto& { return r.printer.gcode.*member; };
     t.push_back(row<place>("printer", key, flag, std::move(facts)));
 }
 
 template <auto member>
-void add_laser_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_laser_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     constexpr auto place = [](Recipe & r) -> auto& { return r.printer.laser.*member; };
     t.push_back(row<place>("printer", key, flag, std::move(facts)));
 }
@@ -73,10 +73,10 @@ void add_heat(std::vector<Setting>& t) {
     add_gcode_row<&G::fan_ramp_layers>(
         t, "fan_ramp_layers", "--printer-fan-ramp-layers",
         {.unit = "layers", .limits = {0, 1e6}, .help = "Layers over which the fan then comes to its speed."});
-    add_gcode_row<&G::least_layer_time>(
+    add_gcode_row<&G::min_layer_time>(
         t, "least_layer_time", "--printer-least-layer-time",
         {.unit = "s", .limits = {0, 3600}, .help = "Layers that would take less are slowed down."});
-    add_gcode_row<&G::least_speed>(
+    add_gcode_row<&G::min_speed>(
         t, "least_speed", "--printer-least-speed",
         {.unit = "mm/s", .limits = speeds, .help = "Speed below which no layer is slowed down for that."});
 }

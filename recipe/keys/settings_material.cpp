@@ -20,7 +20,7 @@ void add_stiffness_settings(std::vector<Setting>& t) {
 }
 
 void add_material_settings(std::vector<Setting>& t) {
-    const auto add = [&]<auto member>(const char* key, const char* flag, Facts facts) {
+    const auto add = [&]<auto member>(const char* key, const char* flag, SettingSpec facts) {
         t.push_back(optional_row<&Recipe::material, member>("material", key, flag, std::move(facts)));
     };
     using M = MaterialRecipe;

@@ -6,11 +6,11 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(ImageFormat) {
+const std::vector<std::string>& choice_names(ImageFormat) {
     static const std::vector<std::string> list{"png", "tiff", "bmp", "pgm"};
     return list;
 }
-const std::vector<std::string>& words(Antialiasing) {
+const std::vector<std::string>& choice_names(Antialiasing) {
     static const std::vector<std::string> list{"off", "rows", "exact"};
     return list;
 }
@@ -91,7 +91,7 @@ void add_display_rows(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.gamma; }>(
         "printer", "gamma", "--printer-gamma",
         {.limits = {0.1, 10}, .help = "Grey of a pixel is its coverage to this power."}));
-    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.least_grey; }>(
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.min_grey; }>(
         "printer", "least_grey", "--printer-least-grey",
         {.limits = {0, 1}, .help = "Grey of pixels that are hardly touched, as a share of white."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.full_grey; }>(

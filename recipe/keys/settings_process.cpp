@@ -6,7 +6,7 @@ namespace lamella {
 namespace {
 
 template <auto member>
-void add_process_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_process_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::process, member>("process", key, flag, std::move(facts)));
 }
 

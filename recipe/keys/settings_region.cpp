@@ -4,7 +4,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(RegionMake) {
+const std::vector<std::string>& choice_names(RegionMake) {
     static const std::vector<std::string> list{"solid", "empty", "foam", "skin", "blocker", "enforcer"};
     return list;
 }
@@ -12,7 +12,7 @@ const std::vector<std::string>& words(RegionMake) {
 namespace {
 
 template <auto member>
-void add_field_row(std::vector<Setting>& t, const char* key, Facts facts) {
+void add_field_row(std::vector<Setting>& t, const char* key, SettingSpec facts) {
     t.push_back(list_row<&Recipe::fields, member>("field", key, std::move(facts)));
 }
 
@@ -93,7 +93,7 @@ void add_field_settings(std::vector<Setting>& t) {
 }
 
 void add_region_settings(std::vector<Setting>& t) {
-    const auto add = [&]<auto member>(const char* key, Facts facts) {
+    const auto add = [&]<auto member>(const char* key, SettingSpec facts) {
         t.push_back(list_row<&Recipe::regions, member>("region", key, std::move(facts)));
     };
     add.operator()<&RegionRecipe::field>(

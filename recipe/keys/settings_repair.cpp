@@ -6,7 +6,7 @@ namespace lamella {
 namespace {
 
 template <auto member>
-void add_repair_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_repair_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     facts.unit = "mm";
     facts.limits = {0, 100};
     facts.fallback = format_value(RepairRecipe{}.*member);

@@ -11,24 +11,24 @@
 namespace lamella {
 
 /// The words of a choice, in the order of its values; every enumeration that a row holds has one.
-const std::vector<std::string>& words(Shape);
-const std::vector<std::string>& words(LengthUnit);
-const std::vector<std::string>& words(Falloff);
-const std::vector<std::string>& words(SkinSide);
-const std::vector<std::string>& words(SupportKind);
-const std::vector<std::string>& words(RegionMake);
-const std::vector<std::string>& words(ImageFormat);
-const std::vector<std::string>& words(Antialiasing);
-const std::vector<std::string>& words(CliFormat);
-const std::vector<std::string>& words(InfillPattern);
-const std::vector<std::string>& words(Seam);
-const std::vector<std::string>& words(PanelPixels);
-const std::vector<std::string>& words(Laser);
-const std::vector<std::string>& words(Ties);
-const std::vector<std::string>& words(SvgDialect);
-const std::vector<std::string>& words(Flavour);
-const std::vector<std::string>& words(Process);
-const std::vector<std::string>& words(Concern);
+const std::vector<std::string>& choice_names(Shape);
+const std::vector<std::string>& choice_names(LengthUnit);
+const std::vector<std::string>& choice_names(Falloff);
+const std::vector<std::string>& choice_names(SkinSide);
+const std::vector<std::string>& choice_names(SupportKind);
+const std::vector<std::string>& choice_names(RegionMake);
+const std::vector<std::string>& choice_names(ImageFormat);
+const std::vector<std::string>& choice_names(Antialiasing);
+const std::vector<std::string>& choice_names(CliFormat);
+const std::vector<std::string>& choice_names(InfillPattern);
+const std::vector<std::string>& choice_names(Seam);
+const std::vector<std::string>& choice_names(PanelPixels);
+const std::vector<std::string>& choice_names(Laser);
+const std::vector<std::string>& choice_names(Ties);
+const std::vector<std::string>& choice_names(SvgDialect);
+const std::vector<std::string>& choice_names(Flavour);
+const std::vector<std::string>& choice_names(Process);
+const std::vector<std::string>& choice_names(SeverityOverride);
 
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
@@ -77,7 +77,7 @@ inline constexpr Limits extent_limits{1e-2, 1e5};  ///< of a solid's size, mm
 inline constexpr Limits place_limits{-1e6, 1e6};   ///< of a coordinate, mm
 
 /// What a row says about a key besides its name and flag.
-struct Facts {
+struct SettingSpec {
     std::string unit{};
     Limits limits{};
     std::vector<std::string> choices{};
@@ -90,7 +90,7 @@ struct Facts {
 };
 
 template <typename T>
-ValueType type_of(const Facts& facts) {
+ValueType type_of(const SettingSpec& facts) {
     if constexpr (std::is_same_v<T, bool>) return ValueType::boolean;
     if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::int64_t>) return ValueType::integer;
     if constexpr (std::is_same_v<T, double>) return ValueType::number;
@@ -109,7 +109,7 @@ ValueType type_of(const Facts& facts) {
 template <typename T>
 T from_value(const Value& value) {
     if constexpr (std::is_enum_v<T>) {
-        const auto& list = words(T{});
+        const auto& list = choice_names(T{});
         const auto& word = std::get<std::string>(value);
         for (std::size_t i = 0; i < list.size(); ++i) {
             if (list[i] == word) return static_cast<T>(i);
@@ -125,7 +125,7 @@ T from_value(const Value& value) {
 template <typename T>
 Value to_value(const T& held) {
     if constexpr (std::is_enum_v<T>) {
-        return words(held)[static_cast<std::size_t>(held)];
+        return choice_names(held)[static_cast<std::size_t>(held)];
     } else if constexpr (std::is_same_v<T, int>) {
         return static_cast<std::int64_t>(held);
     } else {
@@ -135,13 +135,13 @@ Value to_value(const T& held) {
 
 /// A row without its places.
 template <typename Held>
-Setting described(std::string section, std::string key, std::string flag, Facts facts) {
+Setting described(std::string section, std::string key, std::string flag, SettingSpec facts) {
     Setting s;
     s.section = std::move(section);
     s.key = std::move(key);
     s.flag = std::move(flag);
     s.type = type_of<Held>(facts);
-    if constexpr (std::is_enum_v<Held>) facts.choices = words(Held{});
+    if constexpr (std::is_enum_v<Held>) facts.choices = choice_names(Held{});
     s.unit = std::move(facts.unit);
     s.limits = facts.limits;
     s.choices = std::move(facts.choices);
@@ -154,7 +154,7 @@ Setting described(std::string section, std::string key, std::string flag, Facts 
 /// A row whose value is stored in one or several places of the recipe, and read from the first. A place is
 /// a function from the recipe to a reference into it.
 template <auto place, auto... others>
-Setting row(std::string section, std::string key, std::string flag, Facts facts) {
+Setting row(std::string section, std::string key, std::string flag, SettingSpec facts) {
     using Held = std::remove_reference_t<decltype(place(std::declval<Recipe&>()))>;
     Setting s = described<Held>(std::move(section), std::move(key), std::move(flag), std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {
@@ -170,7 +170,7 @@ Setting row(std::string section, std::string key, std::string flag, Facts facts)
 
 /// A row of a section that may be absent: a member of the structure that `optional` holds.
 template <auto optional, auto member>
-Setting optional_row(std::string section, std::string key, std::string flag, Facts facts) {
+Setting optional_row(std::string section, std::string key, std::string flag, SettingSpec facts) {
     using Whole = typename std::remove_reference_t<decltype(std::declval<Recipe&>().*optional)>::value_type;
     using Held = std::remove_reference_t<decltype(std::declval<Whole&>().*member)>;
     Setting s = described<Held>(std::move(section), std::move(key), std::move(flag), std::move(facts));
@@ -189,7 +189,7 @@ Setting optional_row(std::string section, std::string key, std::string flag, Fac
 
 /// A row of a list section: a member of each entry of `list`.
 template <auto list, auto member>
-Setting list_row(std::string section, std::string key, Facts facts) {
+Setting list_row(std::string section, std::string key, SettingSpec facts) {
     using Entry = typename std::remove_reference_t<decltype(std::declval<Recipe&>().*list)>::value_type;
     using Held = std::remove_reference_t<decltype(std::declval<Entry&>().*member)>;
     Setting s = described<Held>(std::move(section), std::move(key), "", std::move(facts));

@@ -4,7 +4,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(SkinSide) {
+const std::vector<std::string>& choice_names(SkinSide) {
     static const std::vector<std::string> list{"inside", "outside", "centred"};
     return list;
 }
@@ -17,7 +17,7 @@ using H = HoleRecipe;
 constexpr Limits widths{0.01, 1000};
 
 template <auto member>
-void add_skin_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_skin_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::skin, member>("skin", key, flag, std::move(facts)));
 }
 
@@ -111,7 +111,7 @@ void add_drains(std::vector<Setting>& t) {
 }
 
 template <auto member>
-void add_hole_row(std::vector<Setting>& t, const char* key, Facts facts) {
+void add_hole_row(std::vector<Setting>& t, const char* key, SettingSpec facts) {
     t.push_back(list_row<&Recipe::holes, member>("hole", key, std::move(facts)));
 }
 

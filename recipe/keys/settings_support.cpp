@@ -3,7 +3,7 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(SupportKind) {
+const std::vector<std::string>& choice_names(SupportKind) {
     static const std::vector<std::string> list{"none", "bridges", "pillars"};
     return list;
 }
@@ -15,7 +15,7 @@ constexpr Limits amount_limits{0, 1000};
 
 /// A row of the printer's supports. Whoever sets one wants supports, unless support.kind says otherwise.
 template <auto member>
-void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     static constexpr auto place = [](Recipe & r) -> auto& { return r.printer.support.*member; };
     Setting s = row<place>("support", key, flag, std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {

@@ -4,16 +4,16 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(Shape) {
+const std::vector<std::string>& choice_names(Shape) {
     static const std::vector<std::string> list{"none",    "sphere", "box",   "cylinder",
                                                "capsule", "torus",  "gyroid"};
     return list;
 }
-const std::vector<std::string>& words(LengthUnit) {
+const std::vector<std::string>& choice_names(LengthUnit) {
     static const std::vector<std::string> list{"mm", "cm", "m", "inch"};
     return list;
 }
-const std::vector<std::string>& words(Falloff) {
+const std::vector<std::string>& choice_names(Falloff) {
     static const std::vector<std::string> list{"linear", "smooth", "gaussian", "inverse"};
     return list;
 }
@@ -82,7 +82,7 @@ void add_part(std::vector<Setting>& t) {
 }
 
 template <auto member>
-void add_grading_row(std::vector<Setting>& t, const char* key, Facts facts) {
+void add_grading_row(std::vector<Setting>& t, const char* key, SettingSpec facts) {
     t.push_back(list_row<&Recipe::gradings, member>("grading", key, std::move(facts)));
 }
 
@@ -188,7 +188,7 @@ void add_gradings(std::vector<Setting>& t) {
 }
 
 template <auto member>
-void add_foam_row(std::vector<Setting>& t, const char* key, const char* flag, Facts facts) {
+void add_foam_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::foam, member>("foam", key, flag, std::move(facts)));
 }
 

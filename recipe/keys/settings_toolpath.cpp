@@ -3,11 +3,11 @@
 
 namespace lamella {
 
-const std::vector<std::string>& words(InfillPattern) {
+const std::vector<std::string>& choice_names(InfillPattern) {
     static const std::vector<std::string> list{"lines", "concentric"};
     return list;
 }
-const std::vector<std::string>& words(Seam) {
+const std::vector<std::string>& choice_names(Seam) {
     static const std::vector<std::string> list{"nearest", "rear", "corner"};
     return list;
 }

@@ -375,14 +375,14 @@ class Painter {
 
 Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box& bounds,
                        const PreviewOptions& options) {
-    constexpr int most_cells = 512;
+    constexpr int max_cells = 512;
     const FieldPtr all = supports ? make_union({part, supports}) : part;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     return arena.execute([&] {
         Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);
         const int pixels = std::max(options.width, options.height);
-        const int cells = std::clamp(options.quick ? pixels * 5 / 4 : pixels / 2, 64, most_cells);
+        const int cells = std::clamp(options.quick ? pixels * 5 / 4 : pixels / 2, 64, max_cells);
         const auto mark = options.quick ? VoxelGrid::Mark::covered : VoxelGrid::Mark::touched;
         const VoxelGrid grid(*all, cut.kept, cells, mark);
         std::optional<VoxelGrid> part_grid;

@@ -5,13 +5,13 @@
 #include <deque>
 #include <limits>
 
-#include "engine/checks/hold_check.h"
 #include "engine/checks/neck_check.h"
+#include "engine/checks/overhang_check.h"
 #include "engine/checks/void_check.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/morphology/layer_opening.h"
-#include "engine/morphology/layer_thinness.h"
-#include "engine/morphology/thin_beyond_places.h"
+#include "engine/morphology/thin_feature_search.h"
+#include "engine/morphology/thin_features.h"
 #include "engine/runs/row_sets.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
@@ -23,7 +23,7 @@ using namespace lamella;
 
 constexpr double edge = 40, height = 10, layer_height = 0.05, pitch = 0.08;  // mm
 constexpr int layer_count = 200;
-constexpr std::size_t most_places = 10;
+constexpr std::size_t max_places = 10;
 
 CheckGrid grid() {
     CheckGrid grid;
@@ -67,7 +67,7 @@ CellLattice lattice(double reach) {
 PrintLimits limits() {
     PrintLimits limits;
     for (const Check check : {Check::islands, Check::overhangs})
-        limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+        limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     limits.overhang = layer_height;
     return limits;
 }
@@ -90,7 +90,7 @@ void check_cells(benchmark::State& state) {
     state.counters["runs"] = static_cast<double>(runs);
 }
 
-void check_thickness(benchmark::State& state, Medium medium, double thickness) {
+void check_thickness(benchmark::State& state, FeatureKind medium, double thickness) {
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, 0);
     const Thinness measure{ball.radius, 1.5 * ball.radius + run_unit};
     std::vector<LayerCells> all_cells;
@@ -109,7 +109,7 @@ void check_thickness(benchmark::State& state, Medium medium, double thickness) {
 }
 
 template <typename Thin>
-void thickness_across_layers(benchmark::State& state, Medium medium, double thickness) {
+void thickness_across_layers(benchmark::State& state, FeatureKind medium, double thickness) {
     layers();
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, thickness);
@@ -131,18 +131,18 @@ void thickness_across_layers(benchmark::State& state, Medium medium, double thic
     state.counters["volume"] = grid().volume(found);
 }
 
-void check_thickness_up(benchmark::State& state, Medium medium, double thickness) {
-    thickness_across_layers<ThinBeyondPlaces>(state, medium, thickness);
+void check_thickness_up(benchmark::State& state, FeatureKind medium, double thickness) {
+    thickness_across_layers<ThinFeatureSearch>(state, medium, thickness);
 }
 /// As necks have it, for comparison.
-void check_thickness_up_by_all(benchmark::State& state, Medium medium, double thickness) {
-    thickness_across_layers<ThinLayers>(state, medium, thickness);
+void check_thickness_up_by_all(benchmark::State& state, FeatureKind medium, double thickness) {
+    thickness_across_layers<ThinFeatureStream>(state, medium, thickness);
 }
 
 void check_pieces(benchmark::State& state) {
     layers();
     for (auto _ : state) {
-        PassingComponents pieces;
+        StreamingComponents pieces;
         std::vector<EndedComponent> ended;
         for (int i = 0; i < layer_count; ++i)
             pieces.add(label_layer(layers()[static_cast<std::size_t>(i)], i, Growth{}), i, {}, ended);
@@ -153,7 +153,7 @@ void check_pieces(benchmark::State& state) {
 void check_voids(benchmark::State& state) {
     layers();
     for (auto _ : state) {
-        VoidCheck voids(grid(), 1, 10, most_places);
+        VoidCheck voids(grid(), 1, 10, max_places);
         for (int i = 0; i < layer_count; ++i)
             voids.add(VoidCheck::label(layers()[static_cast<std::size_t>(i)], grid(), i), i);
         voids.finish();
@@ -174,7 +174,7 @@ void check_hold(benchmark::State& state) {
         benchmark::DoNotOptimize(all_rows(*slices.back(), grid().band, scratch));
     }
     for (auto _ : state) {
-        HoldCheck hold(grid(), limits(), most_places);
+        OverhangCheck hold(grid(), limits(), max_places);
         for (std::size_t i = 0; i < labels.size(); ++i) {
             const SpanRows& rows = layers()[i];
             const auto rows_in = [&](const RowBand& band) { return all_rows(*slices[i], band, scratch); };
@@ -190,7 +190,7 @@ void check_necks(benchmark::State& state) {
     layers();
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     for (auto _ : state) {
-        NeckCheck necks(grid(), 0.6, 1000, most_places);
+        NeckCheck necks(grid(), 0.6, 1000, max_places);
         for (const SpanRows& rows : layers()) necks.push(rows);
         necks.finish();
     }
@@ -198,12 +198,12 @@ void check_necks(benchmark::State& state) {
 
 BENCHMARK(check_rows)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_cells)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness, solid, Medium::solid, 0.4)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness_up, solid, Medium::solid, 0.6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness_up, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness_up_by_all, solid, Medium::solid, 0.6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(check_thickness_up_by_all, gaps, Medium::gaps, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness, solid, FeatureKind::wall, 0.4)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness, gaps, FeatureKind::gap, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up, solid, FeatureKind::wall, 0.6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up, gaps, FeatureKind::gap, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up_by_all, solid, FeatureKind::wall, 0.6)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(check_thickness_up_by_all, gaps, FeatureKind::gap, 0.5)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_pieces)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_voids)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_hold)->Unit(benchmark::kMillisecond);

@@ -64,14 +64,14 @@ void grow_layers(benchmark::State& state) {
     const std::vector<SpanRows> layers = dexels(state.range(0), n);
     std::int64_t volume = 0, runs = 0;
     for (auto _ : state) {
-        GrowingLayers growing({run_unit, run_unit, static_cast<std::size_t>(n)}, radius);
+        DilationStream growing({run_unit, run_unit, static_cast<std::size_t>(n)}, radius);
         volume = 0;
         SpanRows out;
         const auto take = [&] {
             while (growing.pop(out)) volume += out.total_length();
         };
         for (const SpanRows& layer : layers) {
-            growing.push(BallRows(layer, radius));
+            growing.push(WeightedRows(layer, radius));
             take();
         }
         growing.finish();
@@ -97,7 +97,7 @@ void grow_one_layer(benchmark::State& state) {
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     const int n = static_cast<int>(state.range(1));
     const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
-    const BallRows rows(dexel_layer(*solid(state.range(0)), n, n / 2), radius);
+    const WeightedRows rows(dexel_layer(*solid(state.range(0)), n, n / 2), radius);
     SpanRows out;
     for (auto _ : state) grow_rows(rows, run_unit, out);
     state.counters["area"] = static_cast<double>(out.total_length()) / run_unit;

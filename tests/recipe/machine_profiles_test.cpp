@@ -88,9 +88,9 @@ TEST_CASE("every shipped profile can be used, and its display is as large as it 
         CHECK(profile->source == "built in");
         CHECK(profile->description.size() > 5);
         CHECK(profile->description.size() < 80);
-        const Medium medium = find_backend(profile->printer.backend).medium;
+        const LayerContent medium = find_backend(profile->printer.backend).medium;
         const auto display = stated_display(std::string(shipped.text));
-        CHECK(display.has_value() == (medium == Medium::pixels));
+        CHECK(display.has_value() == (medium == LayerContent::pixels));
         if (!display) continue;
         const ImageProfile& image = profile->printer.image;
         CHECK(image.width * image.pixel_x == Approx(display->x).epsilon(1e-4));
@@ -151,8 +151,8 @@ TEST_CASE("a profile written down as TOML is read back the same") {
         INFO(name);
         MachineProfile profile = *profiles.find(name);
         profile.printer.support.tip = 0.4375;
-        profile.printer.check.least_gap = 0.3125;
-        profile.printer.check.concerns[3] = Concern::off;
+        profile.printer.check.min_gap = 0.3125;
+        profile.printer.check.concerns[3] = SeverityOverride::off;
         profile.printer.resin.material = "a \"grey\" \\ resin";
         profile.printer.gcode.start_script = "M117 \"{layers}\"\n\nG28 ; {{home}}";
         write(folder / (name + ".toml"), profile_as_toml(profile));
@@ -186,7 +186,7 @@ TEST_CASE("what a profile says of checks holds, and changes no job", "[check]") 
     const Recipe plain = recipe_with(profiles, "[printer]\nprofile = \"plain\"\n");
     Recipe mine = recipe_with(profiles, "[printer]\nprofile = \"mine\"\n");
     CHECK(mine.printer.check.process == Process::powder);  // as the profile at the bottom says
-    CHECK(mine.printer.check.least_thickness == 1.5);
+    CHECK(mine.printer.check.min_thickness == 1.5);
     mine.printer.name = plain.printer.name;
     CHECK(job_identity(mine) == job_identity(plain));
     CHECK(mentions(wrong("[printer]\nkind = \"sl1\"\n[check]\ncups = \"no\"\n"),

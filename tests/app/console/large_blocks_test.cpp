@@ -38,7 +38,7 @@ TEST_CASE("Large blocks taken and freed at random keep their bytes") {
     lamella::LargeBlocks blocks(256 * mebibyte);
     std::mt19937 random(7);
     std::vector<Block> held;
-    std::size_t most_held = 0;
+    std::size_t max_held = 0;
     std::size_t now_held = 0;
     for (int step = 0; step < 20000; ++step) {
         if (held.size() < 40 && random() % 2 == 0) {
@@ -53,10 +53,10 @@ TEST_CASE("Large blocks taken and freed at random keep their bytes") {
             blocks.free(held.back().start);
             held.pop_back();
         }
-        most_held = std::max(most_held, now_held);
+        max_held = std::max(max_held, now_held);
     }
     // Best fit wastes something, and whole pages are taken; it must not grow with the number of requests.
-    CHECK(blocks.reach() < 2 * most_held);
+    CHECK(blocks.reach() < 2 * max_held);
     for (const Block& block : held) blocks.free(block.start);
     // With nothing held all is one hole, which takes a block of its size without growing.
     const std::size_t reach = blocks.reach();

@@ -17,7 +17,7 @@ struct Post {
     std::mutex access;
     std::map<std::tuple<int, int, int>, std::deque<std::string>> sent;  ///< by from, to, tag
     std::map<int, std::size_t> outstanding;                             ///< by from
-    std::size_t most_outstanding = 0;
+    std::size_t max_outstanding = 0;
 };
 
 class RanksInside : public Ranks {
@@ -29,7 +29,7 @@ class RanksInside : public Ranks {
         const std::lock_guard lock(post_.access);
         post_.sent[{rank_, to, tag}].push_back(std::move(bytes));
         const std::size_t now = ++post_.outstanding[rank_];
-        if (rank_ > 0) post_.most_outstanding = std::max(post_.most_outstanding, now);
+        if (rank_ > 0) post_.max_outstanding = std::max(post_.max_outstanding, now);
     }
     std::optional<std::string> receive(int from, int tag) override {
         const std::lock_guard lock(post_.access);

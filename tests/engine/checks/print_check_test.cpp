@@ -42,9 +42,9 @@ FieldPtr with(const FieldPtr& a, const FieldPtr& b) { return make_union({a, b});
 /// A filament printer that bridges the brick's roof, with all checks that matter for it and more.
 PrintCheckOptions filament() {
     PrintCheckOptions options;
-    options.limits.verdicts.fill(Verdict::fail);
+    options.limits.verdicts.fill(Severity::fail);
     for (const Check off : {Check::sheets, Check::cups})
-        options.limits.verdicts[static_cast<std::size_t>(off)] = Verdict::off;
+        options.limits.verdicts[static_cast<std::size_t>(off)] = Severity::off;
     options.limits.bridge = 24;
     options.limits.overhang = h;
     options.pitch = pitch;
@@ -53,8 +53,8 @@ PrintCheckOptions filament() {
 
 PrintCheckOptions only(Check check) {
     PrintCheckOptions options = filament();
-    options.limits.verdicts.fill(Verdict::off);
-    options.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    options.limits.verdicts.fill(Severity::off);
+    options.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     return options;
 }
 
@@ -426,7 +426,7 @@ namespace {
 /// Everything that is looked for, on a part that has some of it.
 PrintCheckOptions all_checks() {
     PrintCheckOptions options = filament();
-    options.limits.verdicts.fill(Verdict::fail);
+    options.limits.verdicts.fill(Severity::fail);
     options.limits.thickness_up = options.limits.gap_up = 0.8;
     options.limits.thickness = 3.4;
     return options;

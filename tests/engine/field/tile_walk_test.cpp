@@ -31,7 +31,7 @@ struct Plane {
     }
 };
 
-class OneByOne : public WalkedSolid {
+class OneByOne : public TileSampledSolid {
   public:
     explicit OneByOne(const Plane& plane) : plane_(plane) {}
     Interval enter(const Rect& tile) override { return plane_.range(tile); }
@@ -42,7 +42,7 @@ class OneByOne : public WalkedSolid {
     const Plane& plane_;
 };
 
-class ManyAtOnce : public EvenSolid {
+class ManyAtOnce : public BatchSampledSolid {
   public:
     explicit ManyAtOnce(const Plane& plane) : plane_(plane) {}
     void ranges(std::span<const Rect> tiles, std::span<Interval> out) override {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/base/error.h"
-#include "engine/morphology/layer_remainder.h"
+#include "engine/morphology/dilated_difference.h"
 #include "tests/engine/morphology/through_layers.h"
 
 namespace layer_offset_test {
@@ -17,7 +17,7 @@ using namespace lamella::test;
 namespace {
 
 constexpr std::int32_t far = 1 << 29;
-using Lines = std::vector<std::vector<BallRun>>;
+using Lines = std::vector<std::vector<WeightedRun>>;
 using Stack = std::vector<Lines>;  // layer by layer
 
 std::vector<Run> united(std::vector<Run> runs) {
@@ -40,7 +40,7 @@ std::vector<Run> grown_line(const Stack& stack, const LayerLattice& lattice, int
         const Lines& lines = stack[static_cast<std::size_t>(from_z)];
         for (int from_l = 0; from_l < static_cast<int>(lines.size()); ++from_l) {
             const double across = (l - from_l) * lattice.row_pitch, up = (z - from_z) * lattice.layer_pitch;
-            for (const BallRun& run : lines[static_cast<std::size_t>(from_l)]) {
+            for (const WeightedRun& run : lines[static_cast<std::size_t>(from_l)]) {
                 const double left = run.weight - across * across;
                 if (left < 0 || left - up * up < 0) continue;
                 const double reach = std::sqrt(left - up * up);
@@ -82,8 +82,8 @@ Stack random_stack(std::mt19937& random, int layers, int lines, Radius radius) {
     return stack;
 }
 
-BallRows rows_of(const Lines& lines) {
-    BallRows rows;
+WeightedRows rows_of(const Lines& lines) {
+    WeightedRows rows;
     for (const auto& line : lines) rows.append_line(line);
     return rows;
 }
@@ -91,7 +91,7 @@ BallRows rows_of(const Lines& lines) {
 SpanRows spans_of(const Lines& lines) {
     SpanRows rows;
     for (const auto& line : lines) {
-        for (const BallRun& run : line) rows.push(run.begin, run.end);
+        for (const WeightedRun& run : line) rows.push(run.begin, run.end);
         rows.end_line();
     }
     return rows;
@@ -113,7 +113,7 @@ Stack voids_of(const Stack& stack, int margin_layers, int margin_lines, double r
             auto& line = inverse[l + static_cast<std::size_t>(margin_lines)];
             line.clear();
             std::int32_t at = -far;
-            for (const BallRun& run : layer[l]) {
+            for (const WeightedRun& run : layer[l]) {
                 line.push_back({at, run.begin, weight});
                 at = run.end;
             }
@@ -166,7 +166,7 @@ TEST_CASE("rows less grown ones equal brute force", "[morphology]") {
         SpanRows brute, expected, out;
         for (int l = 0; l < 40; ++l) brute.append_line(grown_line(taken, lattice, 0, l));
         subtract(spans_of(from[0]), brute, expected);
-        subtract_grown(spans_of(from[0]), spans_of(taken[0]), radius, lattice.row_pitch, out);
+        subtract_dilated(spans_of(from[0]), spans_of(taken[0]), radius, lattice.row_pitch, out);
         REQUIRE(out == expected);
         left += out.total_length();
     }
@@ -201,7 +201,7 @@ TEST_CASE("grown layers equal brute force", "[morphology]") {
         const Stack stack =
             random_stack(random, layers, 18, [&](double unit) { return varying ? unit * radius : radius; });
         CAPTURE(round, radius);
-        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+        const auto out = through(DilationStream(lattice, radius), stack, rows_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < layers; z += 3) {
             for (int l = 0; l < 18; ++l) {
@@ -224,7 +224,7 @@ TEST_CASE("balls on either side of the size from which blocks are faster grow th
             return round % 4 < 2 || unit < 0.5 ? radius : unit * radius;
         });
         CAPTURE(round, radius);
-        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+        const auto out = through(DilationStream(lattice, radius), stack, rows_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < size; z += 5) {
             for (int l = 0; l < size; l += 3) {
@@ -244,7 +244,7 @@ TEST_CASE("shrunk layers equal brute force", "[morphology]") {
         const int margin_lines = static_cast<int>(radius / lattice.row_pitch);
         const int margin_layers = static_cast<int>(radius / lattice.layer_pitch);
         const Stack voids = voids_of(stack, margin_layers, margin_lines, radius);
-        const auto out = through(ShrinkingLayers(lattice, radius), stack, spans_of);
+        const auto out = through(ErosionStream(lattice, radius), stack, spans_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < 30; z += 2) {
             for (int l = 0; l < 24; ++l) {
@@ -273,7 +273,7 @@ TEST_CASE("large balls leave the right gaps between sparse solids", "[morphology
             stack[z][l].push_back({at, at + 1 + static_cast<std::int32_t>(900 * unit(random)), r * r});
         }
         CAPTURE(round, radius);
-        const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+        const auto out = through(DilationStream(lattice, radius), stack, rows_of);
         REQUIRE(out.size() == stack.size());
         for (int z = 0; z < 90; z += 2) {
             for (int l = 0; l < 50; ++l) {
@@ -297,7 +297,7 @@ TEST_CASE("solids grow by balls of every size as by brute force", "[morphology]"
                     const double left = 30 * 30 - (z - 48) * (z - 48) - (l - 40.2) * (l - 40.2);
                     if (left <= 0) continue;
                     const std::int32_t half = round_run(std::sqrt(left) * run_unit);
-                    std::vector<BallRun>& line =
+                    std::vector<WeightedRun>& line =
                         stack[static_cast<std::size_t>(z)][static_cast<std::size_t>(l)];
                     const std::int32_t slot = slotted && half > 4000 ? 1500 + 20 * l : 0;
                     if (slot == 0) {
@@ -307,7 +307,7 @@ TEST_CASE("solids grow by balls of every size as by brute force", "[morphology]"
                     }
                 }
             }
-            const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+            const auto out = through(DilationStream(lattice, radius), stack, rows_of);
             REQUIRE(out.size() == stack.size());
             for (int z = 0; z < size; z += 3) {
                 for (int l = z % 4; l < size; l += 4) {
@@ -326,7 +326,7 @@ TEST_CASE("a run without an end stays so, whatever is grown beside it", "[morpho
     stack[3][4] = {{-far, -700, weight}, {900, far, weight}};
     stack[12][9] = {{-far, far, weight}};
     stack[18][0] = {{100, 101, weight}};
-    const auto out = through(GrowingLayers(lattice, radius), stack, rows_of);
+    const auto out = through(DilationStream(lattice, radius), stack, rows_of);
     REQUIRE(out.size() == stack.size());
     for (int z = 0; z < 20; ++z) {
         for (int l = 0; l < 12; ++l) {
@@ -347,18 +347,18 @@ TEST_CASE("a point grows into a ball, and a ball shrinks to a point", "[morpholo
             stack[z].end_line();
         }
     }
-    const auto as_rows = [&](const SpanRows& rows) { return BallRows(rows, radius); };
+    const auto as_rows = [&](const SpanRows& rows) { return WeightedRows(rows, radius); };
     double volume = 0;
-    for (const SpanRows& rows : through(GrowingLayers(lattice, radius), stack, as_rows))
+    for (const SpanRows& rows : through(DilationStream(lattice, radius), stack, as_rows))
         volume += static_cast<double>(rows.total_length());
     CHECK(volume / run_unit == Approx(4.0 / 3 * 3.14159265 * 1000).epsilon(0.01));
 }
 
 TEST_CASE("a layer that does not fit what was said of the stack is refused", "[morphology]") {
     const LayerLattice lattice{run_unit, run_unit, 2};
-    GrowingLayers growing(lattice, 3 * run_unit);
-    BallRows short_of_a_line, too_large;
-    const BallRun fits{0, 700, 9.0 * run_unit * run_unit}, larger{0, 700, 9.1 * run_unit * run_unit};
+    DilationStream growing(lattice, 3 * run_unit);
+    WeightedRows short_of_a_line, too_large;
+    const WeightedRun fits{0, 700, 9.0 * run_unit * run_unit}, larger{0, 700, 9.1 * run_unit * run_unit};
     short_of_a_line.append_line(std::span(&fits, 1));
     too_large.append_line(std::span(&fits, 1));
     too_large.append_line(std::span(&larger, 1));

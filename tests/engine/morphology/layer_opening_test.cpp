@@ -66,7 +66,7 @@ TEST_CASE("an opening drops what is thinner than the ball and keeps the rest", "
         const bool fin = 28 <= x && x < 32 && plate(y, 10, 50) && plate(z, 25, 50);
         return block(x, y, z) || fin || distance(x - 5, y - 5, z - 40) < 2;
     });
-    const auto opened = through(OpenedLayers(lattice, 3 * run_unit), stack);
+    const auto opened = through(OpeningStream(lattice, 3 * run_unit), stack);
     REQUIRE(opened.size() == stack.size());
     // A block with round edges (Steiner's formula); rows and layers are a dexel apart.
     const double a = 34, c = 14, r = 3, pi = 3.14159265;
@@ -77,7 +77,7 @@ TEST_CASE("an opening drops what is thinner than the ball and keeps the rest", "
     const auto upper = std::vector<SpanRows>(opened.begin() + 30, opened.end());
     CHECK(volume(upper) == 0);
     // Thin enough a ball keeps it all, but for the edges.
-    CHECK(volume(through(OpenedLayers(lattice, 1.4 * run_unit), stack)) ==
+    CHECK(volume(through(OpeningStream(lattice, 1.4 * run_unit), stack)) ==
           Approx(volume(stack)).epsilon(0.01));
 }
 
@@ -87,8 +87,8 @@ TEST_CASE("opening twice is opening once", "[morphology]") {
         return std::sin(x / 4) + std::sin(y / 5) + std::sin(z / 6) + std::sin(x * y / 60) < 0;
     });
     for (const double radius : {1.0, 2.5, 6.2}) {
-        const auto once = through(OpenedLayers(lattice, radius * run_unit), stack);
-        const auto twice = through(OpenedLayers(lattice, radius * run_unit), once);
+        const auto once = through(OpeningStream(lattice, radius * run_unit), stack);
+        const auto twice = through(OpeningStream(lattice, radius * run_unit), once);
         CHECK(volume(once) < volume(stack));
         // Each end may be off by a unit.
         double ends = 0;
@@ -105,13 +105,13 @@ TEST_CASE("a closing fills what is narrower than the ball, and reaches over no b
         const bool slit = 20 <= x && x < 24, shaft = distance(x - 45, y - 30, 0) < 10;
         return !slit && !shaft;
     });
-    const auto closed = through(ClosedLayers(lattice, 3 * run_unit), stack);
+    const auto closed = through(ClosingStream(lattice, 3 * run_unit), stack);
     REQUIRE(closed.size() == stack.size());
     CHECK(beyond(stack, closed) == 0);
     const double shaft = 3.14159265 * 100 * layers;
     // The slit is open at both ends, where balls enter by less than their radius.
     CHECK(volume(closed) == Approx(60.0 * lines * layers - shaft).epsilon(0.006));
-    CHECK(volume(through(ClosedLayers(lattice, 1.9 * run_unit), stack)) ==
+    CHECK(volume(through(ClosingStream(lattice, 1.9 * run_unit), stack)) ==
           Approx(volume(stack)).epsilon(1e-3));
 }
 
@@ -127,8 +127,8 @@ TEST_CASE("opening and closing are each other's mirror", "[morphology]") {
     const auto void_in_box = dexels([&](double x, double y, double z) {
         return !(inside(x) && inside(y) && inside(z) && wavy(x, y, z)) && 1 <= x && x < 59;
     });
-    const auto closed = through(ClosedLayers(lattice, radius * run_unit), solid);
-    const auto opened = through(OpenedLayers(lattice, radius * run_unit), void_in_box);
+    const auto closed = through(ClosingStream(lattice, radius * run_unit), solid);
+    const auto opened = through(OpeningStream(lattice, radius * run_unit), void_in_box);
     // Far from the lattice's border what is not in the one is in the other, to a unit an end.
     double both = 0, neither = 0, ends = 0;
     for (std::size_t z = 10; z < 50; ++z) {

@@ -57,7 +57,7 @@ double length_along(const FieldPtr& solid, dvec2 from, dvec2 to) {
 CheckReport check(const FieldPtr& part, Check kind, double limit) {
     Job job = scenes::job_of(part, part->bounds(), 0.5);
     PrintCheckOptions options;
-    options.limits.verdicts[static_cast<std::size_t>(kind)] = Verdict::fail;
+    options.limits.verdicts[static_cast<std::size_t>(kind)] = Severity::fail;
     options.limits.thickness = options.limits.gap = limit;
     options.pitch = limit / 6;
     PrintCheck checks(job, options);

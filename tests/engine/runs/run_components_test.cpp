@@ -29,8 +29,8 @@ std::size_t count_in_plane(const std::vector<std::string>& lines, const Growth& 
 }
 
 RunComponents joined(const std::vector<std::vector<std::string>>& layers, const Growth& growth,
-                     std::size_t most_runs = 1000) {
-    RunComponents components(growth, most_runs);
+                     std::size_t max_runs = 1000) {
+    RunComponents components(growth, max_runs);
     for (std::size_t l = 0; l < layers.size(); ++l) {
         components.add(label_layer(drawn(layers[l]), static_cast<int>(l), growth), static_cast<int>(l));
     }

@@ -166,14 +166,14 @@ TEST_CASE("cavities that are too small or too narrow are left solid", "[enclosur
     options.bead = 0.7;
     const HollowSurvey all = hollow_out(job_of(part), options);
     REQUIRE(all.count == 2);
-    options.least_volume = 100;
+    options.min_volume = 100;
     const HollowSurvey large = hollow_out(job_of(part), options);
     REQUIRE(large.count == 1);
     REQUIRE(large.left_solid == 1);
     const FieldPtr hollow = make_box_solid(large.cavities);
     REQUIRE(hollow->value({5, 5, 2}) < 0);
     REQUIRE(hollow->value({23, 3, 2}) > 0);
-    options.least_volume = 1e6;
+    options.min_volume = 1e6;
     REQUIRE(hollow_out(job_of(part), options).cavities->empty());
 }
 
@@ -214,8 +214,8 @@ TEST_CASE("hollowing out refuses what makes no sense", "[enclosure]") {
     refused([](HollowOptions& o) { o.pitch = 0.21; });
     refused([](HollowOptions& o) { o.pitch = 0; });
     refused([](HollowOptions& o) { o.layers_at_once = 0; });
-    refused([](HollowOptions& o) { o.least_volume = NAN; });
-    refused([](HollowOptions& o) { o.most_bytes = 100000; });
+    refused([](HollowOptions& o) { o.min_volume = NAN; });
+    refused([](HollowOptions& o) { o.max_bytes = 100000; });
     CancelToken cancel;
     cancel.cancel();
     HollowOptions options = options_of(1);

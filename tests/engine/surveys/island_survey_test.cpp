@@ -250,14 +250,14 @@ TEST_CASE("an island that is too large to be debris is reported and left alone")
     const FieldPtr scene = make_union({make_box({{0, 0, 0}, {6, 6, 6}}), make_sphere({9, 3, 3}, 2)});
     const Job job = scenes::job_of(scene, {{-1, -1, 0}, {12, 7, 7}}, 0.1);
     IslandSurveyOptions options;
-    options.most_runs = 200;
+    options.max_runs = 200;
     const IslandSurvey survey = survey_islands(job, nullptr, options);
     REQUIRE(survey.report.count == 1);
     REQUIRE(survey.report.too_large == 1);
     REQUIRE_FALSE(survey.report.largest[0].dropped);
     REQUIRE(survey.report.largest[0].volume == Approx(4 * pi / 3 * 8).epsilon(0.02));
     REQUIRE(survey.dropped->empty());
-    options.most_kept = 10;
+    options.max_kept = 10;
     REQUIRE_THROWS_AS(survey_islands(job, nullptr, options), InputError);
 }
 

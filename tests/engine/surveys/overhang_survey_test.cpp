@@ -357,7 +357,7 @@ TEST_CASE("limits that make no sense are refused with what would") {
         refused([&](auto& o) { o.stability->density = wrong; });
         refused([&](auto& o) { o.stability->adhesion = wrong; });
         refused([&](auto& o) { o.stability->bond = wrong; });
-        refused([&](auto& o) { o.stability->least_height = wrong; });
+        refused([&](auto& o) { o.stability->min_height = wrong; });
     }
     refused([&](auto& o) { o.limits.overhang = 1e-5; });
     Job endless = job;

@@ -126,7 +126,7 @@ TEST_CASE("what cannot be joined is refused", "[joins]") {
     for (int i = 0; i < 12; ++i) balls.push_back(make_sphere({5.0 * i, 0, 0}, 1));
     const Job job = scenes::job_of(make_union(balls), make_union(balls)->bounds(), 0.1);
     JoinSurveyOptions options;
-    options.most_pieces = 10;
+    options.max_pieces = 10;
     CHECK_THROWS_WITH(survey_joins(job, options), Catch::Contains("12 pieces"));
     options.pitch = 100;
     CHECK_THROWS_AS(survey_joins(job, options), InputError);

@@ -223,9 +223,9 @@ TEST_CASE("a thin tower without a face to hold says where it topples") {
     // The foot sticks with 0.32 N at 2 mm.
     REQUIRE(*survey.topples_at == Approx(6.4).margin(0.4));
     // What is lower than the least height is not judged.
-    limits.least_height = 8;
+    limits.min_height = 8;
     REQUIRE(*surveyed(tower, bounds, limits).topples_at == Approx(8).margin(0.21));
-    limits.least_height = 30.5;
+    limits.min_height = 30.5;
     REQUIRE_FALSE(surveyed(tower, bounds, limits).topples_at);
 }
 

@@ -137,7 +137,7 @@ TEST_CASE("a shield refuses what makes no sense", "[enclosure]") {
     refused([](ShieldOptions& o) { o.step = NAN; });
     refused([](ShieldOptions& o) { o.pitch = 0.21; });
     refused([](ShieldOptions& o) { o.layers_at_once = 0; });
-    refused([](ShieldOptions& o) { o.most_bytes = 100000; });
+    refused([](ShieldOptions& o) { o.max_bytes = 100000; });
 }
 
 }  // namespace shield_survey_test

@@ -102,12 +102,12 @@ TEST_CASE("a parcel that is cut or stretched is refused", "[shard]") {
     std::string text = "lines";
     std::vector<double> numbers{1, 2, 3};
     int count = 7;
-    Parcel packed;
+    Archive packed;
     packed(text, numbers, count);
     for (std::size_t size = 0; size <= packed.bytes().size() + 1; ++size) {
         std::string bytes = packed.bytes();
         bytes.resize(size);
-        Parcel opened(bytes);
+        Archive opened(bytes);
         std::string other_text;
         std::vector<double> other_numbers;
         int other_count = 0;

@@ -24,8 +24,8 @@ PrinterProfile machine(const std::string& backend) {
 /// F, w or - for each check, in their order.
 std::string verdicts(const PrinterProfile& profile) {
     std::string text;
-    for (const Verdict verdict : process_limits(profile).verdicts)
-        text += verdict == Verdict::fail ? 'F' : verdict == Verdict::warn ? 'w' : '-';
+    for (const Severity verdict : process_limits(profile).verdicts)
+        text += verdict == Severity::fail ? 'F' : verdict == Severity::warn ? 'w' : '-';
     return text;
 }
 
@@ -85,9 +85,9 @@ TEST_CASE("what matters is decided by the process, and by the profile over it", 
     tied.cutting.ties = Ties::join;
     CHECK(verdicts(tied) == "ww---FwFw-Fw");
     PrinterProfile own = machine("gcode");
-    own.check.concerns[0] = Concern::off;
-    own.check.concerns[1] = Concern::fail;
-    own.check.concerns[2] = Concern::warn;
+    own.check.concerns[0] = SeverityOverride::off;
+    own.check.concerns[1] = SeverityOverride::fail;
+    own.check.concerns[2] = SeverityOverride::warn;
     CHECK(verdicts(own) == "-FwFFFww--FF");
 }
 
@@ -114,10 +114,10 @@ TEST_CASE("sizes are the machine's where it has them, and the profile's where it
     CHECK(process_limits(laser).gap == 0.2);
     laser.cutting.kerf = 0.35;
     CHECK(process_limits(laser).gap == 0.35);
-    laser.check.least_gap = 0.5;
-    laser.check.least_thickness = 3;
-    laser.check.least_thickness_up = 0;
-    laser.check.least_cavity = 0;
+    laser.check.min_gap = 0.5;
+    laser.check.min_thickness = 3;
+    laser.check.min_thickness_up = 0;
+    laser.check.min_cavity = 0;
     CHECK(process_limits(laser).gap == 0.5);
     CHECK(process_limits(laser).thickness == 3);
     CHECK(process_limits(laser).cavity == 0);
@@ -136,7 +136,7 @@ TEST_CASE("a machine's room is what its back-end takes, to a hundredth of a mill
     for (const PrinterProfile& profile : {machine("png"), machine("sl1"), machine("goo"), machine("nanodlp"),
                                           ember, machine("gcode"), brimmed, grbl, clear}) {
         INFO(profile.backend);
-        const dvec3 room = build_room(profile, 0.2);
+        const dvec3 room = build_volume_limits(profile, 0.2);
         const dvec3 box = glm::min(room, dvec3(1e4, 1e4, 20));
         CHECK(takes(profile, box));
         CHECK_FALSE(takes(profile, box + dvec3(0.01, 0, 0)));
@@ -144,7 +144,7 @@ TEST_CASE("a machine's room is what its back-end takes, to a hundredth of a mill
         if (room.z < 1e4) CHECK_FALSE(takes(profile, {box.x, box.y, room.z + 0.2}));
     }
     for (const char* open : {"svg", "dxf", "cli", "3mf"})
-        CHECK(build_room(machine(open), 0.2) == dvec3(infinity));
+        CHECK(build_volume_limits(machine(open), 0.2) == dvec3(infinity));
 }
 
 }  // namespace process_limits_test

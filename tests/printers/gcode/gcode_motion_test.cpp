@@ -237,8 +237,8 @@ TEST_CASE("beads are as fast as their role says", "[gcode]") {
 TEST_CASE("small layers are slowed down, but not below the least speed", "[gcode]") {
     PrinterProfile profile = plain();
     const std::string fast = print(profile);
-    profile.gcode.least_layer_time = 6;
-    profile.gcode.least_speed = 12;
+    profile.gcode.min_layer_time = 6;
+    profile.gcode.min_speed = 12;
     const std::string text = print(profile);
     CHECK(filament_of(plane_moves(text)) == Approx(filament_of(plane_moves(fast))));
     std::vector<double> slowest(20, 1e9), seconds(20, 0), was(20, 0);
@@ -324,7 +324,7 @@ TEST_CASE("what slows and merges is continued byte for byte", "[gcode]") {
     PrinterProfile profile = plain();
     profile.gcode.lines_per_second = 40;
     profile.gcode.arcs = true;
-    profile.gcode.least_layer_time = 5;
+    profile.gcode.min_layer_time = 5;
     profile.gcode.layer_script = "M117 {filament_used}";
     const int stop = GENERATE(0, 1, 9, 19);
     run_layers(cones(), *make_gcode(profile, folder / "parts", false), {0, 20}, false, stop);

@@ -95,7 +95,7 @@ TEST_CASE("grey follows gamma between its limits", "[mask]") {
     profile.image.sub_layers = 50;
     const MiddleRow plain = middle_row(ramp(), 0, profile);
     profile.image.gamma = 2.2;
-    profile.image.least_grey = 0.2;
+    profile.image.min_grey = 0.2;
     profile.image.full_grey = 0.9;
     const MiddleRow toned = middle_row(ramp(), 0, profile);
     CHECK(toned.area == plain.area);
@@ -148,10 +148,10 @@ TEST_CASE("greys that make no sense are refused", "[mask]") {
         CHECK_THROWS_AS(MaskLayout(profile.image, ramp().bounds), InputError);
     };
     for (const double wrong : {-0.1, 1.1, std::nan("")}) {
-        refused([&](ImageProfile& image) { image.least_grey = wrong; });
+        refused([&](ImageProfile& image) { image.min_grey = wrong; });
         refused([&](ImageProfile& image) { image.full_grey = wrong; });
     }
-    refused([](ImageProfile& image) { image.least_grey = 0.6, image.full_grey = 0.5; });
+    refused([](ImageProfile& image) { image.min_grey = 0.6, image.full_grey = 0.5; });
     for (const double wrong : {0.0, -1.0, 11.0, std::nan("")})
         refused([&](ImageProfile& image) { image.gamma = wrong; });
     for (const int wrong : {0, -1, 65}) refused([&](ImageProfile& image) { image.sub_layers = wrong; });

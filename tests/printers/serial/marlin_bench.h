@@ -36,7 +36,7 @@ struct MarlinBench {
         sender.tick(now);
         const std::string bytes(sender.output());
         sender.wrote(bytes.size());
-        most_unanswered = std::max(most_unanswered, sender.unanswered());
+        max_unanswered = std::max(max_unanswered, sender.unanswered());
         if (!unplugged) out.put(bytes, now);
         printer.receive(out.take(now), now);
         const std::string said = printer.run(now);
@@ -62,7 +62,7 @@ struct MarlinBench {
     FaultyWire out, in;
     double now = 0;
     bool unplugged = false;
-    std::size_t most_unanswered = 0;
+    std::size_t max_unanswered = 0;
 };
 
 }  // namespace lamella::test

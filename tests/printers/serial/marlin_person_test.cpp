@@ -101,7 +101,7 @@ TEST_CASE("unknown firmware gets one line at a time") {
     bench.printer.run(0);  // its greeting, which names Marlin, is lost
     REQUIRE(bench.print(moves(300), 100));
     CHECK(!bench.sender.stopped());
-    CHECK(bench.most_unanswered < 40);
+    CHECK(bench.max_unanswered < 40);
     CHECK(first_difference(job_lines(bench.printer.executed()), moves(300)) == "");
 }
 

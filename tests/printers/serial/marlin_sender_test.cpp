@@ -24,8 +24,8 @@ TEST_CASE("without faults every line is executed once, none is asked for twice, 
     CHECK(bench.printer.lost_bytes() == 0);
     CHECK(bench.sender.statistics().resends == 0);
     CHECK(bench.sender.statistics().timeouts == 0);
-    CHECK(bench.most_unanswered <= settings.window);
-    CHECK(bench.most_unanswered > settings.window / 2);
+    CHECK(bench.max_unanswered <= settings.window);
+    CHECK(bench.max_unanswered > settings.window / 2);
 }
 
 TEST_CASE("ten thousand lines get through one per cent of every fault, once each and in order") {

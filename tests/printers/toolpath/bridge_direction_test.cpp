@@ -36,17 +36,17 @@ TEST_CASE("a bridge leads over the gap, however it is turned", "[bridge]") {
         // Held all round: the short way. Held at the far ends alone: the long way.
         const Polygons gap = box({-5, -15}, {5, 15}, a);
         const Polygons plate = box({-20, -30}, {20, 30}, a);
-        CHECK(between(bridge_direction(gap, Footing(subtract_polygons(plate, gap), 0.1), 0.45), a) < 5);
+        CHECK(between(bridge_direction(gap, LayerBelow(subtract_polygons(plate, gap), 0.1), 0.45), a) < 5);
         const Polygons banks = unite_polygons(box({-5, 15}, {5, 30}, a), box({-5, -30}, {5, -15}, a));
-        CHECK(between(bridge_direction(gap, Footing(banks, 0.1), 0.45), a + 90 * degree) < 5);
+        CHECK(between(bridge_direction(gap, LayerBelow(banks, 0.1), 0.45), a + 90 * degree) < 5);
         // A balcony: out from what holds it.
         const Polygons balcony = box({0, -15}, {4, 15}, a);
-        CHECK(between(bridge_direction(balcony, Footing(box({-20, -30}, {0, 30}, a), 0.1), 0.45), a) < 5);
+        CHECK(between(bridge_direction(balcony, LayerBelow(box({-20, -30}, {0, 30}, a), 0.1), 0.45), a) < 5);
     }
 }
 
 TEST_CASE("a bridge with no hold at all has a direction", "[bridge]") {
-    const dvec2 along = bridge_direction(box({0, 0}, {20, 5}, 0), Footing({}, 0.1), 0.45);
+    const dvec2 along = bridge_direction(box({0, 0}, {20, 5}, 0), LayerBelow({}, 0.1), 0.45);
     CHECK(glm::length(along) == Approx(1));
 }
 

@@ -27,7 +27,7 @@ Polygons discs() {
 }  // namespace
 
 TEST_CASE("pieces of beads follow each other and lay the same volume", "[hanging]") {
-    const Footing footing(discs(), 0.05);
+    const LayerBelow footing(discs(), 0.05);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-4, 36), width(0.3, 0.6);
     for (int round = 0; round < 200; ++round) {
@@ -68,7 +68,7 @@ TEST_CASE("pieces of beads follow each other and lay the same volume", "[hanging
 }
 
 TEST_CASE("a bead that hangs or is held as a whole stays whole", "[hanging]") {
-    const Footing footing({to_polygon(box_contour({0, 0}, {20, 20}).points)}, 0.05);
+    const LayerBelow footing({to_polygon(box_contour({0, 0}, {20, 20}).points)}, 0.05);
     const auto loop = [](dvec2 at) {
         Bead bead;
         bead.points = box_contour(at, at + dvec2(5)).points;

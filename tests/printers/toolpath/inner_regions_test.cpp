@@ -71,7 +71,7 @@ TEST_CASE("sparse specks become solid", "[inner_regions]") {
 TEST_CASE("what hangs is bridged the short way and anchored on both sides", "[inner_regions]") {
     const double density = GENERATE(0.2, 1.0);
     const Polygons region = box({0, 0}, {40, 30});
-    const Footing footing(subtract_polygons(region, box({10, 5}, {18, 25})), 0.1);
+    const LayerBelow footing(subtract_polygons(region, box({10, 5}, {18, 25})), 0.1);
     const PlacedPolygons core;
     const auto parts = divide_inside(region, {&footing, &core}, density, line);
     check_partition(region, parts);
@@ -86,7 +86,7 @@ TEST_CASE("what hangs is bridged the short way and anchored on both sides", "[in
     }
     CHECK(bridges == 1);
     // A step out by less than a line is none.
-    const Footing almost(box({0.3, 0.3}, {39.7, 29.7}), 0.1);
+    const LayerBelow almost(box({0.3, 0.3}, {39.7, 29.7}), 0.1);
     CHECK(area_of_kind(divide_inside(region, {&almost, &core}, density, line), Fill::bridge) == 0);
     // Sparse infill bridges nothing.
     CHECK(area_of_kind(divide_inside(region, {&footing, nullptr}, 0.2, line), Fill::bridge) == 0);

@@ -257,7 +257,7 @@ TEST_CASE("work on a structure is told of, and can be stopped", "[elasticity]") 
     };
     CHECK_THROWS_AS(homogenize(sample, {}, options), Interrupted);
     options.cancel = nullptr;
-    options.most_iterations = 2;
+    options.max_iterations = 2;
     CHECK_THROWS_AS(homogenize(sample, {}, options), FaultError);
 }
 

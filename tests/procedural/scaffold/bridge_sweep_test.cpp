@@ -30,7 +30,7 @@ double best_score(const std::vector<ScaffoldElement>& elements, const ScaffoldSh
                   dvec2 u) {
     const double pillar = (2 * shape.pillar - shape.wall) * shape.wall;
     const double middle = (shape.tip + shape.bar_width) / 2;
-    const double bar_share = BridgeWorth::share_of_bar * shape.bar_width * shape.bar_height / pillar;
+    const double bar_share = BridgeScore::share_of_bar * shape.bar_width * shape.bar_height / pillar;
     const double connector_share = 3.14159265358979323846 / 4 * middle * middle / pillar;
     const dvec2 n(-u.y, u.x);
     double best = -infinity;

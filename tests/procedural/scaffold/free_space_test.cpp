@@ -15,7 +15,7 @@ using namespace lamella;
 
 namespace {
 
-double least_distance(const Field& part, dvec3 a, dvec3 b) {
+double min_distance(const Field& part, dvec3 a, dvec3 b) {
     double least = infinity;
     for (int k = 0; k <= 2000; ++k) least = std::min(least, part.value(a + (b - a) * (k / 2000.0)));
     return least;
@@ -49,7 +49,7 @@ TEST_CASE("a line is clear when it keeps its distance", "[free_space]") {
             const dvec3 a(place(random), place(random), place(random));
             const dvec3 b(place(random), place(random), place(random));
             const double needed = distance(random);
-            const double least = least_distance(*part, a, b);
+            const double least = min_distance(*part, a, b);
             if (std::abs(least - needed) < 0.06) continue;
             CHECK(space.clear(a, b, needed) == (least > needed));
             (least > needed ? clear : blocked)++;

@@ -72,7 +72,7 @@ std::vector<FieldPtr> pieces_of(const Scaffold& scaffold) {
     return pieces;
 }
 
-double least_value(const std::vector<FieldPtr>& pieces, dvec3 p) {
+double min_value(const std::vector<FieldPtr>& pieces, dvec3 p) {
     double least = infinity;
     for (const FieldPtr& piece : pieces) least = std::min(least, piece->value(p));
     return least;
@@ -91,7 +91,7 @@ TEST_CASE("a scaffold's value is the least over all its pieces", "[scaffold]") {
             int inside = 0;
             for (int k = 0; k < 6000; ++k) {
                 const dvec3 p(place(random), place(random), height(random));
-                const double least = least_value(pieces, p);
+                const double least = min_value(pieces, p);
                 REQUIRE(field->value(p) == Approx(least).margin(1e-9));
                 const double most = limit(random), within = field->value_within(p, most);
                 if (std::abs(least) < most) {

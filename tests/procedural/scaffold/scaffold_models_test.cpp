@@ -24,7 +24,7 @@ struct Model {
     const char* file;
     double scale = 1;
     glm::dmat3 turn{1};
-    std::size_t least_points = 50;
+    std::size_t min_points = 50;
 };
 
 FieldPtr part_of(const Model& model) {
@@ -46,7 +46,7 @@ void check_model(const Model& model) {
     const OverhangSurveyOptions options;
     const OverhangSurvey survey =
         survey_overhangs(scenes::job_of(part, part->bounds(), layer_height), options);
-    CHECK(survey.points.size() >= model.least_points);
+    CHECK(survey.points.size() >= model.min_points);
     const Scaffold bridges = built(survey.points, *part, true);
     const Scaffold pillars = built(survey.points, *part, false);
 

@@ -31,7 +31,7 @@ BuiltJob repaired(const std::string& text) {
 
 CheckResult found(const Job& job, Check check, double limit) {
     PrintCheckOptions options;
-    options.limits.verdicts[static_cast<std::size_t>(check)] = Verdict::fail;
+    options.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     options.limits.thickness = options.limits.gap = limit;
     options.pitch = 0.06;
     PrintCheck checks(job, options);

@@ -1,0 +1,278 @@
+// Layers against grown layers below them.
+#include "engine/checks/overhang_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/disjoint_sets.h"
+#include "engine/morphology/dilated_difference.h"
+#include "engine/runs/row_sets.h"
+
+namespace lamella {
+namespace {
+
+constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
+constexpr std::size_t max_slope_layers = 64;
+constexpr std::size_t max_kept_words = std::size_t{2} << 20;  // of all layers' cells, 16 MB
+
+bool any_floats(const std::vector<std::uint8_t>& floats) {
+    return std::ranges::find(floats, 1) != floats.end();
+}
+
+/// Those components of a layer do not float that touch rows of one below.
+void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
+    const auto run_floats = [&](const LabelledRun& run) { return floats[run.component] != 0; };
+    for (const int aside : {0, -1, 1}) {  // most lie right above something
+        if (!any_floats(floats)) return;
+        for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
+            for_first_touching(labelled.row(r + aside), run_floats, below.line(static_cast<std::size_t>(r)),
+                               [&](const LabelledRun& run, const Run&) { floats[run.component] = 0; });
+        }
+    }
+}
+
+/// Joins those components in and beside a row that hang together as closer rows see it, wherever along it:
+/// what is slim and runs nearly along shows far apart in two rows.
+void join_by_closer_rows(const LabelledLayer& labelled, int row, const CheckGrid& grid, const RowsIn& rows_in,
+                         DisjointSets& sets) {
+    constexpr int lines_a_row = 9;  // an odd number: the middle one lies where the row does
+    constexpr std::uint32_t none = UINT32_MAX;
+    RowBand band = grid.band;
+    band.first = std::max(row - 1, 0);
+    band.count = std::min(row + 2, grid.band.count) - band.first;
+    band.sub = lines_a_row;
+    const LabelledLayer closer = label_layer(rows_in(band), 0, Growth{});
+    std::vector<std::uint32_t> seen_as(closer.components.size(), none);
+    for (int k = 0; k < band.count; ++k) {
+        for_touching(labelled.row(band.first + k), closer.row(k * lines_a_row + lines_a_row / 2),
+                     [&](const LabelledRun& run, const LabelledRun& other) {
+                         std::uint32_t& first = seen_as[other.component];
+                         if (first == none) first = run.component;
+                         sets.join(first, run.component);
+                     });
+    }
+}
+
+/// Pieces that one row alone sees may hang together with what is held: rows cut slim tips into such.
+void sink_tips(const LabelledLayer& labelled, const CheckGrid& grid, const RowsIn& rows_in,
+               std::vector<std::uint8_t>& floats) {
+    DisjointSets sets(floats.size());
+    int looked_at = -1;
+    for (std::size_t c = 0; c < floats.size(); ++c) {  // by their first rows
+        const ComponentExtent& extent = labelled.components[c];
+        if (floats[c] == 0 || extent.first_row != extent.last_row || extent.first_row == looked_at) continue;
+        looked_at = extent.first_row;
+        join_by_closer_rows(labelled, looked_at, grid, rows_in, sets);
+    }
+    std::vector<std::uint8_t> held(floats.size(), 0);
+    for (std::uint32_t c = 0; c < floats.size(); ++c) {
+        if (floats[c] == 0) held[sets.find(c)] = 1;
+    }
+    for (std::uint32_t c = 0; c < floats.size(); ++c) {
+        if (held[sets.find(c)] != 0) floats[c] = 0;
+    }
+}
+
+/// What of a lies further than `pitches` from b.
+SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
+    SpanRows out;
+    subtract_dilated(a, b, pitches * run_unit, run_unit, out);
+    return out;
+}
+
+/// Where something of rows that meet these cells may lie further than that from what fills the others.
+SpanRows maybe_beyond(const SpanRows& rows, const RowBitmask& met, const RowBitmask& filled, double pitches) {
+    RowBitmask suspected = met;
+    suspected.subtract_dilated(filled, inner_disc(pitches * run_unit, run_unit));
+    return suspected.of(rows, suspected.lattice().margin_lines);
+}
+
+/// The runs of those components of a layer that are chosen.
+SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
+                 const std::vector<std::uint8_t>& chosen) {
+    SpanRows out;
+    std::size_t i = 0;
+    for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
+        out.end_lines(l - out.lines());
+        for (const Run& run : rows.line(l)) {
+            if (chosen[labelled.owners[i++]] != 0) out.push(run.begin, run.end);
+        }
+        out.end_line();
+    }
+    out.end_lines(rows.lines() - out.lines());
+    return out;
+}
+
+/// Without the pieces that are smaller than `least`, mm.
+SpanRows large_pieces(SpanRows rows, double least, const CheckGrid& grid) {
+    if (rows.runs().empty()) return rows;
+    const LabelledLayer labelled = label_layer(rows, 0, Growth{});
+    return rows_of(rows, labelled, reaching(labelled, least, grid));
+}
+
+std::size_t layers_in(double height, double layer_height) {
+    return static_cast<std::size_t>(std::max(std::ceil(height / layer_height - 1e-6), 0.0));
+}
+
+std::size_t layers_of_slope(const CheckGrid& grid, const PrintLimits& limits) {
+    const std::size_t layers = layers_in(rows_of_slope * grid.band.along_pitch, limits.overhang);
+    return std::clamp<std::size_t>(layers, 1, max_slope_layers);
+}
+
+}  // namespace
+
+OverhangCheck::OverhangCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
+    : grid_(grid),
+      limits_(limits),
+      follows_overhangs_(limits.verdict(Check::overhangs) != Severity::off ||
+                         limits.verdict(Check::bridges) != Severity::off),
+      step_(limits.overhang / grid.band.along_pitch),
+      slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
+      support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
+      supports_(grid, limits.support_spacing, limits.support_gap),
+      islands_(most),
+      overhangs_(most),
+      bridges_(most) {}
+
+void OverhangCheck::add(LayerFootprint layer, LayerCells cells, const LabelledLayer& printed,
+                        const RowsIn& rows_in, int index) {
+    Below next;
+    if (below_.empty()) {
+        next.hung = empty_rows(layer.part.lines());
+        add_overhang(next.hung, index);
+    } else {
+        const SpanRows islands = find_islands(layer, printed, rows_in, index);
+        if (follows_overhangs_) follow_overhangs(layer, cells.met, islands, next, index);
+    }
+    supports_.add(layer.supports);
+    next.rows = std::move(layer);
+    const CellLattice& lattice = cells.met.lattice();
+    if (!below_.empty() && lattice.words * lattice.lines * slope_layers_ > max_kept_words)
+        below_.back().filled.reset();
+    next.filled = std::move(cells.filled);
+    below_.push_back(std::move(next));
+    if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
+}
+
+/// Tells of what hangs beside islands; `next` is to hold what of it may.
+void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitmask& met,
+                                     const SpanRows& islands, Below& next, int index) {
+    // Rows see a border up to a pitch late.
+    const Below& below = below_.back();
+    const SpanRows out =
+        beyond(maybe_beyond(layer.part, met, *below.filled, step_ + 1), below.rows.part, step_ + 1);
+    const SpanRows hanging = without(supports_.unheld(out), islands);
+    const SpanRows bad = judge_regions(layer, hanging, index);
+    next.hung = united(without(hanging, bad), islands);
+    const SpanRows steep = too_steep(layer, met, next.hung);
+    add_overhang(standing_out(layer, united(bad, steep)), index);
+}
+
+/// The pieces of the part that nothing holds.
+SpanRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledLayer& printed,
+                                     const RowsIn& rows_in, int index) {
+    std::vector<std::uint8_t> floats(printed.components.size(), 1);
+    sink_touching(printed, below_.back().rows.printed(), floats);
+    const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
+    for (std::size_t k = oldest; k < below_.size(); ++k)
+        sink_touching(printed, below_[k].rows.supports, floats);
+    if (any_floats(floats)) sink_tips(printed, grid_, rows_in, floats);
+    if (!any_floats(floats)) return empty_rows(layer.printed().lines());
+    SpanRows floating = rows_of(layer.printed(), printed, floats);
+    StreamingComponents one_layer;
+    one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
+    one_layer.finish(ended_);
+    for (const EndedComponent& ended : ended_) {
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.extent.length);
+        islands_.add(std::move(fault));
+    }
+    ended_.clear();
+    return floating;
+}
+
+/// What went out further over several layers than it may, but for what lies above things that may hang.
+SpanRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& met,
+                                  const SpanRows& hangs) const {
+    SpanRows none = empty_rows(layer.part.lines());
+    if (below_.size() < slope_layers_) return none;
+    const std::size_t first = below_.size() - slope_layers_;
+    const double far = static_cast<double>(slope_layers_) * step_ + 1;
+    // Parts of small pieces are small: they need not be looked at further.
+    const auto large = [&](const SpanRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
+    const Below& lowest = below_[first];
+    std::optional<RowBitmask> anew;
+    if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
+    SpanRows steep = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
+    const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
+        if (steep.runs().empty() || hung.runs().empty()) return;
+        steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
+    };
+    explain(hangs, 0);
+    for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
+    if (steep.runs().empty()) return none;
+    steep = beyond(large(steep), lowest.rows.part, far);
+    // What supports hold is looked up last, being the dearest.
+    return large(supports_.unheld(large(steep)));
+}
+
+/// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
+SpanRows OverhangCheck::judge_regions(const LayerFootprint& layer, const SpanRows& hanging, int index) {
+    if (large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) return empty_rows(hanging.lines());
+    std::vector<PlacedRun> bad;
+    const SpanRows held = without(layer.printed(), hanging);
+    for (const HangingRegion& region :
+         find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
+        if (!region.bridge) {
+            bad.insert(bad.end(), region.runs.begin(), region.runs.end());
+        } else if (*region.bridge > limits_.bridge) {
+            LayerPatch patch{.layer = index};
+            for (const PlacedRun& run : region.runs) patch.include(run);
+            Fault fault = grid_.fault(patch);
+            fault.size = *region.bridge;
+            bridges_.add(std::move(fault));
+        }
+    }
+    std::ranges::sort(bad);
+    SpanRows out;
+    for (const PlacedRun& run : bad) {
+        const auto row = static_cast<std::size_t>(run.row);
+        out.end_lines(row - out.lines());
+        out.push(run.begin, run.end);
+    }
+    out.end_lines(hanging.lines() - out.lines());
+    return out;
+}
+
+/// What stands out over the layer below about what was found: from layer to layer that hangs together.
+SpanRows OverhangCheck::standing_out(const LayerFootprint& layer, const SpanRows& found) const {
+    if (found.runs().empty()) return found;
+    const double reach = 2 * step_ + 2;
+    const CellLattice& lattice = below_.back().filled->lattice();
+    const RowBitmask near = LayerCells(found, lattice).met.grown(outer_disc(reach * run_unit, run_unit));
+    const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed());
+    return without(all, beyond(all, found, reach));
+}
+
+void OverhangCheck::add_overhang(const SpanRows& rows, int index) {
+    hanging_.add(label_layer(rows, index, Growth{}), index, {}, ended_);
+    for (const EndedComponent& ended : ended_) {
+        if (ended.joined) continue;
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.largest.length);
+        overhangs_.add(std::move(fault));
+    }
+    ended_.clear();
+}
+
+void OverhangCheck::finish() {
+    hanging_.finish(ended_);
+    for (const EndedComponent& ended : ended_) {
+        Fault fault = grid_.fault(ended.component);
+        fault.size = grid_.area(ended.component.largest.length);
+        overhangs_.add(std::move(fault));
+    }
+    ended_.clear();
+}
+
+}  // namespace lamella

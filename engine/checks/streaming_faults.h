@@ -1,0 +1,60 @@
+// Faults that reach over several layers.
+#pragma once
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "engine/checks/check_sampling.h"
+#include "engine/checks/fault_list.h"
+#include "engine/runs/streaming_components.h"
+
+namespace lamella {
+
+/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
+/// diagonal than `least`, mm, are none.
+class StreamingFaults {
+  public:
+    StreamingFaults(const CheckGrid& grid, double least, std::size_t most)
+        : StreamingFaults(grid, {}, std::numeric_limits<int>::max(), least, most) {}
+    /// Of rows and layers of which some are looked at; layers there are so many.
+    StreamingFaults(const CheckGrid& grid, const CheckSampling& sampling, int layer_count, double least,
+                    std::size_t most)
+        : grid_(sampling.of(grid)),
+          sampling_(sampling),
+          layer_count_(layer_count),
+          least_(least),
+          faults_(most) {}
+    void add(LabelledLayer layer, int index) {
+        components_.add(std::move(layer), index, {}, ended_);
+        take();
+    }
+    void add(const SpanRows& rows, int index) { add(label_layer(rows, index, Growth{}), index); }
+    void finish() {
+        components_.finish(ended_);
+        take();
+    }
+    void excuse_greatest() { faults_.excuse_greatest(); }
+    const FaultList& faults() const { return faults_; }
+
+  private:
+    void take() {
+        for (const EndedComponent& ended : ended_) {
+            Fault fault = grid_.fault(ended.component);
+            const dvec3 size = fault.box.size();
+            if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
+            fault.size = grid_.volume(ended.component.extent.length);
+            faults_.add(sampling_.told(std::move(fault), grid_, layer_count_));
+        }
+        ended_.clear();
+    }
+    CheckGrid grid_;  // of what is looked at
+    CheckSampling sampling_;
+    int layer_count_;
+    double least_;
+    StreamingComponents components_;
+    std::vector<EndedComponent> ended_;
+    FaultList faults_;
+};
+
+}  // namespace lamella

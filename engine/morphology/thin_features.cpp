@@ -1,0 +1,227 @@
+// What is far from what is far from the border.
+#include "engine/morphology/thin_features.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/morphology/coarse_cells.h"
+#include "engine/runs/row_sets.h"
+
+namespace lamella {
+
+namespace {
+
+/// How far from a point lies what decides whether it is too thin.
+double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
+
+SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_out); }
+
+void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
+    out.clear();
+    out.reserve(wide.lines(), wide.runs().size());
+    out.append_lines(wide, margin, wide.lines() - 2 * margin);
+}
+
+/// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie within
+/// `reach` of cells that discs of `radius` do not reach from what is `beside` it.
+RowBitmask candidate_cells(RowBitmask touched, const RowBitmask& beside, double radius, double reach,
+                           double row_pitch) {
+    touched.subtract_dilated(beside.beyond(outer_disc(radius, row_pitch)), inner_disc(reach, row_pitch));
+    return touched;
+}
+
+/// How many rows wide cells are that tell well enough what may be too thin.
+std::int32_t cell_scale(const Thinness& thinness) {
+    constexpr std::int32_t cells_in_radius = 4;
+    return std::max(static_cast<std::int32_t>(thinness.radius / (cells_in_radius * run_unit)), 1);
+}
+
+/// What lies in `where`, whose rows have a margin, of the solid or of the void.
+SpanRows medium_within(const SpanRows& where, const SpanRows& rows, std::size_t margin, FeatureKind medium) {
+    SpanRows within;
+    for (std::size_t l = 0; l < where.lines(); ++l) {
+        const bool in_margin = l < margin || l >= margin + rows.lines();
+        const std::span<const Run> solid = in_margin ? std::span<const Run>() : rows.line(l - margin);
+        if (medium == FeatureKind::wall) {
+            intersect_line(where.line(l), solid, within);
+        } else {
+            subtract_line(where.line(l), solid, within);
+        }
+    }
+    return within;
+}
+
+/// On each line what lies no further along and across from rows than a ball reaches, and what is between.
+SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
+    const auto beside = static_cast<std::size_t>(radius / row_pitch);
+    const std::int32_t along = static_cast<std::int32_t>(radius) + 1;
+    SpanRows all;
+    for (std::size_t l = 0; l < rows.lines(); ++l) {
+        std::int32_t begin = far_out, end = -far_out;
+        for (std::size_t k = l - std::min(l, beside); k < std::min(l + beside + 1, rows.lines()); ++k) {
+            const std::span<const Run> runs = rows.line(k);
+            if (runs.empty()) continue;
+            begin = std::min(begin, runs.front().begin - along);
+            end = std::max(end, runs.back().end + along);
+        }
+        all.push(begin, end);
+        all.end_line();
+    }
+    return all;
+}
+
+/// Where something may be too thin, and where it matters whether balls fit: no further from there than they
+/// reach. Rows with a margin.
+struct Candidates {
+    SpanRows at, near;
+    std::size_t margin;
+};
+
+Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureKind medium,
+                        const Thinness& thinness, double row_pitch) {
+    RowBitmask void_met = cells.filled;
+    void_met.invert();
+    const double reach = thinness.radius + thinness.slack;
+    const RowBitmask suspected =
+        medium == FeatureKind::wall ? candidate_cells(cells.met, void_met, thinness.radius, reach, row_pitch)
+                                    : candidate_cells(void_met, cells.met, thinness.radius, reach, row_pitch);
+    const std::size_t margin = cells.met.lattice().margin_lines, lines = row_count + 2 * margin;
+    Candidates found{suspected.runs(0, lines), {}, margin};
+    if (!found.at.runs().empty()) found.near = suspected.grown(outer_disc(reach, row_pitch)).runs(0, lines);
+    return found;
+}
+
+/// The same by cells of several rows.
+Candidates coarse_suspicion_of(const SpanRows& rows, FeatureKind medium, const Thinness& thinness,
+                               double row_pitch) {
+    // Rows of two cells lie up to a row of cells nearer or farther; and more than rounding makes.
+    const double surely = row_pitch + 1;
+    const std::int32_t scale = cell_scale(thinness);
+    const CoarseCells cells(rows, scale, thinness_reach(thinness), row_pitch);
+    const double radius = thinness.radius / scale, reach = (thinness.radius + thinness.slack) / scale;
+    const bool of_solid = medium == FeatureKind::wall;
+    const RowBitmask suspected =
+        candidate_cells(of_solid ? cells.solid() : cells.voids(), of_solid ? cells.voids() : cells.solid(),
+                        radius + surely, reach - surely, row_pitch);
+    Candidates found{cells.rows_of(suspected), {}, cells.margin()};
+    if (!found.at.runs().empty())
+        found.near = cells.rows_of(suspected.grown(outer_disc(reach + surely, row_pitch)));
+    return found;
+}
+
+/// The points of a medium that are too thin, out of the suspected ones. They are looked at run by run.
+void thin_among(const Candidates& suspicion, const SpanRows& rows, FeatureKind medium,
+                const Thinness& thinness, double row_pitch, SpanRows& out) {
+    if (suspicion.at.runs().empty()) {
+        out = empty_rows(rows.lines());
+        return;
+    }
+    const double reach = thinness.radius + thinness.slack;
+    const SpanRows about = extents_about(suspicion.near, thinness.radius, row_pitch);
+    const FeatureKind other = medium == FeatureKind::wall ? FeatureKind::gap : FeatureKind::wall;
+    const auto within = [&](const SpanRows& where, FeatureKind in) {
+        return medium_within(where, rows, suspicion.margin, in);
+    };
+    SpanRows core, thin;
+    subtract_dilated(within(suspicion.near, medium), within(about, other), thinness.radius, row_pitch, core);
+    subtract_dilated(within(suspicion.at, medium), core, reach, row_pitch, thin);
+    without_margin(thin, suspicion.margin, out);
+}
+
+void thin_rows_by_coarse_cells(const SpanRows& rows, FeatureKind medium, const Thinness& thinness,
+                               double row_pitch, SpanRows& out) {
+    thin_among(coarse_suspicion_of(rows, medium, thinness, row_pitch), rows, medium, thinness, row_pitch,
+               out);
+}
+
+}  // namespace
+
+SpanRows widened(const SpanRows& rows, std::size_t margin) {
+    SpanRows wide;
+    wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
+    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
+    wide.append_lines(rows);
+    for (std::size_t l = 0; l < margin; ++l) wide.end_line();
+    return wide;
+}
+
+std::size_t margin_of(const Thinness& thinness, double row_pitch) {
+    return static_cast<std::size_t>((thinness.radius + thinness.slack) / row_pitch) + 1;
+}
+
+double reach_of_cells(const Thinness& thinness) {
+    return cell_scale(thinness) > 1 ? 0 : thinness_reach(thinness);
+}
+
+void thin_rows(const SpanRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
+               SpanRows& out) {
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
+    const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
+    thin_rows(rows, cells, medium, thinness, row_pitch, out);
+}
+
+void thin_rows(const SpanRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
+               double row_pitch, SpanRows& out) {
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
+    thin_among(suspicion_of(cells, rows.lines(), medium, thinness, row_pitch), rows, medium, thinness,
+               row_pitch, out);
+}
+
+ThinFeatureStream::ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness,
+                                     FeatureKind medium)
+    : medium_(medium),
+      lines_(lattice.lines),
+      margin_(margin_of(thinness, lattice.row_pitch)),
+      beyond_(lattice.layers_within(thinness.radius) +
+              lattice.layers_within(thinness.radius + thinness.slack)),
+      to_drop_(beyond_),
+      core_(lattice, thinness.radius),
+      thin_(lattice, thinness.radius + thinness.slack) {
+    push_beyond();
+}
+
+/// The void goes on, and balls fit there.
+void ThinFeatureStream::push_beyond() {
+    for (std::size_t i = 0; i < beyond_; ++i) push_wide(empty_rows(lines_ + 2 * margin_));
+}
+
+void ThinFeatureStream::push(const SpanRows& layer) {
+    if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
+    ++to_come_;
+    push_wide(widened(layer, margin_));
+}
+
+void ThinFeatureStream::push_wide(SpanRows layer) {
+    SpanRows voids = void_of(layer);
+    if (medium_ == FeatureKind::gap) std::swap(layer, voids);
+    of_.push_back(layer);
+    core_.push(std::move(layer), std::move(voids));
+    carry_on();
+}
+
+void ThinFeatureStream::finish() {
+    push_beyond();
+    core_.finish();
+    carry_on();
+    thin_.finish();
+}
+
+void ThinFeatureStream::carry_on() {
+    for (SpanRows core; core_.pop(core);) {
+        thin_.push(std::move(of_.front()), std::move(core));
+        of_.pop_front();
+    }
+}
+
+bool ThinFeatureStream::pop(SpanRows& out) {
+    SpanRows wide;
+    for (; to_drop_ > 0; --to_drop_) {
+        if (!thin_.pop(wide)) return false;
+    }
+    if (to_come_ == 0 || !thin_.pop(wide)) return false;
+    --to_come_;
+    without_margin(wide, margin_, out);
+    return true;
+}
+
+}  // namespace lamella

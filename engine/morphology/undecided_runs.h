@@ -1,0 +1,114 @@
+// UndecidedRuns: what of a layer's runs is not known yet to lie near a place of some kind.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/morphology/dilated_difference.h"
+
+namespace lamella {
+
+/// A stretch of a line of a stack of layers; run units.
+struct Place {
+    std::int32_t layer, line;
+    Run run;
+};
+
+/// Places by number, of layers that stream by.
+class Places {
+  public:
+    std::uint32_t add(const Place& place) {
+        kept_.push_back(place);
+        return first_ + static_cast<std::uint32_t>(kept_.size()) - 1;
+    }
+    const Place& operator[](std::uint32_t number) const { return kept_[number - first_]; }
+    /// Forgets some of those below a layer, whose numbers must not be asked for again.
+    void forget_below(std::int32_t layer);
+
+  private:
+    std::vector<Place> kept_;
+    std::uint32_t first_ = 0;  // number of the first that is kept
+};
+
+/// What lies near a place: a ball about each of its points.
+class NearPlace {
+  public:
+    explicit NearPlace(const BallLines& ball);
+    /// What of a line lies near; an empty run where nothing does.
+    Run on(const Place& place, std::int32_t layer, std::int32_t line) const {
+        const int up = layer - place.layer + layers_, across = line - place.line + rows_;
+        if (up < 0 || up > 2 * layers_ || across < 0 || across > 2 * rows_) return {0, 0};
+        const RoundedExtent& reach = reaches_[number(up, across)];
+        if (reach.ahead < 0) return {0, 0};
+        return {place.run.begin - reach.back, place.run.end + reach.ahead};
+    }
+
+  private:
+    /// Of the line so many layers and rows on from the first one about the middle.
+    std::size_t number(int up, int across) const {
+        const int rows = 2 * rows_ + 1;
+        return static_cast<std::size_t>(up) * static_cast<std::size_t>(rows) +
+               static_cast<std::size_t>(across);
+    }
+
+    int layers_, rows_;
+    std::vector<RoundedExtent> reaches_;  // of lines, layer by layer; negative beyond the ball
+};
+
+/// A run of rows: its line, and its number among all of them.
+struct NumberedRun {
+    std::size_t line, number;
+};
+
+/// Of each run of a layer one stretch, which gets shorter as places near it become known, and these places.
+class UndecidedRuns {
+  public:
+    /// `count` lines from `first_line` on are open wholly, others not at all. The rows stay where they are.
+    UndecidedRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count);
+
+    /// What is open of the run with that number.
+    const Run& of(std::size_t number) const { return open_[number]; }
+    /// Whether places are known that runs of a line are near.
+    bool knows_any(std::size_t line) const { return known_in_[line] > 0; }
+    bool is_open(std::size_t number) const { return of(number).begin < of(number).end; }
+    /// Whether what lies near a place is open at an end of a run.
+    bool may_close(const Place& place, const NumberedRun& run, const NearPlace& near) const {
+        const Run closed = near.on(place, layer_, static_cast<std::int32_t>(run.line)),
+                  &open = open_[run.number];
+        return closed.begin < open.end && open.begin < closed.end &&
+               (closed.begin <= open.begin || open.end <= closed.end);
+    }
+    /// What of a run lies near a place is not open any more. If what lies on both sides of it was open, all
+    /// stays so.
+    void decide_within(std::uint32_t place, const Places& places, const NumberedRun& run,
+                       const NearPlace& near);
+    /// Does so for the places that are near runs of another line, of the same layer or of another one, where
+    /// these lie beside it.
+    void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, std::size_t other_line,
+                      const Places& places, const Run& whole, const NumberedRun& run, const NearPlace& near);
+    /// Does so for all runs and the places that are near runs of the same line of another layer.
+    void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, const Places& places,
+                      const SpanRows& rows, const NearPlace& near);
+
+  private:
+    void close_near_all(const UndecidedRuns& others, std::size_t other, const Places& places,
+                        const NumberedRun& run, const NearPlace& near);
+
+    static constexpr std::uint32_t none = UINT32_MAX;
+    /// A place that a run was found to be near, and where the next one stands in more_.
+    struct Link {
+        std::uint32_t place = none, next = none;
+    };
+    std::int32_t layer_;
+    std::vector<Run> open_;   // of each run
+    std::vector<Link> near_;  // of each run
+    std::vector<Link> more_;
+    std::vector<std::uint32_t> known_in_;  // how many, of each line
+};
+
+/// The number of a line's first run.
+inline std::size_t first_run(const SpanRows& rows, std::size_t line) {
+    return static_cast<std::size_t>(rows.line(line).data() - rows.runs().data());
+}
+
+}  // namespace lamella

@@ -1,0 +1,84 @@
+// Outputs in a folder that nobody sees.
+#include "recipe/output/render_only.h"
+
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "recipe/identity.h"
+#include "recipe/printer_choice.h"
+
+namespace lamella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is gone when this is.
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::error_code error;
+        std::string pattern = (fs::temp_directory_path(error) / "lamella_XXXXXX").string();
+        if (error || mkdtemp(pattern.data()) == nullptr)
+            throw FaultError("no folder for unfinished layers can be made in " + pattern);
+        path_ = pattern;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+class Renderer : public Backend {
+  public:
+    Renderer(std::span<const Output> outputs, LayerRange whole) : whole_(whole) {
+        std::vector<Output> moved(outputs.begin(), outputs.end());
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            const fs::path folder = folder_.path() / std::to_string(i);
+            fs::create_directory(folder);
+            const fs::path name = fs::path(moved[i].path).filename();
+            moved[i].path = (folder / (name.empty() || name == "-" ? "layers" : name)).string();
+        }
+        outputs_ = make_outputs(moved, true);
+    }
+    int begin(const Job& job, LayerRange range, bool /*resume*/) override {
+        outputs_->begin(job, whole_, false);
+        return range.first;
+    }
+    std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+        return outputs_->render(layer);
+    }
+    void write(const Layer& /*layer*/, LayerProduct& /*product*/) override {}
+    void end() override {}
+
+  private:
+    ScratchFolder folder_;  ///< outlives what is open in it
+    std::unique_ptr<Backend> outputs_;
+    LayerRange whole_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_renderer(std::span<const Output> outputs, LayerRange whole) {
+    return std::make_unique<Renderer>(outputs, whole);
+}
+
+std::string settings_of(std::span<const Output> outputs) {
+    Fnv128 hash;
+    for (const Output& output : outputs) {
+        if (output.open)
+            throw InputError(output.path +
+                             ": layers for a plugin cannot be carried; accepted: outputs "
+                             "of lamella's own printers");
+        hash.add(profile_as_toml({output.printer, "", ""}) + "\n");
+    }
+    return hash.hex();
+}
+
+}  // namespace lamella
