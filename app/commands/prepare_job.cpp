@@ -55,7 +55,7 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
 }  // namespace
 
 SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
-                                  const CancelToken& cancel) {
+                                       const CancelToken& cancel) {
     std::optional<ProgressDisplay> display;
     std::string shown;
     const auto show = [&](const std::string& what, const Progress& progress) {

@@ -40,7 +40,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
 /// Finishes a built job, with the progress of its surveys and what they led to on standard error unless
 /// quiet.
 SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
-                                  const CancelToken& cancel);
+                                       const CancelToken& cancel);
 
 /// The command line that continues this run.
 std::string resuming(const std::vector<std::string>& arguments);

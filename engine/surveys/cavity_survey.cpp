@@ -6,8 +6,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
-#include "engine/runs/run_components.h"
 #include "engine/layers/survey_rows.h"
+#include "engine/runs/run_components.h"
 
 namespace lamella {
 namespace {

@@ -19,7 +19,7 @@ inline constexpr double densest_lattice = 0.999;
 /// Divides a connected region inside the walls: solid where the core of the layers round it ends, and
 /// everywhere at full density; what hangs of that is a bridge, with a strip beside it that anchors its lines.
 /// Sparse regions that are hardly larger than their border become solid.
-std::vector<InnerRegion> divide_inside(const Polygons& region, const LayerNeighborhood& around, double density,
-                                       const LineSettings& line);
+std::vector<InnerRegion> divide_inside(const Polygons& region, const LayerNeighborhood& around,
+                                       double density, const LineSettings& line);
 
 }  // namespace lamella
