@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/base/error.h"
+
 namespace lamella {
 
 namespace {
@@ -353,15 +355,51 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     return best;
 }
 
-std::string settings_reference() {
-    std::string text;
+namespace {
+
+/// Text in a cell of a Markdown table.
+std::string table_cell(const std::string& text) {
+    std::string cell;
+    for (const char c : text) {
+        if (c == '|' || c == '<') cell += '\\';
+        cell += c;
+    }
+    return cell;
+}
+
+}  // namespace
+
+std::string settings_reference(std::string_view only_section) {
+    std::string text, known;
     for (const Section& section : sections()) {
+        known += (known.empty() ? "" : ", ") + section.name;
+        if (!only_section.empty() && section.name != only_section) continue;
         text += fmt::format("{}{}  {}\n", text.empty() ? "" : "\n", section.title(), section.help);
         for (const Setting& s : settings()) {
             if (s.section != section.name) continue;
             text += fmt::format("  {:<20}{}\n", s.key, s.help);
             text += fmt::format("  {:<20}{}; default: {}{}\n", "", accepted(s), s.fallback,
                                 s.flag.empty() ? "" : "; flag: " + s.flag);
+        }
+    }
+    if (text.empty())
+        throw InputError(fmt::format("a recipe has no section `{}`; its sections: {}", only_section, known));
+    return text;
+}
+
+std::string settings_markdown() {
+    std::string text =
+        "# Keys of a recipe\n\n"
+        "Made by `lamella keys --markdown`. A flag stands for its key on the command line.\n";
+    for (const Section& section : sections()) {
+        text += fmt::format(
+            "\n## {}\n\n{}\n\n| key | what it is | accepts | default | flag |\n|---|---|---|---|---|\n",
+            section.title(), section.help);
+        for (const Setting& s : settings()) {
+            if (s.section != section.name) continue;
+            text += fmt::format("| `{}` | {} | {} | {} | {} |\n", s.key, table_cell(s.help),
+                                table_cell(accepted(s)), table_cell(s.fallback),
+                                s.flag.empty() ? "" : "`" + s.flag + "`");
         }
     }
     return text;

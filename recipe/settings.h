@@ -116,8 +116,10 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text, std::siz
 /// The candidate that a misspelt word most likely means; empty when none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The reference of all keys: one paragraph a section, one line a key with its flag, range, default and
-/// meaning.
-std::string settings_reference();
+/// Returns the reference of all keys, or of one section's: a paragraph a section, two lines a key with its
+/// meaning, range, default and flag. Throws InputError where there is no such section.
+std::string settings_reference(std::string_view only_section = {});
+/// Returns the same as a Markdown page, a table a section.
+std::string settings_markdown();
 
 }  // namespace lamella

@@ -1,6 +1,7 @@
 // Parsing the command line, and running what it asks for.
 #include "app/commands/run_command.h"
 
+#include "app/commands/command_help.h"
 #include "app/commands/commands.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/error_report.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr int bad_input = 2;
 
 /// The deepest subcommand that was named: its help is the one asked for.
-const CLI::App& chosen(const CLI::App& root) {
+CLI::App& chosen(CLI::App& root) {
     const auto named = root.get_subcommands();
     return named.empty() ? root : chosen(*named.front());
 }
@@ -31,7 +32,9 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
         root.parse(reversed);
         return 0;
     } catch (const CLI::CallForHelp&) {
-        return print(chosen(root).help());
+        return print(help_text(chosen(root), HelpExtent::common));
+    } catch (const CLI::CallForAllHelp&) {
+        return print(help_text(chosen(root), HelpExtent::all));
     } catch (const CLI::CallForVersion&) {
         return print("lamella " LAMELLA_VERSION "\n");
     } catch (const CLI::ParseError& error) {
@@ -50,12 +53,13 @@ int run_command(const std::vector<std::string>& arguments) {
             "Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
             "lamella");
         root.require_subcommand(1);
+        root.set_help_all_flag("--help-all", "Print the help with all options, and exit");
         finish_command(
             root,
             "  lamella slice insole.toml -o insole/\n"
             "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
-            "  lamella slice --help      all options of one command\n"
-            "  lamella keys              all keys of a recipe\n"
+            "  lamella slice --help      the options of one command; --help-all: with all keys of a recipe\n"
+            "  lamella keys foam         the keys of one section of a recipe; lamella keys: of all\n"
             "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
             "130 interrupted.");
         add_slice_command(root, arguments);

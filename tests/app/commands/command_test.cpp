@@ -39,11 +39,24 @@ TEST_CASE("help and version are everywhere and say what a command takes") {
         CHECK(mentions(help.out, "lamella " + command));
         CHECK(run_lamella(command + " --version").out == version.out);
     }
-    const Outcome slice = run_lamella("slice --help");
+    const Outcome slice = run_lamella("slice --help-all");
     for (const auto& setting : settings()) {
         INFO(setting.name());
         CHECK(mentions(slice.out, setting.flag));
     }
+    CHECK_FALSE(mentions(slice.out, "{true}"));
+    const std::string brief = run_lamella("slice --help").out;
+    CHECK(std::ranges::count(brief, '\n') <= 90);
+    for (const std::string text :
+         {"Usage: lamella slice", "--cell ", "--output", "[foam]", "--help-all", "lamella keys"})
+        CHECK(mentions(brief, text));
+    CHECK_FALSE(mentions(brief, "--skin-threshold"));
+    const std::string foam = run_lamella("keys foam").out;
+    CHECK(mentions(foam, "--cell"));
+    CHECK_FALSE(mentions(foam, "[skin]"));
+    const Outcome wrong = run_lamella("keys foams");
+    CHECK(wrong.code == 2);
+    CHECK(mentions(wrong.err, "has no section `foams`; its sections: part,"));
     CHECK(mentions(run_lamella("keys").out, "[foam]"));
     CHECK(mentions(run_lamella("printers").out, "png"));
 }
