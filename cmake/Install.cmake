@@ -1,7 +1,23 @@
-foreach(folder engine procedural printers recipe)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lamella
-            FILES_MATCHING PATTERN "*.h")
+# What C++ programs may build on stands in bindings/lamella.hpp. Of the other headers only those are installed that these
+# include; they may change from one version to the next.
+set(public_headers "")
+set(to_read ${PROJECT_SOURCE_DIR}/bindings/lamella.hpp)
+while(to_read)
+    list(POP_FRONT to_read header)
+    file(STRINGS ${header} includes REGEX "^#include \"")
+    foreach(include ${includes})
+        string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" include ${include})
+        if(NOT include IN_LIST public_headers AND EXISTS ${PROJECT_SOURCE_DIR}/${include})
+            list(APPEND public_headers ${include})
+            list(APPEND to_read ${PROJECT_SOURCE_DIR}/${include})
+        endif()
+    endforeach()
+endwhile()
+foreach(header ${public_headers})
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lamella/${folder})
 endforeach()
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/lamella.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lamella)
 install(TARGETS lamella lamella_engine lamella_procedural lamella_printers lamella_recipe EXPORT lamella_targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS lamella_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lamella)

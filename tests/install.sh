@@ -12,6 +12,12 @@ cmake --build "$scratch/build" | tail -n 1
 "$scratch/build/foam_in_polygons"
 "$scratch/build/sphere_stack" "$scratch/ball.svg"
 
+echo "install: the C++ headers that are public, all at once, and no more than they include"
+[ "$(find "$scratch/prefix/include/lamella" -name '*.h' | wc -l)" -lt 130 ]
+echo '#include <lamella/lamella.hpp>
+int main() { return lamella::make_sphere({0, 0, 0}, 5)->value({0, 0, 0}) == -5 ? 0 : 1; }' >"$scratch/public.cpp"
+g++ -std=c++20 -fsyntax-only -I"$scratch/prefix/include" -I"$scratch/prefix/include/lamella" "$scratch/public.cpp"
+
 echo "install: nothing but the C interface is exported, under its version"
 library=$scratch/prefix/lib/$(gcc -print-multiarch 2>/dev/null || true)
 [ -e "$library/liblamella.so" ] || library=$(dirname "$(find "$scratch/prefix" -name liblamella.so | head -n 1)")
