@@ -1,4 +1,4 @@
-// Waiting for other processes.
+// Polls until a result arrives or the token is cancelled.
 #pragma once
 
 #include <chrono>

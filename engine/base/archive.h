@@ -1,5 +1,4 @@
-// Archive: what was made of a layer as bytes, to be carried to another process of this program and unpacked
-// there.
+// Binary archive for sending a rendered layer to another process.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Looking at one row and one layer of several, where they lie closer than what is looked for needs.
+// Subsampling of rows and layers that are finer than a check needs.
 #pragma once
 
 #include "engine/checks/fault_list.h"

@@ -1,4 +1,4 @@
-// What of each layer the layers below hold: islands, overhangs, and bridges that are too long.
+// Overhang check: islands, overhangs and long bridges, each layer against the layers below.
 #pragma once
 
 #include <deque>

@@ -1,4 +1,4 @@
-// What a process can make, and which faults matter to it.
+// The limits of a process, and the severity of each fault.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What supports hold of the layers above them.
+// Tracks which regions of a layer the supports below carry.
 #pragma once
 
 #include <vector>

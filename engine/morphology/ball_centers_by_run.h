@@ -1,4 +1,4 @@
-// BallCentersByRun: where in a layer's runs something was found, and which of them were searched for it.
+// BallCentersByRun: the ball centres found in each run of a layer, and the runs that were searched for them.
 #pragma once
 
 #include <algorithm>

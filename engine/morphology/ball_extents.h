@@ -1,4 +1,4 @@
-// BallExtentTable: how far a ball reaches on lines about the one it lies on, looked up instead of calculated.
+// BallExtentTable: how far a ball extends on the lines around its centre, as a lookup table.
 #pragma once
 
 #include <algorithm>

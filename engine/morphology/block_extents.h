@@ -1,4 +1,4 @@
-// Blocks of lines, and how far runs about them reach on these.
+// BlockExtents: how far dilated runs extend on the lines of a block, as bounds over the whole block.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// BruteForceDilation: a few neighbouring lines of a stack of layers grown by balls, by looking at every run
-// about them.
+// BruteForceDilation: dilates a few neighbouring lines by looking at every run around them.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// CoarseCells: a layer by cells of several rows, where its finest details do not matter.
+// CoarseCells: a layer as a bit mask whose cells cover several rows, to find candidates quickly.
 #pragma once
 
 #include "engine/morphology/row_bitmask.h"

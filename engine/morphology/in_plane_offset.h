@@ -1,4 +1,4 @@
-// In-plane offsets: every layer's outline moved outward or inward, layer by layer.
+// In-plane offsets: dilates or erodes the outline of each layer within its plane.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Layers grown or shrunk by a ball while they stream: exact morphology of dexel solids.
+// Dilation and erosion of a stream of layers by a ball: exact morphology of dexel solids.
 #pragma once
 
 #include <deque>

@@ -1,5 +1,4 @@
-// Layers opened and closed by a ball while they stream: what is thinner than it, and gaps that it does not
-// fit.
+// Opening and closing of a stream of layers by a ball: removes thin walls, fills narrow gaps.
 #pragma once
 
 #include "engine/morphology/layer_offset.h"

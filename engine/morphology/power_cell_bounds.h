@@ -1,5 +1,5 @@
-// PowerCellBounds: on which lines about it a run, once grown by a ball, may cover what the runs beside it do
-// not.
+// PowerCellBounds: on which lines a dilated run can be visible, from the half-space power cells of its
+// neighbours (Chen et al. 2018).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// PowerCellPruner: lines beside each other limit on which lines their runs may matter.
+// PowerCellPruner: bounds each run's power cell by the runs beside it, to drop what cannot be visible.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// PrunedDilation: neighbouring lines of a dexel solid grown by balls together, the core of exact offsets.
+// PrunedDilation: dilates neighbouring lines together by branch and bound; the core of exact offsets.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// RowBitmask: the rows of a layer as cells, 64 to a word, to tell in front which of its runs cannot matter.
+// RowBitmask: a layer as a bit mask, 64 cells a word, used to cull runs before exact tests.
 #pragma once
 
 #include <cstddef>

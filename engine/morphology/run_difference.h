@@ -1,4 +1,4 @@
-// RunDifference: what is left of a line's runs while more and more of them is taken away.
+// RunDifference: the runs of a line from which intervals are subtracted one after the other.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// SimdRunUnion: what runs, grown by balls, cover on all lines of a small block at once.
+// SimdRunUnion: the union of dilated runs on all lines of a small block at once.
 #pragma once
 
 #include <array>

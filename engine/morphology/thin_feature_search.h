@@ -1,4 +1,5 @@
-// What is thinner than a ball in layers that stream by, and which gaps are narrower.
+// ThinFeatureSearch: streams thin walls and narrow gaps, searching for ball centres lazily (the fast path of
+// ThinFeatureStream).
 #pragma once
 
 #include <deque>

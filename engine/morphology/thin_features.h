@@ -1,4 +1,4 @@
-// What is thinner than a ball in layers that stream by, and which gaps are narrower.
+// Thin features: points outside the dilated erosion (the opening with slack) of a solid or of the void.
 #pragma once
 
 #include <deque>

@@ -1,4 +1,4 @@
-// UndecidedRuns: what of a layer's runs is not known yet to lie near a place of some kind.
+// UndecidedRuns: the undecided part of each run: not yet within reach of a known ball centre.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace lamella {
 
-/// A stretch of a line of a stack of layers; run units.
+/// A ball centre, or a run of them: a stretch of a line of a stack of layers; run units.
 struct Place {
     std::int32_t layer, line;
     Run run;
 };
 
-/// Places by number, of layers that stream by.
+/// Ball centres by number, of layers that stream by.
 class Places {
   public:
     std::uint32_t add(const Place& place) {
@@ -30,11 +30,11 @@ class Places {
     std::uint32_t first_ = 0;  // number of the first that is kept
 };
 
-/// What lies near a place: a ball about each of its points.
+/// The footprint of the balls centred at a place, line by line.
 class NearPlace {
   public:
     explicit NearPlace(const BallLines& ball);
-    /// What of a line lies near; an empty run where nothing does.
+    /// Returns the part of a line that the balls reach; an empty run where they reach nothing.
     Run on(const Place& place, std::int32_t layer, std::int32_t line) const {
         const int up = layer - place.layer + layers_, across = line - place.line + rows_;
         if (up < 0 || up > 2 * layers_ || across < 0 || across > 2 * rows_) return {0, 0};
@@ -60,33 +60,33 @@ struct NumberedRun {
     std::size_t line, number;
 };
 
-/// Of each run of a layer one stretch, which gets shorter as places near it become known, and these places.
+/// The part of each run that is still undecided. A run starts undecided as a whole and shrinks from its ends
+/// as ball centres within reach are found.
 class UndecidedRuns {
   public:
     /// `count` lines from `first_line` on are open wholly, others not at all. The rows stay where they are.
     UndecidedRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count);
 
-    /// What is open of the run with that number.
+    /// Returns the undecided part of run `number`; empty once it is decided.
     const Run& of(std::size_t number) const { return open_[number]; }
-    /// Whether places are known that runs of a line are near.
+    /// Returns true if any run of `line` knows a ball centre within reach.
     bool knows_any(std::size_t line) const { return known_in_[line] > 0; }
     bool is_open(std::size_t number) const { return of(number).begin < of(number).end; }
-    /// Whether what lies near a place is open at an end of a run.
+    /// Returns true if the ball at `place` reaches an undecided end of the run.
     bool may_close(const Place& place, const NumberedRun& run, const NearPlace& near) const {
         const Run closed = near.on(place, layer_, static_cast<std::int32_t>(run.line)),
                   &open = open_[run.number];
         return closed.begin < open.end && open.begin < closed.end &&
                (closed.begin <= open.begin || open.end <= closed.end);
     }
-    /// What of a run lies near a place is not open any more. If what lies on both sides of it was open, all
-    /// stays so.
+    /// Marks what the ball at `place` reaches as decided. Trims ends only: a ball that reaches the middle
+    /// alone changes nothing.
     void decide_within(std::uint32_t place, const Places& places, const NumberedRun& run,
                        const NearPlace& near);
-    /// Does so for the places that are near runs of another line, of the same layer or of another one, where
-    /// these lie beside it.
+    /// Applies the ball centres known to an adjacent line, of the same layer or of another one, to `run`.
     void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, std::size_t other_line,
                       const Places& places, const Run& whole, const NumberedRun& run, const NearPlace& near);
-    /// Does so for all runs and the places that are near runs of the same line of another layer.
+    /// Applies the ball centres known to the same lines of another layer to all runs.
     void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, const Places& places,
                       const SpanRows& rows, const NearPlace& near);
 

@@ -1,4 +1,4 @@
-// Lines of dexel solids with a ball about each of their points, and how far such a ball reaches.
+// Rows with a squared radius for each run: a ball is centred at each of its points.
 #pragma once
 
 #include <cstdint>

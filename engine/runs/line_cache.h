@@ -1,4 +1,4 @@
-// Lines of a layer that one back-end asks for and another one looks at as well.
+// Cache of lines that one back-end renders and another one reuses.
 #pragma once
 
 #include "engine/runs/runs.h"

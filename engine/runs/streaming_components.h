@@ -1,4 +1,4 @@
-// Connected components of what passes by layer by layer, each forgotten when its last layer has passed.
+// Connected components of layers that stream by; a component is forgotten once its last layer has passed.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Parts of a solid whose layers pass by, under numbers that others may keep for later.
+// Parts of a solid whose layers stream by, under numbers that others may keep.
 #pragma once
 
 #include <unordered_map>

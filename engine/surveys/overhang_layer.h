@@ -1,4 +1,4 @@
-// What the overhang survey keeps of a layer until the next one has been compared with it.
+// The data of a layer that the overhang survey keeps until it has compared the next one.
 #pragma once
 
 #include "engine/contours/contour_index.h"

@@ -1,4 +1,4 @@
-// What hangs inside a layer: ceilings that lines laid straight cannot bridge.
+// Ceilings inside a layer that straight lines cannot bridge.
 #pragma once
 
 #include "engine/surveys/overhang_paths.h"

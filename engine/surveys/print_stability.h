@@ -1,4 +1,4 @@
-// Whether what is printed so far stands: by its weight, by how it sticks, against the nozzle's push.
+// Whether the print stands at each height: weight and adhesion against the push of the nozzle.
 #pragma once
 
 #include <array>

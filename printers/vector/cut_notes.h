@@ -1,4 +1,4 @@
-// What befell layers on their way to the cutter.
+// Counts the warnings that arise while cuts are planned.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a built job still lacks: all that a look at its layers decides, before the first of them is printed.
+// Steps that need a pass over all layers: drop islands, repair, add supports and a shield.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Back-ends that render layers for others to write.
+// Render-only back-ends for worker processes.
 #pragma once
 
 #include <memory>
