@@ -8,10 +8,10 @@
 
 namespace lamella {
 
-void CombinedSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+void CombinedSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
     const auto a = scratch.rows(), b = scratch.rows();
-    a_.spans(band, scratch, *a);
-    b_.spans(band, scratch, *b);
+    a_.runs(band, scratch, *a);
+    b_.runs(band, scratch, *b);
     out.clear();
     how_ == Combine::either ? unite(*a, *b, out) : intersect(*a, *b, out);
 }

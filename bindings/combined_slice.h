@@ -12,7 +12,7 @@ class CombinedSlice : public SliceField {
   public:
     CombinedSlice(const SliceField& a, const SliceField& b, Combine how) : a_(a), b_(b), how_(how) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     Interval range(const Rect& r) const override;
     void sample(const Tile& tile, std::span<float> out) const override;
     Rect bounds() const override;

@@ -187,7 +187,7 @@ std::int32_t lamella_section_coverage(lamella_context* context, lamella_section*
         std::vector<GreyRun> greys;
         for (int first = 0; first < grid.rows; first += rows_at_once) {
             const RowBand band = band_of(grid, first, std::min(rows_at_once, grid.rows - first));
-            (*slice).spans(band, section->scratch, *lines);
+            (*slice).runs(band, section->scratch, *lines);
             greys.clear();
             grid.lines == 0 ? threshold(band, *lines, greys) : coverage(band, *lines, greys);
             std::size_t column = 0;
@@ -213,7 +213,7 @@ std::int32_t lamella_section_runs(lamella_context* context, lamella_section* sec
         const auto lines = section->scratch.rows();
         for (int first = 0; first < grid.rows; first += rows_at_once) {
             const RowBand band = band_of(grid, first, std::min(rows_at_once, grid.rows - first));
-            (*slice).spans(band, section->scratch, *lines);
+            (*slice).runs(band, section->scratch, *lines);
             for (std::size_t l = 0; l < lines->lines(); ++l) {
                 for (const Run& run : lines->line(l)) {
                     made->ends.push_back(run.begin);

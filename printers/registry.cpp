@@ -23,27 +23,27 @@
 namespace lamella {
 namespace {
 
-dvec3 room_under_display(const PrinterProfile& profile, double /*layer_height*/) {
+dvec3 display_build_volume(const PrinterProfile& profile, double /*layer_height*/) {
     return {display_area_limits(profile.image), infinity};
 }
 
 constexpr std::array backend_table = {
     BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
-                make_png_stack, LayerContent::pixels, true, nullptr, room_under_display},
+                make_png_stack, LayerContent::pixels, true, nullptr, display_build_volume},
     BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
-                OutputKind::file, make_sl1, LayerContent::pixels, true, nullptr, room_under_display},
+                OutputKind::file, make_sl1, LayerContent::pixels, true, nullptr, display_build_volume},
     BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo,
-                LayerContent::pixels, false, nullptr, room_under_display},
+                LayerContent::pixels, false, nullptr, display_build_volume},
     BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
-                OutputKind::file, make_nanodlp, LayerContent::pixels, true, nullptr, room_under_display},
+                OutputKind::file, make_nanodlp, LayerContent::pixels, true, nullptr, display_build_volume},
     BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file,
-                make_ember, LayerContent::pixels, true, nullptr, room_under_display},
+                make_ember, LayerContent::pixels, true, nullptr, display_build_volume},
     BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
                 OutputKind::file_or_folder, make_svg, LayerContent::contours, true},
     BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
                 make_dxf, LayerContent::contours},
     BackendInfo{"gcode", "G-code for filament printers, and for lasers under GRBL", ".gcode",
-                OutputKind::file, make_gcode, LayerContent::beads, true, nullptr, gcode_room},
+                OutputKind::file, make_gcode, LayerContent::beads, true, nullptr, gcode_build_volume},
     BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
                 OutputKind::file, make_cli, LayerContent::contours, true},
     BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
@@ -95,8 +95,8 @@ SupportProfile default_supports(std::string_view backend) {
 }
 
 dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height) {
-    const auto room = find_backend(profile.backend).room;
-    return room != nullptr ? room(profile, layer_height) : dvec3(infinity);
+    const auto build_volume = find_backend(profile.backend).build_volume;
+    return build_volume != nullptr ? build_volume(profile, layer_height) : dvec3(infinity);
 }
 
 const BackendInfo& find_backend(std::string_view name) {

@@ -26,8 +26,8 @@ struct BackendInfo {
     LayerContent medium = LayerContent::pixels;
     bool streams = false;           ///< writes to standard output as well
     const char* warning = nullptr;  ///< what whoever gets such an output should know
-    /// What its machine has room for at this height of layers, mm; null where that is not known.
-    dvec3 (*room)(const PrinterProfile& profile, double layer_height) = nullptr;
+    /// Largest part that its machine takes at this layer height, mm; null where that is not known.
+    dvec3 (*build_volume)(const PrinterProfile& profile, double layer_height) = nullptr;
 };
 
 /// All back-ends.

@@ -86,7 +86,8 @@ void print(const PrintOptions& options, const std::optional<Recipe>& recipe,
            const std::optional<PreparedJob>& prepared, const CancelToken& cancel) {
     const auto link = std::make_shared<PrintLink>(options.link);
     PrintView view(link, prepared ? prepared->built.job.layer_count : 0, options.quiet);
-    SerialOutputOptions output{options.force, options.z, [&](const std::string& text) { view.tell(text); }};
+    SerialOutputOptions output{options.force, options.z,
+                               [&](const std::string& text) { view.show_message(text); }};
     const auto go_on = [&] {
         return link->status().lines_answered > 0 ? ". To go on: " + options.repeat : std::string();
     };

@@ -42,7 +42,7 @@ double support_volume(const Job& job) {
         SliceContext context;
         Scratch scratch;
         const auto rows = scratch.rows();
-        context.slice(*job.supports, job.plane(i)).spans(band, scratch, *rows);
+        context.slice(*job.supports, job.plane(i)).runs(band, scratch, *rows);
         units += static_cast<double>(rows->total_length());
     }
     return units / run_unit * pitch * pitch * job.layer_height;

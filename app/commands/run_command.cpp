@@ -80,7 +80,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_keys_command(root);
         return parse_and_run(root, arguments);
     } catch (...) {
-        return complain_of_exception();
+        return report_exception();
     }
 }
 

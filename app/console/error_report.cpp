@@ -18,7 +18,7 @@ int report_error(const std::string& message, int code) {
     return code;
 }
 
-int complain_of_exception() {
+int report_exception() {
     constexpr int fault = 3;
     try {
         throw;

@@ -9,6 +9,6 @@ namespace lamella {
 int report_error(const std::string& message, int code);
 
 /// Says what the exception that is being handled is about. Returns the exit code it stands for.
-int complain_of_exception();
+int report_exception();
 
 }  // namespace lamella

@@ -125,7 +125,7 @@ void PrintView::close() {
     line_open_ = false;
 }
 
-void PrintView::tell(const std::string& text) {
+void PrintView::show_message(const std::string& text) {
     const std::lock_guard lock(mutex_);
     if (!quiet_) write_line(text);
 }

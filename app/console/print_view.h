@@ -23,7 +23,7 @@ class PrintView {
     PrintView& operator=(const PrintView&) = delete;
 
     /// Says something of its own above the line.
-    void tell(const std::string& text);
+    void show_message(const std::string& text);
     /// Ends the line, and gives the keys back to the terminal.
     void close();
 

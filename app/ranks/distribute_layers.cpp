@@ -44,10 +44,10 @@ class Announcing : public Backend {
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         if (turns_->owner_of(layer.index()) > 0) return fetching_->render(layer);
-        return times_.rendering.of([&] { return fetching_->render(layer); });
+        return times_.rendering.measure([&] { return fetching_->render(layer); });
     }
     void write(const Layer& layer, LayerProduct& product) override {
-        times_.writing.of([&] { fetching_->write(layer, product); });
+        times_.writing.measure([&] { fetching_->write(layer, product); });
     }
     void end() override { fetching_->end(); }
     std::vector<std::string> notes() const override { return fetching_->notes(); }

@@ -40,7 +40,7 @@ class LayerTime {
   public:
     /// Does it with one layer.
     template <typename Work>
-    auto of(const Work& work) {
+    auto measure(const Work& work) {
         const Counting counting{*this};
         return work();
     }

@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-void tell(Ranks& ranks, int exit_code, const std::string& what) {
+void broadcast(Ranks& ranks, int exit_code, const std::string& what) {
     std::string words = "rank " + std::to_string(ranks.rank()) + ": " + what;
     Archive parcel;
     parcel(exit_code, words);
@@ -22,9 +22,9 @@ void tell_failures(Ranks& ranks, const std::function<void()>& work) {
     } catch (const Interrupted&) {
         throw;
     } catch (const Error& error) {
-        tell(ranks, error.exit_code(), error.what());
+        broadcast(ranks, error.exit_code(), error.what());
     } catch (const std::exception& error) {
-        tell(ranks, FaultError("").exit_code(), error.what());
+        broadcast(ranks, FaultError("").exit_code(), error.what());
     }
 }
 

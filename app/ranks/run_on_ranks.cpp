@@ -22,7 +22,7 @@ void run_on_ranks(const LeadRanks& lead, const HelpRank& run_worker) {
         try {
             violated = lead(ranks.get());
         } catch (...) {
-            ranks->abort(complain_of_exception());
+            ranks->abort(report_exception());
         }
     }
     if (!violated.empty()) throw ConstraintError(violated);

@@ -12,7 +12,7 @@ namespace lamella {
 
 /// What a check of one machine looks for.
 struct CheckPlan {
-    Process process = Process::usual;  ///< never that: the machine's own
+    Process process = Process::from_backend;  ///< never that: the machine's own
     PrintCheckOptions options;
     std::vector<std::string> notes;  ///< what a user should know of the limits, a sentence each
 };

@@ -78,10 +78,10 @@ const char* limit_unit(Check check) {
 
 /// All sizes that were asked for, whether or not a check of them was.
 Json limits_mm_json(const PrintLimits& limits) {
-    Json room = Json::array();
+    Json build_volume = Json::array();
     for (int k = 0; k < 3; ++k) {
         const double side = limits.build_volume[k];
-        room.push_back(std::isfinite(side) ? Json(side) : Json());
+        build_volume.push_back(std::isfinite(side) ? Json(side) : Json());
     }
     return {{"thickness", limits.thickness},
             {"thickness_up", limits.thickness_up},
@@ -93,7 +93,7 @@ Json limits_mm_json(const PrintLimits& limits) {
             {"bridge", limits.bridge},
             {"support_spacing", limits.support_spacing},
             {"support_gap", limits.support_gap},
-            {"build_volume", std::move(room)}};
+            {"build_volume", std::move(build_volume)}};
 }
 
 Json limits_mm3_json(const PrintLimits& limits) {

@@ -37,9 +37,9 @@ void RunCoverage::add(const SliceField& slice) {
     band.count = height_;
     band.sub = sub_rows;
     band.hi = width_;
-    SpanRows runs;
+    RunRows runs;
     Scratch scratch;
-    slice.spans(band, scratch, runs);
+    slice.runs(band, scratch, runs);
     for (std::size_t l = 0; l < runs.lines(); ++l) {
         for (const Run& run : runs.line(l)) {
             cover(static_cast<int>(l) / sub_rows, run.begin / double{run_unit}, run.end / double{run_unit},

@@ -46,13 +46,13 @@ std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page
     std::vector<std::uint8_t> grey;
     grey.reserve(static_cast<std::size_t>(page.hi) * static_cast<std::size_t>(page.count));
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     std::vector<GreyRun> runs;
     for (RowBand band = page; band.first < page.count; band.first += rows_at_once) {
         band.count = std::min(rows_at_once, page.count - band.first);
         rows.clear();
         runs.clear();
-        slice.spans(band, scratch, rows);
+        slice.runs(band, scratch, rows);
         antialiased ? coverage(band, rows, runs) : threshold(band, rows, runs);
         for (const GreyRun& run : runs)
             grey.insert(grey.end(), run.length, static_cast<std::uint8_t>(run.value));

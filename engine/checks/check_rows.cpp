@@ -67,21 +67,21 @@ CheckRows::CheckRows(const Job& job, const RowBand& lines) : lines_(lines_over(l
     band_.across_origin = lowest - 1.5 * pitch;
 }
 
-SpanRows CheckRows::of(const SliceField& slice, const Layer& layer, Scratch& scratch) const {
+RunRows CheckRows::rows(const SliceField& slice, const Layer& layer, Scratch& scratch) const {
     if (!lines_) return all_rows(slice, band_, scratch);
-    const SpanRows* kept = layer.kept_lines(slice, *lines_);
+    const RunRows* kept = layer.kept_lines(slice, *lines_);
     return moved(kept != nullptr ? *kept : all_rows(slice, *lines_, scratch));
 }
 
-SpanRows CheckRows::of_supports(const Layer& layer, Scratch& scratch) const {
+RunRows CheckRows::support_rows(const Layer& layer, Scratch& scratch) const {
     if (layer.supports() == nullptr) return empty_rows(static_cast<std::size_t>(band_.lines()));
-    return of(*layer.supports(), layer, scratch);
+    return rows(*layer.supports(), layer, scratch);
 }
 
 /// What was found on the lines, as rows.
-SpanRows CheckRows::moved(const SpanRows& found) const {
+RunRows CheckRows::moved(const RunRows& found) const {
     const RunMap map(*lines_, band_);
-    SpanRows rows;
+    RunRows rows;
     rows.reserve(found.lines() + 2, found.runs().size());
     rows.end_line();
     for (std::size_t i = 0; i < found.lines(); ++i) {

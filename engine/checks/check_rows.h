@@ -13,20 +13,22 @@ class CheckRows {
   public:
     /// Along x, `pitch` mm apart.
     CheckRows(const Job& job, double pitch);
-    /// On lines that other back-ends go through (Layer::keep_lines), with their step.
+    /// On lines that other back-ends go through (Layer::cache_lines), with their step.
     CheckRows(const Job& job, const RowBand& lines);
 
     /// Of the rows: of positive pitches, a line a row.
     const RowBand& band() const { return band_; }
     /// Those of other back-ends.
     const std::optional<RowBand>& lines() const { return lines_; }
-    SpanRows of_part(const Layer& layer, Scratch& scratch) const { return of(layer.part(), layer, scratch); }
+    RunRows part_rows(const Layer& layer, Scratch& scratch) const {
+        return rows(layer.part(), layer, scratch);
+    }
     /// Empty where there are none.
-    SpanRows of_supports(const Layer& layer, Scratch& scratch) const;
+    RunRows support_rows(const Layer& layer, Scratch& scratch) const;
 
   private:
-    SpanRows of(const SliceField& slice, const Layer& layer, Scratch& scratch) const;
-    SpanRows moved(const SpanRows& found) const;
+    RunRows rows(const SliceField& slice, const Layer& layer, Scratch& scratch) const;
+    RunRows moved(const RunRows& found) const;
 
     RowBand band_;
     std::optional<RowBand> lines_;

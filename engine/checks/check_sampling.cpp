@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-CheckGrid CheckSampling::of(CheckGrid grid) const {
+CheckGrid CheckSampling::subsample(CheckGrid grid) const {
     // The sampled row is the middle of those that it stands for.
     grid.band.across_origin += rows % 2 == 0 ? 0.5 * grid.band.across_pitch : 0;
     grid.band.across_pitch *= rows;
@@ -14,16 +14,16 @@ CheckGrid CheckSampling::of(CheckGrid grid) const {
     return grid;
 }
 
-SpanRows CheckSampling::of(const SpanRows& layer) const {
+RunRows CheckSampling::subsample(const RunRows& layer) const {
     if (rows == 1) return layer;
     const auto step = static_cast<std::size_t>(rows);
-    SpanRows sampled;
+    RunRows sampled;
     for (std::size_t l = 0; l < layer.lines(); l += step)
         sampled.append_line(layer.line(std::min(l + step / 2, layer.lines() - 1)));
     return sampled;
 }
 
-Fault CheckSampling::told(Fault fault, const CheckGrid& sampled, int layer_count) const {
+Fault CheckSampling::to_full_resolution(Fault fault, const CheckGrid& sampled, int layer_count) const {
     fault.layer = sampled_layer(fault.layer);
     fault.at.z = sampled.z0 + (fault.layer + 0.5) * (sampled.layer_height / layers);
     fault.first_layer *= layers;

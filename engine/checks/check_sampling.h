@@ -10,14 +10,14 @@ struct CheckSampling {
     int rows = 1, layers = 1;
 
     /// Where the rows and layers looked at lie.
-    CheckGrid of(CheckGrid grid) const;
-    SpanRows of(const SpanRows& layer) const;
+    CheckGrid subsample(CheckGrid grid) const;
+    RunRows subsample(const RunRows& layer) const;
     /// Which layer is looked at of the k-th so many.
     int sampled_layer(int k) const { return k * layers + (layers - 1) / 2; }
     bool samples(int layer) const { return layer == sampled_layer(layer / layers); }
     /// A fault of what was looked at, on that grid, told in terms of all rows and of all layers, of which
     /// there are so many.
-    Fault told(Fault fault, const CheckGrid& sampled, int layer_count) const;
+    Fault to_full_resolution(Fault fault, const CheckGrid& sampled, int layer_count) const;
 };
 
 }  // namespace lamella

@@ -10,18 +10,18 @@ namespace {
 /// Of a pixel: void, on the way along an outline, held, hanging.
 enum : std::uint8_t { none, beside, hold, hangs };
 
-constexpr int room = 3;  // pixels round about a region, for what holds it
+constexpr int margin = 3;  // pixels round about a region, for what holds it
 
 std::int32_t pixel_of(std::int32_t u) { return u >= 0 ? u / run_unit : -((run_unit - 1 - u) / run_unit); }
 
 /// A region and its surroundings, pixel by pixel.
 class RegionRaster {
   public:
-    RegionRaster(const std::vector<PlacedRun>& region, const ComponentExtent& extent, const SpanRows& held)
-        : x0_(pixel_of(extent.along.begin) - room),
-          y0_(extent.first_row - room),
-          width_(pixel_of(extent.along.end - 1) + 1 + room - x0_),
-          height_(extent.last_row + 1 + room - y0_),
+    RegionRaster(const std::vector<PlacedRun>& region, const ComponentExtent& extent, const RunRows& held)
+        : x0_(pixel_of(extent.along.begin) - margin),
+          y0_(extent.first_row - margin),
+          width_(pixel_of(extent.along.end - 1) + 1 + margin - x0_),
+          height_(extent.last_row + 1 + margin - y0_),
           states_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), none) {
         const int lines = static_cast<int>(held.lines());
         for (int y = std::max(y0_, 0); y < std::min(y0_ + height_, lines); ++y) {
@@ -177,7 +177,7 @@ std::vector<std::uint8_t> reaching(const LabelledLayer& labelled, double least, 
     return reach;
 }
 
-std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, double least,
+std::vector<HangingRegion> find_hanging_regions(const RunRows& hanging, const RunRows& held, double least,
                                                 int layer, const CheckGrid& grid) {
     const LabelledLayer labelled = label_layer(hanging, layer, Growth{});
     const std::vector<std::uint8_t> large = reaching(labelled, least, grid);

@@ -20,7 +20,7 @@ struct HangingRegion {
 /// The regions of `hanging`, rows of a layer whose other parts, `held`, something below holds; those whose
 /// diagonal is shorter than `least`, mm, are left out. Directions are sixteen of the half circle and each
 /// region's own two axes; ways are known to a pitch or two.
-std::vector<HangingRegion> find_hanging_regions(const SpanRows& hanging, const SpanRows& held, double least,
+std::vector<HangingRegion> find_hanging_regions(const RunRows& hanging, const RunRows& held, double least,
                                                 int layer, const CheckGrid& grid);
 
 }  // namespace lamella

@@ -20,7 +20,7 @@ void SheetCheck::add(const LabelledLayer& layer, int index) {
     faults_.add(std::move(fault));
 }
 
-void EmptyCheck::add(const SpanRows& rows, int index) {
+void EmptyCheck::add(const RunRows& rows, int index) {
     if (!rows.runs().empty()) return end_gap(index);
     if (begin_ < 0) begin_ = index;
 }
@@ -45,7 +45,7 @@ void EmptyCheck::end_gap(int end) {
     begin_ = -1;
 }
 
-void ReachCheck::add(const SpanRows& rows, int index) {
+void ReachCheck::add(const RunRows& rows, int index) {
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         if (rows.line(l).empty()) continue;
         const int row = static_cast<int>(l);

@@ -21,7 +21,7 @@ class SheetCheck {
 class EmptyCheck {
   public:
     EmptyCheck(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
-    void add(const SpanRows& rows, int index);
+    void add(const RunRows& rows, int index);
     void finish(int layer_count);
     const FaultList& faults() const { return faults_; }
 
@@ -38,7 +38,7 @@ class ReachCheck {
   public:
     ReachCheck(const CheckGrid& grid, const dvec3& build_volume, std::size_t most)
         : grid_(grid), build_volume_(build_volume), faults_(most) {}
-    void add(const SpanRows& rows, int index);
+    void add(const RunRows& rows, int index);
     void finish();
     const FaultList& faults() const { return faults_; }
 

@@ -35,8 +35,8 @@ CheckSampling sampling_for(const CheckGrid& grid, double thickness) {
 }  // namespace
 
 NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
-    : NeckCheck(sampling_for(grid, thickness).of(grid), sampling_for(grid, thickness), thickness, large_part,
-                most) {}
+    : NeckCheck(sampling_for(grid, thickness).subsample(grid), sampling_for(grid, thickness), thickness,
+                large_part, most) {}
 
 NeckCheck::NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness,
                      double large_part, std::size_t most)
@@ -46,18 +46,18 @@ NeckCheck::NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, do
       thin_(thin_layers(sampled_ball(sampled.band, sampled.layer_height, thickness, thickness))),
       necks_(most) {}
 
-void NeckCheck::push(const SpanRows& layer) {
+void NeckCheck::push(const RunRows& layer) {
     if (!sampling_.samples(pushed_++)) return;
-    solid_.push_back(sampling_.of(layer));
+    solid_.push_back(sampling_.subsample(layer));
     thin_.push(solid_.back());
     carry_on();
 }
 
 void NeckCheck::carry_on() {
-    for (SpanRows thin; thin_.pop(thin);) split(std::move(thin));
+    for (RunRows thin; thin_.pop(thin);) split(std::move(thin));
 }
 
-void NeckCheck::split(SpanRows thin) {
+void NeckCheck::split(RunRows thin) {
     Split fresh;
     fresh.parts = parts_.add(label_layer(without(solid_.front(), thin), layers_, Growth{}));
     fresh.rest = std::move(thin);
@@ -142,7 +142,7 @@ void NeckCheck::finish() {
 Fault NeckCheck::neck(const StreamingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);
-    return sampling_.told(std::move(fault), grid_, pushed_);
+    return sampling_.to_full_resolution(std::move(fault), grid_, pushed_);
 }
 
 }  // namespace lamella

@@ -18,7 +18,7 @@ class NeckCheck {
     /// `thickness` of a neck that carries, mm; `large_part`, the volume from which a part counts, mm^3.
     NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most);
 
-    void push(const SpanRows& layer);
+    void push(const RunRows& layer);
     void finish();
     const FaultList& necks() const { return necks_; }
 
@@ -26,12 +26,12 @@ class NeckCheck {
     /// A layer fallen into what the opening leaves and what it takes away.
     struct Split {
         LabelledLayer parts;  ///< components are numbers of parts_
-        SpanRows rest;
+        RunRows rest;
     };
     NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness, double large_part,
               std::size_t most);
     void carry_on();
-    void split(SpanRows thin);
+    void split(RunRows thin);
     void join_rest(std::size_t of);
     void settle(std::vector<std::uint32_t>& marks, const std::vector<std::uint32_t>& growing);
     void forget_what_is_settled();
@@ -42,9 +42,9 @@ class NeckCheck {
     int pushed_ = 0;  // layers
     double large_part_;
     ThinFeatureStream thin_;
-    std::deque<SpanRows> solid_;  // layers of which it is not known yet what is thin
-    std::deque<Split> recent_;    // three at most: a rest touches parts below, beside and above it
-    int layers_ = 0;              // that were split
+    std::deque<RunRows> solid_;  // layers of which it is not known yet what is thin
+    std::deque<Split> recent_;   // three at most: a rest touches parts below, beside and above it
+    int layers_ = 0;             // that were split
     StreamingParts parts_;
     std::size_t max_parts_ = 1024;  // at which those are forgotten that no rest can join any more
     StreamingComponents rests_;

@@ -20,7 +20,7 @@ bool any_floats(const std::vector<std::uint8_t>& floats) {
 }
 
 /// Those components of a layer do not float that touch rows of one below.
-void sink_touching(const LabelledLayer& labelled, const SpanRows& below, std::vector<std::uint8_t>& floats) {
+void sink_touching(const LabelledLayer& labelled, const RunRows& below, std::vector<std::uint8_t>& floats) {
     const auto run_floats = [&](const LabelledRun& run) { return floats[run.component] != 0; };
     for (const int aside : {0, -1, 1}) {  // most lie right above something
         if (!any_floats(floats)) return;
@@ -74,23 +74,22 @@ void sink_tips(const LabelledLayer& labelled, const CheckGrid& grid, const RowsI
 }
 
 /// What of a lies further than `pitches` from b.
-SpanRows beyond(const SpanRows& a, const SpanRows& b, double pitches) {
-    SpanRows out;
+RunRows beyond(const RunRows& a, const RunRows& b, double pitches) {
+    RunRows out;
     subtract_dilated(a, b, pitches * run_unit, run_unit, out);
     return out;
 }
 
 /// Where something of rows that meet these cells may lie further than that from what fills the others.
-SpanRows maybe_beyond(const SpanRows& rows, const RowBitmask& met, const RowBitmask& filled, double pitches) {
+RunRows maybe_beyond(const RunRows& rows, const RowBitmask& met, const RowBitmask& filled, double pitches) {
     RowBitmask suspected = met;
     suspected.subtract_dilated(filled, inner_disc(pitches * run_unit, run_unit));
-    return suspected.of(rows, suspected.lattice().margin_lines);
+    return suspected.clip(rows, suspected.lattice().margin_lines);
 }
 
 /// The runs of those components of a layer that are chosen.
-SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
-                 const std::vector<std::uint8_t>& chosen) {
-    SpanRows out;
+RunRows rows_of(const RunRows& rows, const LabelledLayer& labelled, const std::vector<std::uint8_t>& chosen) {
+    RunRows out;
     std::size_t i = 0;
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
         out.end_lines(l - out.lines());
@@ -104,7 +103,7 @@ SpanRows rows_of(const SpanRows& rows, const LabelledLayer& labelled,
 }
 
 /// Without the pieces that are smaller than `least`, mm.
-SpanRows large_pieces(SpanRows rows, double least, const CheckGrid& grid) {
+RunRows large_pieces(RunRows rows, double least, const CheckGrid& grid) {
     if (rows.runs().empty()) return rows;
     const LabelledLayer labelled = label_layer(rows, 0, Growth{});
     return rows_of(rows, labelled, reaching(labelled, least, grid));
@@ -141,36 +140,36 @@ void OverhangCheck::add(LayerFootprint layer, LayerCells cells, const LabelledLa
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
-        const SpanRows islands = find_islands(layer, printed, rows_in, index);
-        if (follows_overhangs_) follow_overhangs(layer, cells.met, islands, next, index);
+        const RunRows islands = find_islands(layer, printed, rows_in, index);
+        if (follows_overhangs_) follow_overhangs(layer, cells.outer, islands, next, index);
     }
     supports_.add(layer.supports);
     next.rows = std::move(layer);
-    const CellLattice& lattice = cells.met.lattice();
+    const CellLattice& lattice = cells.outer.lattice();
     if (!below_.empty() && lattice.words * lattice.lines * slope_layers_ > max_kept_words)
-        below_.back().filled.reset();
-    next.filled = std::move(cells.filled);
+        below_.back().inner.reset();
+    next.inner = std::move(cells.inner);
     below_.push_back(std::move(next));
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
 }
 
 /// Tells of what hangs beside islands; `next` is to hold what of it may.
 void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitmask& met,
-                                     const SpanRows& islands, Below& next, int index) {
+                                     const RunRows& islands, Below& next, int index) {
     // Rows see a border up to a pitch late.
     const Below& below = below_.back();
-    const SpanRows out =
-        beyond(maybe_beyond(layer.part, met, *below.filled, step_ + 1), below.rows.part, step_ + 1);
-    const SpanRows hanging = without(supports_.unheld(out), islands);
-    const SpanRows bad = judge_regions(layer, hanging, index);
+    const RunRows out =
+        beyond(maybe_beyond(layer.part, met, *below.inner, step_ + 1), below.rows.part, step_ + 1);
+    const RunRows hanging = without(supports_.unheld(out), islands);
+    const RunRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    const SpanRows steep = too_steep(layer, met, next.hung);
+    const RunRows steep = too_steep(layer, met, next.hung);
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
 /// The pieces of the part that nothing holds.
-SpanRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledLayer& printed,
-                                     const RowsIn& rows_in, int index) {
+RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledLayer& printed,
+                                    const RowsIn& rows_in, int index) {
     std::vector<std::uint8_t> floats(printed.components.size(), 1);
     sink_touching(printed, below_.back().rows.printed(), floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
@@ -178,7 +177,7 @@ SpanRows OverhangCheck::find_islands(const LayerFootprint& layer, const Labelled
         sink_touching(printed, below_[k].rows.supports, floats);
     if (any_floats(floats)) sink_tips(printed, grid_, rows_in, floats);
     if (!any_floats(floats)) return empty_rows(layer.printed().lines());
-    SpanRows floating = rows_of(layer.printed(), printed, floats);
+    RunRows floating = rows_of(layer.printed(), printed, floats);
     StreamingComponents one_layer;
     one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
     one_layer.finish(ended_);
@@ -192,19 +191,19 @@ SpanRows OverhangCheck::find_islands(const LayerFootprint& layer, const Labelled
 }
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-SpanRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& met,
-                                  const SpanRows& hangs) const {
-    SpanRows none = empty_rows(layer.part.lines());
+RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& met,
+                                 const RunRows& hangs) const {
+    RunRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
     const std::size_t first = below_.size() - slope_layers_;
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
     // Parts of small pieces are small: they need not be looked at further.
-    const auto large = [&](const SpanRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
+    const auto large = [&](const RunRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
     const Below& lowest = below_[first];
     std::optional<RowBitmask> anew;
-    if (!lowest.filled) anew = LayerCells(lowest.rows.part, met.lattice()).filled;
-    SpanRows steep = large(maybe_beyond(layer.part, met, lowest.filled ? *lowest.filled : *anew, far));
-    const auto explain = [&](const SpanRows& hung, std::size_t layers_below) {
+    if (!lowest.inner) anew = LayerCells(lowest.rows.part, met.lattice()).inner;
+    RunRows steep = large(maybe_beyond(layer.part, met, lowest.inner ? *lowest.inner : *anew, far));
+    const auto explain = [&](const RunRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
     };
@@ -217,10 +216,10 @@ SpanRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask&
 }
 
 /// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
-SpanRows OverhangCheck::judge_regions(const LayerFootprint& layer, const SpanRows& hanging, int index) {
+RunRows OverhangCheck::judge_regions(const LayerFootprint& layer, const RunRows& hanging, int index) {
     if (large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) return empty_rows(hanging.lines());
     std::vector<PlacedRun> bad;
-    const SpanRows held = without(layer.printed(), hanging);
+    const RunRows held = without(layer.printed(), hanging);
     for (const HangingRegion& region :
          find_hanging_regions(hanging, held, limits_.free_stretch, index, grid_)) {
         if (!region.bridge) {
@@ -234,7 +233,7 @@ SpanRows OverhangCheck::judge_regions(const LayerFootprint& layer, const SpanRow
         }
     }
     std::ranges::sort(bad);
-    SpanRows out;
+    RunRows out;
     for (const PlacedRun& run : bad) {
         const auto row = static_cast<std::size_t>(run.row);
         out.end_lines(row - out.lines());
@@ -245,16 +244,16 @@ SpanRows OverhangCheck::judge_regions(const LayerFootprint& layer, const SpanRow
 }
 
 /// What stands out over the layer below about what was found: from layer to layer that hangs together.
-SpanRows OverhangCheck::standing_out(const LayerFootprint& layer, const SpanRows& found) const {
+RunRows OverhangCheck::standing_out(const LayerFootprint& layer, const RunRows& found) const {
     if (found.runs().empty()) return found;
     const double reach = 2 * step_ + 2;
-    const CellLattice& lattice = below_.back().filled->lattice();
-    const RowBitmask near = LayerCells(found, lattice).met.grown(outer_disc(reach * run_unit, run_unit));
-    const SpanRows all = without(near.of(layer.part, lattice.margin_lines), below_.back().rows.printed());
+    const CellLattice& lattice = below_.back().inner->lattice();
+    const RowBitmask near = LayerCells(found, lattice).outer.grown(outer_disc(reach * run_unit, run_unit));
+    const RunRows all = without(near.clip(layer.part, lattice.margin_lines), below_.back().rows.printed());
     return without(all, beyond(all, found, reach));
 }
 
-void OverhangCheck::add_overhang(const SpanRows& rows, int index) {
+void OverhangCheck::add_overhang(const RunRows& rows, int index) {
     hanging_.add(label_layer(rows, index, Growth{}), index, {}, ended_);
     for (const EndedComponent& ended : ended_) {
         if (ended.joined) continue;

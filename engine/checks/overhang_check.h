@@ -13,15 +13,15 @@ namespace lamella {
 
 /// The rows of a layer, as far as the next ones are compared with them.
 struct LayerFootprint {
-    SpanRows part;
-    SpanRows supports;            ///< empty rows where there are none
-    SpanRows part_with_supports;  ///< nothing where there are none
+    RunRows part;
+    RunRows supports;            ///< empty rows where there are none
+    RunRows part_with_supports;  ///< nothing where there are none
 
-    const SpanRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
+    const RunRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
 };
 
 /// What a layer prints, in the rows of any band.
-using RowsIn = std::function<SpanRows(const RowBand&)>;
+using RowsIn = std::function<RunRows(const RowBand&)>;
 
 /// Compares each layer with those below it; the first one lies on the bed.
 ///
@@ -49,17 +49,17 @@ class OverhangCheck {
     /// A layer below and what hung in it and may, or is told of as an island.
     struct Below {
         LayerFootprint rows;
-        SpanRows hung;
-        std::optional<RowBitmask> filled;  // by the part; of older layers only where there is memory to spare
+        RunRows hung;
+        std::optional<RowBitmask> inner;  // by the part; of older layers only where there is memory to spare
     };
-    void follow_overhangs(const LayerFootprint& layer, const RowBitmask& met, const SpanRows& islands,
+    void follow_overhangs(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& islands,
                           Below& next, int index);
-    SpanRows find_islands(const LayerFootprint& layer, const LabelledLayer& printed, const RowsIn& rows_in,
-                          int index);
-    SpanRows too_steep(const LayerFootprint& layer, const RowBitmask& met, const SpanRows& hangs) const;
-    SpanRows judge_regions(const LayerFootprint& layer, const SpanRows& hanging, int index);
-    SpanRows standing_out(const LayerFootprint& layer, const SpanRows& found) const;
-    void add_overhang(const SpanRows& rows, int index);
+    RunRows find_islands(const LayerFootprint& layer, const LabelledLayer& printed, const RowsIn& rows_in,
+                         int index);
+    RunRows too_steep(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& hangs) const;
+    RunRows judge_regions(const LayerFootprint& layer, const RunRows& hanging, int index);
+    RunRows standing_out(const LayerFootprint& layer, const RunRows& found) const;
+    void add_overhang(const RunRows& rows, int index);
 
     CheckGrid grid_;
     PrintLimits limits_;

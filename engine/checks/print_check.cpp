@@ -50,10 +50,10 @@ struct CheckedLayer : LayerProduct {
     LabelledLayer part, printed;  ///< printed only where there are supports
     LabelledLayer voids;
     std::optional<LayerCells> cells;  ///< of the part; not carried, and made anew where it is missing
-    SpanRows thin, narrow;
+    RunRows thin, narrow;
 
   private:
-    bool has_lines(const SpanRows& found) const { return found.lines() == shape.lines; }
+    bool has_lines(const RunRows& found) const { return found.lines() == shape.lines; }
     bool are_labels(const LabelledLayer& labels, bool wanted) const {
         return labels.starts.size() == (wanted ? shape.lines + 1 : 0);
     }
@@ -70,8 +70,8 @@ struct CheckedLayer : LayerProduct {
 };
 
 /// The part and its supports.
-SpanRows printed_rows(const Layer& layer, const RowBand& band, Scratch& scratch) {
-    SpanRows part = all_rows(layer.part(), band, scratch);
+RunRows printed_rows(const Layer& layer, const RowBand& band, Scratch& scratch) {
+    RunRows part = all_rows(layer.part(), band, scratch);
     return layer.supports() == nullptr ? part : united(part, all_rows(*layer.supports(), band, scratch));
 }
 
@@ -197,14 +197,14 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
     auto product = std::make_unique<CheckedLayer>(state.shape());
     Scratch scratch;
-    SpanRows part = state.rows.of_part(layer, scratch);
+    RunRows part = state.rows.part_rows(layer, scratch);
     product->area = state.grid.area(part.total_length());
     if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
     if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
     if (state.thickness || state.gaps || state.hold) product->cells.emplace(part, *state.cells);
     if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells);
     if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells);
-    SpanRows supports = state.rows.of_supports(layer, scratch);
+    RunRows supports = state.rows.support_rows(layer, scratch);
     product->support_area = state.grid.area(supports.total_length());
     if (!supports.runs().empty()) {
         product->rows.part_with_supports = united(part, supports);
@@ -224,7 +224,7 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     State& state = *state_;
     auto& checked = static_cast<CheckedLayer&>(product);
     const int index = layer.index();
-    const SpanRows& part = checked.rows.part;
+    const RunRows& part = checked.rows.part;
     state.report.volume += checked.area * state.grid.layer_height;
     if (state.wants(Check::sheets)) state.sheets.add(checked.part, index);
     if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed(), index);

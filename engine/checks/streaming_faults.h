@@ -20,7 +20,7 @@ class StreamingFaults {
     /// Of rows and layers of which some are looked at; layers there are so many.
     StreamingFaults(const CheckGrid& grid, const CheckSampling& sampling, int layer_count, double least,
                     std::size_t most)
-        : grid_(sampling.of(grid)),
+        : grid_(sampling.subsample(grid)),
           sampling_(sampling),
           layer_count_(layer_count),
           least_(least),
@@ -29,7 +29,7 @@ class StreamingFaults {
         components_.add(std::move(layer), index, {}, ended_);
         take();
     }
-    void add(const SpanRows& rows, int index) { add(label_layer(rows, index, Growth{}), index); }
+    void add(const RunRows& rows, int index) { add(label_layer(rows, index, Growth{}), index); }
     void finish() {
         components_.finish(ended_);
         take();
@@ -44,7 +44,7 @@ class StreamingFaults {
             const dvec3 size = fault.box.size();
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
-            faults_.add(sampling_.told(std::move(fault), grid_, layer_count_));
+            faults_.add(sampling_.to_full_resolution(std::move(fault), grid_, layer_count_));
         }
         ended_.clear();
     }

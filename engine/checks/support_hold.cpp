@@ -73,9 +73,9 @@ void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const 
     }
 }
 
-SpanRows SupportHold::unheld(const SpanRows& rows) const {
+RunRows SupportHold::unheld(const RunRows& rows) const {
     if (rows.runs().empty() || empty()) return rows;
-    SpanRows out;
+    RunRows out;
     std::vector<Run> left;
     const auto take = [&](const Run& held) { take_away(held, left); };
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
@@ -92,8 +92,8 @@ SpanRows SupportHold::unheld(const SpanRows& rows) const {
     return out;
 }
 
-void SupportHold::add(const SpanRows& supports) {
-    const SpanRows ended = without(last_, supports);
+void SupportHold::add(const RunRows& supports) {
+    const RunRows ended = without(last_, supports);
     for (std::size_t l = 0; l < ended.lines(); ++l) {
         std::vector<Top>& tops = tops_[l];
         for (const Run& run : ended.line(l)) tops.push_back({run, layers_});

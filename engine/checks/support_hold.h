@@ -18,9 +18,9 @@ class SupportHold {
 
     /// What of these rows of the next layer the supports so far do not hold. Quick where that is little, or
     /// where they are held from near.
-    SpanRows unheld(const SpanRows& rows) const;
+    RunRows unheld(const RunRows& rows) const;
     /// The supports of the next layer.
-    void add(const SpanRows& supports);
+    void add(const RunRows& supports);
 
   private:
     /// A run of a layer that the next one has not.
@@ -40,7 +40,7 @@ class SupportHold {
     double layer_height_, unit_;          // mm; a run unit
     std::size_t layers_up_;               // over its end to which a support may hold something
     std::vector<RoundedExtent> reaches_;  // of what goes on, so many rows away
-    SpanRows last_;                       // of the last layer
+    RunRows last_;                        // of the last layer
     std::vector<std::vector<Top>> tops_;  // by row, the oldest first
     std::size_t layers_ = 0;              // added
 };

@@ -23,7 +23,7 @@ ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double th
       sampling_{1, layers_for(grid, thickness_up)},
       found_(grid, sampling_, layer_count, thickness, most) {
     const SampledBall ball =
-        sampled_ball(grid.band, sampling_.of(grid).layer_height, thickness, thickness_up);
+        sampled_ball(grid.band, sampling_.subsample(grid).layer_height, thickness, thickness_up);
     // A pitch besides, by which rows see late what is opened.
     measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
     row_pitch_ = ball.lattice.row_pitch;
@@ -31,14 +31,14 @@ ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double th
         neighbours_.emplace(ball.lattice, measure_, medium);
 }
 
-SpanRows ThicknessCheck::prepare(const SpanRows& rows, const LayerCells& cells) const {
-    SpanRows found;
+RunRows ThicknessCheck::prepare(const RunRows& rows, const LayerCells& cells) const {
+    RunRows found;
     if (neighbours_) return found;
     thin_rows(rows, cells, medium_, measure_, row_pitch_, found);
     return found;
 }
 
-void ThicknessCheck::add(const SpanRows& rows, const SpanRows& prepared) {
+void ThicknessCheck::add(const RunRows& rows, const RunRows& prepared) {
     if (!neighbours_) return found_.add(prepared, next_++);
     if (!sampling_.samples(pushed_++)) return;
     neighbours_->push(rows);
@@ -54,7 +54,7 @@ void ThicknessCheck::finish() {
 }
 
 void ThicknessCheck::take() {
-    for (SpanRows found; neighbours_->pop(found);) found_.add(found, next_++);
+    for (RunRows found; neighbours_->pop(found);) found_.add(found, next_++);
 }
 
 }  // namespace lamella

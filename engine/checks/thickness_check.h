@@ -25,9 +25,9 @@ class ThicknessCheck {
     /// neighbours.
     double reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
     /// The faults of a layer that are known without its neighbours. Pure.
-    SpanRows prepare(const SpanRows& rows, const LayerCells& cells) const;
+    RunRows prepare(const RunRows& rows, const LayerCells& cells) const;
     /// Takes the next layer and what `prepare` made of it.
-    void add(const SpanRows& rows, const SpanRows& prepared);
+    void add(const RunRows& rows, const RunRows& prepared);
     void finish();
     const FaultList& faults() const { return found_.faults(); }
 

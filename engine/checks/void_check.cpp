@@ -10,8 +10,8 @@ constexpr std::uint32_t joined_outside = 1, on_bed = 2;
 
 }  // namespace
 
-LabelledLayer VoidCheck::label(const SpanRows& solid, const CheckGrid& grid, int layer) {
-    const SpanRows voids = complement(solid, 0, grid.band.hi * run_unit);
+LabelledLayer VoidCheck::label(const RunRows& solid, const CheckGrid& grid, int layer) {
+    const RunRows voids = complement(solid, 0, grid.band.hi * run_unit);
     return label_layer(voids, layer, Growth{});
 }
 

@@ -18,7 +18,7 @@ class VoidCheck {
         : grid_(grid), min_cavity_(min_cavity), min_cup_(min_cup), cavities_(most), cups_(most) {}
 
     /// The void of a layer, labelled; its first row is outside. Pure.
-    static LabelledLayer label(const SpanRows& solid, const CheckGrid& grid, int layer);
+    static LabelledLayer label(const RunRows& solid, const CheckGrid& grid, int layer);
     void add(LabelledLayer voids, int layer);
     void finish();
 

@@ -195,7 +195,7 @@ std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> cro
 
 }  // namespace
 
-void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out, int white) {
+void coverage(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out, int white) {
     const std::vector<std::uint16_t> value_of = grey_table(band.sub, white);
     CoverageRow row(band.hi - band.lo);
     const std::int32_t origin = band.lo * run_unit;
@@ -208,7 +208,7 @@ void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& 
     }
 }
 
-void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out, int white) {
+void threshold(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out, int white) {
     // Pixel j has its centre at 256 j + 128.
     const auto first_at_or_after = [&](std::int32_t u) { return ((u + run_unit / 2 - 1) >> 8) - band.lo; };
     for (std::size_t l = 0; l < spans.lines(); ++l) {

@@ -21,12 +21,12 @@ struct GreyRun {
 /// Antialiased coverage of the band's pixel rows from the runs of its sub-lines: exact along the lines, the
 /// mean of `band.sub` lines across. The rows follow each other without a break; each sums to band.hi -
 /// band.lo pixels, and a run never spans two rows. Appends to `out`. `white` is the value of full pixels.
-void coverage(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out,
+void coverage(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out,
               int white = white_of_8_bits);
 
 /// Black and white: a pixel is white when its centre lies in a run of the row's only line (band.sub must be
 /// 1).
-void threshold(const RowBand& band, const SpanRows& spans, std::vector<GreyRun>& out,
+void threshold(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out,
                int white = white_of_8_bits);
 
 /// Antialiased coverage as the area under the contour's chords, pixel by pixel: exact in both directions up

@@ -72,7 +72,7 @@ void Lattice::add_rows(const SliceField& slice, Scratch& scratch) {
         band.first = first;
         band.count = std::min(lines_per_band, grid_.rows + 1 - first);
         rows->clear();
-        slice.spans(band, scratch, *rows);
+        slice.runs(band, scratch, *rows);
         for (int l = 0; l < band.count; ++l) {
             const int j = first + l;
             line.clear();
@@ -94,7 +94,7 @@ void Lattice::add_columns(const SliceField& slice, Scratch& scratch) {
         band.first = first;
         band.count = std::min(lines_per_band, grid_.columns + 1 - first);
         lines->clear();
-        slice.spans(band, scratch, *lines);
+        slice.runs(band, scratch, *lines);
         for (int l = 0; l < band.count; ++l) {
             const int i = first + l;
             if (i == 0 || i == grid_.columns) continue;

@@ -37,7 +37,7 @@ class SliceField {
   public:
     virtual ~SliceField() = default;
     /// The solid runs of every line of the band, clipped to it, appended to a cleared `out`.
-    virtual void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const = 0;
+    virtual void runs(const RowBand& band, Scratch& scratch, RunRows& out) const = 0;
     /// Encloses every value over the rectangle.
     virtual Interval range(const Rect& r) const = 0;
     /// The field's value at every point of the tile, row by row: out[j * nx + i].

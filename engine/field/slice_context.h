@@ -17,7 +17,7 @@ class Scratch {
     /// A buffer on loan; it goes back to the scratch when the lease ends.
     class Lease {
       public:
-        Lease(Scratch& owner, std::unique_ptr<SpanRows> rows) : owner_(&owner), rows_(std::move(rows)) {}
+        Lease(Scratch& owner, std::unique_ptr<RunRows> rows) : owner_(&owner), rows_(std::move(rows)) {}
         Lease(Lease&&) = default;
         Lease& operator=(Lease&&) = delete;
         Lease(const Lease&) = delete;
@@ -25,17 +25,17 @@ class Scratch {
         ~Lease() {
             if (rows_) owner_->free_.push_back(std::move(rows_));
         }
-        SpanRows& operator*() const { return *rows_; }
-        SpanRows* operator->() const { return rows_.get(); }
+        RunRows& operator*() const { return *rows_; }
+        RunRows* operator->() const { return rows_.get(); }
 
       private:
         Scratch* owner_;
-        std::unique_ptr<SpanRows> rows_;
+        std::unique_ptr<RunRows> rows_;
     };
 
     /// A cleared row buffer.
     Lease rows() {
-        if (free_.empty()) return {*this, std::make_unique<SpanRows>()};
+        if (free_.empty()) return {*this, std::make_unique<RunRows>()};
         auto rows = std::move(free_.back());
         free_.pop_back();
         rows->clear();
@@ -46,7 +46,7 @@ class Scratch {
     RunCollector collector;
 
   private:
-    std::vector<std::unique_ptr<SpanRows>> free_;
+    std::vector<std::unique_ptr<RunRows>> free_;
 };
 
 /// Owns the slices of one layer. Slices of a shared field are worked out once. Not thread-safe while slicing;

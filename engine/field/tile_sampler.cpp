@@ -36,7 +36,7 @@ void TileSampler::fill(const BandTile& tile) {
     for (int l = tile.first; l < end_line(tile); ++l) add(l, begin(tile), end(tile));
 }
 
-void TileSampler::append_to(SpanRows& out) const {
+void TileSampler::append_to(RunRows& out) const {
     for (const auto& line : lines_) out.append_line(line);
 }
 

@@ -67,7 +67,7 @@ class TileSampler {
     /// The least length that is told apart along a line, mm.
     double cell() const { return cell_; }
     /// The lines' runs.
-    void append_to(SpanRows& out) const;
+    void append_to(RunRows& out) const;
 
   private:
     /// A tile's part of a line.

@@ -50,7 +50,7 @@ class NarrowingWalk {
     NarrowingWalk(TileSampledSolid& solid, Metric metric, const RowBand& band)
         : solid_(solid), metric_(metric), band_(band), sampler_(solid, metric, band) {}
 
-    void walk(SpanRows& out) {
+    void walk(RunRows& out) {
         visit(whole(band_));
         sampler_.append_to(out);
     }
@@ -88,7 +88,7 @@ class EvenWalk {
     EvenWalk(BatchSampledSolid& solid, Metric metric, const RowBand& band)
         : solid_(solid), band_(band), sampler_(solid, metric, band) {}
 
-    void walk(SpanRows& out) {
+    void walk(RunRows& out) {
         if (const BandTile tile = whole(band_); tile.height > 0) level_.push_back(tile);
         while (!level_.empty()) descend();
         std::sort(found_.begin(), found_.end(), [](const BandTile& a, const BandTile& b) {
@@ -178,22 +178,22 @@ class FieldInPlane : public BatchSampledSolid {
 
 }  // namespace
 
-void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out) {
     out.clear();
     NarrowingWalk(solid, metric, band).walk(out);
 }
 
-void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out) {
     out.clear();
     EvenWalk(solid, metric, band).walk(out);
 }
 
-void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out) {
+void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, RunRows& out) {
     WalkedSlice solid(slice);
     sampled_spans(solid, metric, band, out);
 }
 
-void SampledSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
+void SampledSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
     if (field_.takes_many()) {
         FieldInPlane walked(field_, z_);
         sampled_spans(walked, field_.metric(), band, out);

@@ -46,17 +46,17 @@ class BatchSampledSolid : public SampledSolid {
 /// narrowed to 1/16 of a run unit. A value that is NaN counts as outside. Samples lie at quarter pitches
 /// counted from the band's origin, and what is proven is what they would tell, so a line's runs do not depend
 /// on how it is cut into tiles and bands.
-void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
-void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, SpanRows& out);
+void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
+void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
 
 /// The same for a slice that answers from range and sample.
-void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, SpanRows& out);
+void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, RunRows& out);
 
 /// The slice of a field that answers from its values and ranges.
 class SampledSlice : public SliceField {
   public:
     SampledSlice(const Field& field, double z) : field_(field), z_(z) {}
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     Interval range(const Rect& r) const override;
     void sample(const Tile& tile, std::span<float> out) const override;
     Rect bounds() const override;

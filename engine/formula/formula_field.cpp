@@ -127,7 +127,7 @@ class FormulaSlice : public SliceField {
           z_(z),
           bounds_(bounds.lo.z < z && z < bounds.hi.z ? bounds.rect() : Rect{}) {}
 
-    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const override {
         WalkedFormula solid(fixed_, others_, z_,
                             metric_ == Metric::sign ? FormulaKeeps::signs : FormulaKeeps::numbers);
         sampled_spans(solid, metric_, band, out);

@@ -27,20 +27,20 @@ const SliceField* Layer::supports_at(double share) const {
     return job_->supports ? &context_.slice(*job_->supports, height_of(share)) : nullptr;
 }
 
-void Layer::keep_lines(const RowBand& wanted) const {
+void Layer::cache_lines(const RowBand& wanted) const {
     part_lines_.emplace_back(wanted);
     if (job_->supports) support_lines_.emplace_back(wanted);
 }
 
-std::span<LineCache> Layer::lines_to_keep(const SliceField& slice) const {
+std::span<LineCache> Layer::lines_to_cache(const SliceField& slice) const {
     if (part_lines_.empty()) return {};
     if (&slice == &part()) return part_lines_;
     if (&slice == supports()) return support_lines_;
     return {};
 }
 
-const SpanRows* Layer::kept_lines(const SliceField& slice, const RowBand& wanted) const {
-    for (const LineCache& lines : lines_to_keep(slice)) {
+const RunRows* Layer::kept_lines(const SliceField& slice, const RowBand& wanted) const {
+    for (const LineCache& lines : lines_to_cache(slice)) {
         if (lines.wanted() == wanted && lines.rows() != nullptr) return lines.rows();
     }
     return nullptr;

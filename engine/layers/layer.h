@@ -60,13 +60,13 @@ class Layer {
 
     /// Lets these lines of the part and its supports be kept when a back-end goes through all that their
     /// numbers count, so that another one need not ask for them again.
-    void keep_lines(const RowBand& wanted) const;
+    void cache_lines(const RowBand& wanted) const;
     /// What keeps lines of a slice, for whoever goes through it; empty where none are wanted.
-    std::span<LineCache> lines_to_keep(const SliceField& slice) const;
+    std::span<LineCache> lines_to_cache(const SliceField& slice) const;
     /// The lines of a slice that were kept; null where they were not.
-    const SpanRows* kept_lines(const SliceField& slice, const RowBand& wanted) const;
+    const RunRows* kept_lines(const SliceField& slice, const RowBand& wanted) const;
 
-    void spans(const RowBand& band, SpanRows& out) const { part().spans(band, scratch_, out); }
+    void runs(const RowBand& band, RunRows& out) const { part().runs(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
         return trace_contours(part(), tolerance, scratch_);
     }

@@ -33,17 +33,17 @@ RowBand rows_over(const Rect& rect, double pitch) {
     return band;
 }
 
-SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch) {
+RunRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch) {
     // As many rows as hold so many lines.
     constexpr int band_lines = 64;
     const int band_rows = std::max(1, band_lines * whole.step / whole.sub);
-    SpanRows all;
+    RunRows all;
     const auto some = scratch.rows();
     RowBand band = whole;
     const int end = whole.first + whole.count;
     for (; band.first < end; band.first += band_rows) {
         band.count = std::min(band_rows, end - band.first);
-        slice.spans(band, scratch, *some);
+        slice.runs(band, scratch, *some);
         all.append_lines(*some);
     }
     return all;
@@ -58,14 +58,14 @@ void check_survey_pitch(const char* survey, const Job& job, double pitch, double
                      format_number(most, 6) + " mm: no more than a step, nor than 16 layers");
 }
 
-std::size_t LayerStack::bytes(const SpanRows& rows) { return 56 * rows.runs().size() + 4 * rows.lines(); }
+std::size_t LayerStack::bytes(const RunRows& rows) { return 56 * rows.runs().size() + 4 * rows.lines(); }
 
-void LayerStack::push(const SpanRows& rows) {
+void LayerStack::push(const RunRows& rows) {
     layers_.emplace_back();
     replace(layers_.size() - 1, rows);
 }
 
-void LayerStack::replace(std::size_t i, const SpanRows& rows) {
+void LayerStack::replace(std::size_t i, const RunRows& rows) {
     bytes_ += bytes(rows);
     bytes_ -= bytes(layers_[i]);
     if (bytes_ > max_bytes_) {
@@ -79,13 +79,13 @@ void LayerStack::replace(std::size_t i, const SpanRows& rows) {
 
 std::int64_t LayerStack::total_length() const {
     std::int64_t sum = 0;
-    for (const SpanRows& rows : layers_) sum += rows.total_length();
+    for (const RunRows& rows : layers_) sum += rows.total_length();
     return sum;
 }
 
 RunBoxes LayerStack::boxes(const SurveyGrid& grid) const {
     std::size_t count = 0;
-    for (const SpanRows& rows : layers_) count += rows.runs().size();
+    for (const RunRows& rows : layers_) count += rows.runs().size();
     std::vector<PlacedRun> runs;
     runs.reserve(count);
     for (std::size_t i = 0; i < layers_.size(); ++i) {

@@ -20,7 +20,7 @@ RowBand rows_over(const Rect& rect, double pitch);
 
 /// All rows of a band, from its first one on; the slice is asked piece by piece, so that what it works with
 /// stays in the cache.
-SpanRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
+RunRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
 
 /// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job
 /// (survey_pitch_range) or lie further apart than an outline moves by from one group of layers to the next,
@@ -35,20 +35,20 @@ class LayerStack {
     LayerStack(std::size_t max_bytes, double pitch) : max_bytes_(max_bytes), pitch_(pitch) {}
 
     std::size_t size() const { return layers_.size(); }
-    const SpanRows& operator[](std::size_t i) const { return layers_[i]; }
-    void push(const SpanRows& rows);
-    void replace(std::size_t i, const SpanRows& rows);
+    const RunRows& operator[](std::size_t i) const { return layers_[i]; }
+    void push(const RunRows& rows);
+    void replace(std::size_t i, const RunRows& rows);
     /// The sum of the lengths of all runs, run units.
     std::int64_t total_length() const;
     /// Boxes as long as the runs; layer i is layer i of the grid, line l its row l.
     RunBoxes boxes(const SurveyGrid& grid) const;
 
   private:
-    static std::size_t bytes(const SpanRows& rows);
+    static std::size_t bytes(const RunRows& rows);
 
     std::size_t max_bytes_, bytes_ = 0;
     double pitch_;
-    std::vector<SpanRows> layers_;
+    std::vector<RunRows> layers_;
 };
 
 }  // namespace lamella

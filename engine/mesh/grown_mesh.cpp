@@ -217,7 +217,7 @@ GrownMeshSlice::GrownMeshSlice(const Field& field, const GrownMesh& grown, doubl
     beams_ = BeamRows(beams, z);
 }
 
-void GrownMeshSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+void GrownMeshSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
     scratch.collector.clear();
     wedges_.collect(band, scratch.collector);
     beams_.collect(band, scratch.collector);

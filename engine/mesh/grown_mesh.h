@@ -64,7 +64,7 @@ class GrownMesh {
 class GrownMeshSlice : public SampledSlice {
   public:
     GrownMeshSlice(const Field& field, const GrownMesh& grown, double z);
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     Rect bounds() const override { return unite(beams_.bounds(), wedges_.bounds()); }
 
   private:

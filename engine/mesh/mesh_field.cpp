@@ -43,8 +43,8 @@ class MeshSlice : public SampledSlice {
   public:
     MeshSlice(const Field& field, const MeshData& data, double z)
         : SampledSlice(field, z), section_(section(data, z)) {}
-    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
-        section_.spans(band, out);
+    void runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const override {
+        section_.runs(band, out);
     }
     Rect bounds() const override { return section_.bounds(); }
 

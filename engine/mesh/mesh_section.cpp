@@ -60,7 +60,7 @@ MeshSection::MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32
     boxes_ = PlaneIndex(std::move(boxes));
 }
 
-void MeshSection::spans(const RowBand& band, SpanRows& out) const {
+void MeshSection::runs(const RowBand& band, RunRows& out) const {
     // Segments outside the band count too: they wind round what lies in it.
     std::vector<std::uint32_t> items;
     boxes_.query(band, items);

@@ -17,7 +17,7 @@ class MeshSection {
     /// triangles: at least all triangles that meet the plane at height z, mm.
     MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double z);
 
-    void spans(const RowBand& band, SpanRows& out) const;
+    void runs(const RowBand& band, RunRows& out) const;
     Rect bounds() const { return boxes_.bounds(); }
     const std::vector<SectionSegment>& segments() const { return segments_; }
 

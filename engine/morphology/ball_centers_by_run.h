@@ -13,7 +13,7 @@ namespace lamella {
 /// Stretches of a layer's runs, found in one of them after another.
 class BallCentersByRun {
   public:
-    explicit BallCentersByRun(const SpanRows& rows)
+    explicit BallCentersByRun(const RunRows& rows)
         : is_searched_(rows.runs().size(), 0), in_lines_(rows.lines()), to_search_(rows.lines()) {
         for (std::size_t l = 0; l < rows.lines(); ++l)
             to_search_[l] = static_cast<std::uint32_t>(rows.line(l).size());

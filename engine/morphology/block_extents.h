@@ -16,7 +16,7 @@ struct LineBlock {
 };
 
 /// How far a run reaches on lines of a block, run units.
-struct Reaches {
+struct ExtentBounds {
     std::int32_t least, most;  ///< negative where not all or none are reached
 };
 
@@ -37,7 +37,7 @@ class BlockExtents {
         : lattice_(lattice), table_(table), block_(block) {}
 
     /// Turns to the runs of a line; lines of a layer had better follow each other.
-    void turn_to(std::int32_t layer, std::int32_t line) {
+    void set_source_line(std::int32_t layer, std::int32_t line) {
         if (layer != layer_) {
             layer_ = layer;
             up_ = LinesAway(layer, block_.layer, block_.layers);
@@ -50,7 +50,7 @@ class BlockExtents {
         weight_ = -1;
     }
     /// Of a run of that line.
-    Reaches of(double weight) {
+    ExtentBounds bounds(double weight) {
         if (table_.are_of(weight)) return {min_of_table_, max_of_table_};
         if (weight != weight_) calculate(weight);
         return calculated_;
@@ -59,11 +59,11 @@ class BlockExtents {
   private:
     void calculate(double weight) {
         weight_ = weight;
-        constexpr double surely = 1;  // run units^2; far more than rounding makes
+        constexpr double rounding_margin = 1;  // run units^2; far more than rounding makes
         const auto square = [](std::int32_t count, double pitch) { return count * pitch * (count * pitch); };
-        const double least = weight - surely - square(across_.most, lattice_.row_pitch) -
+        const double least = weight - rounding_margin - square(across_.most, lattice_.row_pitch) -
                              square(up_.most, lattice_.layer_pitch);
-        const double most = weight + surely - square(across_.least, lattice_.row_pitch) -
+        const double most = weight + rounding_margin - square(across_.least, lattice_.row_pitch) -
                             square(up_.least, lattice_.layer_pitch);
         calculated_ = {least < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(least)),
                        most < 0 ? -1 : static_cast<std::int32_t>(std::sqrt(most)) + 1};
@@ -77,7 +77,7 @@ class BlockExtents {
     LinesAway up_{0, 0, 1}, across_{0, 0, 1};
     double weight_ = -1;
     std::int32_t min_of_table_ = -1, max_of_table_ = -1;
-    Reaches calculated_{};
+    ExtentBounds calculated_{};
 };
 
 }  // namespace lamella

@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-CellLattice coarse_lattice(const SpanRows& rows, std::int32_t scale, double reach, double row_pitch) {
+CellLattice coarse_lattice(const RunRows& rows, std::int32_t scale, double reach, double row_pitch) {
     const Run extent = extent_of(rows);
     const auto lines = static_cast<std::size_t>(scale);
     return {{extent.begin / scale - 1, extent.end / scale + 1},
@@ -17,7 +17,7 @@ CellLattice coarse_lattice(const SpanRows& rows, std::int32_t scale, double reac
 
 }  // namespace
 
-CoarseCells::CoarseCells(const SpanRows& rows, std::int32_t scale, double reach, double row_pitch)
+CoarseCells::CoarseCells(const RunRows& rows, std::int32_t scale, double reach, double row_pitch)
     : scale_(scale),
       row_count_(rows.lines()),
       solid_(coarse_lattice(rows, scale, reach, row_pitch)),
@@ -47,11 +47,11 @@ void CoarseCells::add(std::int32_t begin, std::int32_t end, std::size_t line, Ro
     to.mark((begin - first) / length, (end - first + length - 1) / length, line);
 }
 
-SpanRows CoarseCells::rows_of(const RowBitmask& cells) const {
+RunRows CoarseCells::rows_of(const RowBitmask& cells) const {
     const auto lines = static_cast<std::size_t>(scale_);
     const std::size_t count = row_count_ + 2 * margin();
-    const SpanRows coarse = cells.runs(0, (count + lines - 1) / lines);
-    SpanRows rows;
+    const RunRows coarse = cells.runs(0, (count + lines - 1) / lines);
+    RunRows rows;
     rows.reserve(count, coarse.runs().size() * lines);
     for (std::size_t l = 0; l < count; ++l) {
         for (const Run& run : coarse.line(l / lines)) rows.push(run.begin * scale_, run.end * scale_);

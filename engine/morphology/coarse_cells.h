@@ -9,14 +9,14 @@ namespace lamella {
 class CoarseCells {
   public:
     /// Cells are known up to `reach` beside the rows, run units.
-    CoarseCells(const SpanRows& rows, std::int32_t scale, double reach, double row_pitch);
+    CoarseCells(const RunRows& rows, std::int32_t scale, double reach, double row_pitch);
 
     const RowBitmask& solid() const { return solid_; }
     const RowBitmask& voids() const { return void_; }
     /// Rows that are known on either side of the layer's.
     std::size_t margin() const { return solid_.lattice().margin_lines * static_cast<std::size_t>(scale_); }
     /// Cells of the lattice as runs of the layer's rows and the margin's, run units.
-    SpanRows rows_of(const RowBitmask& cells) const;
+    RunRows rows_of(const RowBitmask& cells) const;
 
   private:
     void add(std::int32_t begin, std::int32_t end, std::size_t line, RowBitmask& to);

@@ -11,7 +11,7 @@ namespace lamella {
 namespace {
 
 /// Whether rows have a run from row `first` to row `last`; both may lie beside them.
-bool any_run(const SpanRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
+bool any_run(const RunRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
     const auto count = static_cast<std::ptrdiff_t>(rows.lines());
     const std::span<const Run> lowest =
                                    rows.line(static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0))),
@@ -21,12 +21,12 @@ bool any_run(const SpanRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
 
 /// Appends lines [first, last) of what is left. layer_at(k) is what is grown k layers on, or null.
 template <typename LayerAt>
-void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& ball, std::size_t first,
-                      std::size_t last, SpanRows& out) {
+void append_remainder(const RunRows& from, LayerAt layer_at, const BallLines& ball, std::size_t first,
+                      std::size_t last, RunRows& out) {
     RunDifference left;
     const auto anything_near = [&](std::ptrdiff_t row) {
         for (int k = -ball.layers(); k <= ball.layers(); ++k) {
-            const SpanRows* taken = layer_at(k);
+            const RunRows* taken = layer_at(k);
             if (taken != nullptr && any_run(*taken, row - ball.rows(), row + ball.rows())) return true;
         }
         return false;
@@ -39,17 +39,17 @@ void append_remainder(const SpanRows& from, LayerAt layer_at, const BallLines& b
         left.assign(from.line(l));
         for (const BallLines::Line& line : ball.lines()) {
             if (left.empty()) break;
-            const SpanRows* taken = layer_at(line.layer);
+            const RunRows* taken = layer_at(line.layer);
             const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(l) + line.row;
             if (taken == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(taken->lines())) continue;
-            left.take_away(taken->line(static_cast<std::size_t>(row)), line.reach);
+            left.subtract(taken->line(static_cast<std::size_t>(row)), line.reach);
         }
         out.append_line(left.all());
     }
     out.append_lines(from, same, last - same);
 }
 
-void check_lines(const SpanRows& from, const SpanRows& taken) {
+void check_lines(const RunRows& from, const RunRows& taken) {
     if (from.lines() != taken.lines()) throw FaultError("rows that are taken from others are not as many");
 }
 
@@ -75,7 +75,7 @@ BallLines::BallLines(const LayerLattice& lattice, double radius)
         lines_.push_back({way.layer, way.row, RoundedExtent(std::sqrt(radius * radius - way.squared))});
 }
 
-void subtract_dilated(const SpanRows& a, const SpanRows& b, double radius, double row_pitch, SpanRows& out) {
+void subtract_dilated(const RunRows& a, const RunRows& b, double radius, double row_pitch, RunRows& out) {
     check_lines(a, b);
     if (a.runs().empty() || b.runs().empty()) {
         out = a;
@@ -88,49 +88,49 @@ void subtract_dilated(const SpanRows& a, const SpanRows& b, double radius, doubl
         a, [&](int) { return &b; }, disc, 0, a.lines(), out);
 }
 
-std::span<const Run> DilatedDifference::of(const Run& run, std::size_t line, LayersAbout taken,
-                                           const BallLines& ball) {
+std::span<const Run> DilatedDifference::difference(const Run& run, std::size_t line, LayersAbout taken,
+                                                   const BallLines& ball) {
     left_.assign({&run, 1});
     for (const BallLines::Line& on : ball.lines()) {
         const int layer = on.layer + ball.layers();
-        const SpanRows* rows = taken[static_cast<std::size_t>(layer)];
+        const RunRows* rows = taken[static_cast<std::size_t>(layer)];
         const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(line) + on.row;
         if (rows == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(rows->lines())) continue;
         const std::span<const Run> runs = rows->line(static_cast<std::size_t>(row));
         const Run* const end = runs.data() + runs.size();
         const Run* const near = first_ending_behind(runs, left_.all().front().begin - on.reach.ahead);
         if (near == end || near->begin >= left_.all().back().end + on.reach.back) continue;
-        left_.take_away({near, end}, on.reach);
+        left_.subtract({near, end}, on.reach);
         if (left_.empty()) break;
     }
     return left_.all();
 }
 
-void DilatedDifferenceStream::push(SpanRows from, SpanRows taken) {
+void DilatedDifferenceStream::push(RunRows from, RunRows taken) {
     check_lines(from, taken);
     layers_.push_back({std::move(from), std::move(taken)});
 }
 
-bool DilatedDifferenceStream::pop(SpanRows& out) {
+bool DilatedDifferenceStream::pop(RunRows& out) {
     if (layers_.size() < past_ + 1 + (finished_ ? 0 : reach_)) return false;
-    const SpanRows& from = layers_[past_].from;
+    const RunRows& from = layers_[past_].from;
     const auto layer_at = [&](int k) {
         const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(past_) + k;
         const bool is_there = i >= 0 && i < static_cast<std::ptrdiff_t>(layers_.size());
         return is_there ? &layers_[static_cast<std::size_t>(i)].taken : nullptr;
     };
     constexpr std::size_t lines_at_once = 64;
-    std::vector<SpanRows> strips((from.lines() + lines_at_once - 1) / lines_at_once);
+    std::vector<RunRows> strips((from.lines() + lines_at_once - 1) / lines_at_once);
     for_all_strips(strips.size(), [&](std::size_t s) {
         const std::size_t first = s * lines_at_once;
         append_remainder(from, layer_at, ball_, first, std::min(first + lines_at_once, from.lines()),
                          strips[s]);
     });
     std::size_t runs = 0;
-    for (const SpanRows& strip : strips) runs += strip.runs().size();
+    for (const RunRows& strip : strips) runs += strip.runs().size();
     out.clear();
     out.reserve(from.lines(), runs);
-    for (const SpanRows& strip : strips) out.append_lines(strip);
+    for (const RunRows& strip : strips) out.append_lines(strip);
     layers_[past_].from.clear();
     if (past_ == reach_) {
         layers_.pop_front();

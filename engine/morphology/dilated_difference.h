@@ -11,7 +11,7 @@
 namespace lamella {
 
 /// What of `a` is left when a disc of `radius` about each point of `b`, rows of equal number, is taken away.
-void subtract_dilated(const SpanRows& a, const SpanRows& b, double radius, double row_pitch, SpanRows& out);
+void subtract_dilated(const RunRows& a, const RunRows& b, double radius, double row_pitch, RunRows& out);
 
 /// The lines that a ball reaches from the middle one, and how far along each; the nearest first.
 class BallLines {
@@ -33,13 +33,14 @@ class BallLines {
 
 /// The rows of layers about one, from as many below it as a ball reaches to as many above; null where there
 /// is none.
-using LayersAbout = std::span<const SpanRows* const>;
+using LayersAbout = std::span<const RunRows* const>;
 
 /// What of single runs of the middle layer is left when a ball about each point of layers is taken away.
 class DilatedDifference {
   public:
     /// What is left of a run of that line; valid until the next call.
-    std::span<const Run> of(const Run& run, std::size_t line, LayersAbout taken, const BallLines& ball);
+    std::span<const Run> difference(const Run& run, std::size_t line, LayersAbout taken,
+                                    const BallLines& ball);
 
   private:
     RunDifference left_;
@@ -55,15 +56,15 @@ class DilatedDifferenceStream {
 
     /// Adds the next layer of what something is taken from, and of what is grown and taken: rows of equal
     /// number.
-    void push(SpanRows from, SpanRows taken);
+    void push(RunRows from, RunRows taken);
     /// No more layers will come.
     void finish() { finished_ = true; }
     /// Takes the next layer. False where further ones have to be pushed first, or there are no more.
-    bool pop(SpanRows& out);
+    bool pop(RunRows& out);
 
   private:
     struct Pair {
-        SpanRows from, taken;
+        RunRows from, taken;
     };
     BallLines ball_;
     std::size_t reach_;  // layers

@@ -24,7 +24,7 @@ std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, do
         RowBand band = all;
         for (; band.first < all.first + all.count; band.first += lines_per_strip) {
             band.count = std::min(lines_per_strip, all.first + all.count - band.first);
-            section.spans(band, scratch, *rows);
+            section.runs(band, scratch, *rows);
             for (int l = 0; l < band.lines(); ++l) {
                 const double across = band.line(l);
                 const auto add = [&](std::int32_t u) {
@@ -89,7 +89,7 @@ class OffsetSlice : public SliceField {
     OffsetSlice(const SliceField& section, double by, double pitch)
         : section_(section), by_(by), radius_(std::abs(by)), pitch_(pitch) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         const auto points = border_points(section_, grown(band.rect(), radius_), pitch_, scratch);
         const auto discs = scratch.rows();
         scratch.collector.clear();
@@ -97,7 +97,7 @@ class OffsetSlice : public SliceField {
         for (const dvec2 p : points) disc.collect(p, scratch.collector);
         scratch.collector.merge(band, *discs);
         const auto before = scratch.rows();
-        section_.spans(band, scratch, *before);
+        section_.runs(band, scratch, *before);
         if (by_ > 0) {
             unite(*before, *discs, out);
         } else {

@@ -32,11 +32,11 @@ double max_weight_of(const LayerStack& stack) {
 
 /// Where what is grown from these layers can begin and end, runs without an end apart.
 Run extent_of(const LayerStack& stack) {
-    Run extent{far_out, -far_out};
+    Run extent{unbounded, -unbounded};
     for (const WeightedRows* layer : stack) {
         for (const WeightedRun& run : layer->runs()) {
             for (const std::int32_t end : {run.begin, run.end}) {
-                if (std::abs(end) >= far_out) continue;
+                if (std::abs(end) >= unbounded) continue;
                 extent.begin = std::min(extent.begin, end);
                 extent.end = std::max(extent.end, end);
             }
@@ -75,16 +75,17 @@ bool looks_at_all(const LayerLattice& lattice, const BallExtentTable& reaches, d
 }
 
 /// Appends a grown line; what goes on without an end reaches the ends of the extent.
-void append_line(std::span<const Run> grown, Run extent, SpanRows& out) {
+void append_line(std::span<const Run> grown, Run extent, RunRows& out) {
     for (const Run& run : grown) {
-        out.push(run.begin == extent.begin ? -far_out : run.begin, run.end == extent.end ? far_out : run.end);
+        out.push(run.begin == extent.begin ? -unbounded : run.begin,
+                 run.end == extent.end ? unbounded : run.end);
     }
     out.end_line();
 }
 
 /// The lines of a block one after another.
 template <typename Grower>
-void append_block(const Grower& grown, const LineBlock& block, Run extent, std::span<SpanRows> layers) {
+void append_block(const Grower& grown, const LineBlock& block, Run extent, std::span<RunRows> layers) {
     for (std::int32_t z = 0; z < block.layers; ++z) {
         for (std::int32_t l = 0; l < block.lines; ++l)
             append_line(grown.line(z, l), extent, layers[static_cast<std::size_t>(z)]);
@@ -96,21 +97,21 @@ constexpr std::size_t strip_lines = 32;
 
 std::size_t strips_of(const LayerLattice& lattice) { return (lattice.lines + strip_lines - 1) / strip_lines; }
 
-using Strips = std::vector<std::vector<SpanRows>>;  // layer by layer
+using Strips = std::vector<std::vector<RunRows>>;  // layer by layer
 
-std::vector<SpanRows> side_by_side(const Strips& strips, std::size_t layer_count) {
-    std::vector<SpanRows> layers(layer_count);
+std::vector<RunRows> side_by_side(const Strips& strips, std::size_t layer_count) {
+    std::vector<RunRows> layers(layer_count);
     for (std::size_t z = 0; z < layer_count; ++z) {
-        for (const std::vector<SpanRows>& strip : strips) layers[z].append_lines(strip[z]);
+        for (const std::vector<RunRows>& strip : strips) layers[z].append_lines(strip[z]);
     }
     return layers;
 }
 
 /// Grows layers [from, from + count) of a stack, by blocks of `high` layers of `wide` lines.
 template <typename Grower>
-std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
-                                  const BallExtentTable& reaches, std::size_t high, std::size_t wide,
-                                  std::size_t from, std::size_t count) {
+std::vector<RunRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
+                                 const BallExtentTable& reaches, std::size_t high, std::size_t wide,
+                                 std::size_t from, std::size_t count) {
     const Run extent = extent_of(stack);
     Strips strips(strips_of(lattice));
     oneapi::tbb::enumerable_thread_specific<Grower> growers(lattice, std::cref(reaches), extent,
@@ -118,7 +119,7 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
                                                             max_weight_of(stack));
     for_all_strips(strips.size(), [&](std::size_t s) {
         Grower& grower = growers.local();
-        std::vector<SpanRows>& layers = strips[s];
+        std::vector<RunRows>& layers = strips[s];
         layers.resize(count);
         const std::size_t first = s * strip_lines, last = std::min(first + strip_lines, lattice.lines);
         for (std::size_t z = 0; z < count; z += high) {
@@ -128,7 +129,7 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
                                       static_cast<std::int32_t>(end - z),
                                       static_cast<std::int32_t>(std::min(wide, last - l))};
                 grower.grow(block, stack);
-                append_block(grower, block, extent, std::span<SpanRows>(layers).subspan(z, end - z));
+                append_block(grower, block, extent, std::span<RunRows>(layers).subspan(z, end - z));
             }
         }
     });
@@ -136,8 +137,8 @@ std::vector<SpanRows> grow_blocks(const LayerStack& stack, const LayerLattice& l
 }
 
 /// The same in whichever way is faster.
-std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
-                                  const BallExtentTable& reaches, std::size_t from, std::size_t count) {
+std::vector<RunRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
+                                 const BallExtentTable& reaches, std::size_t from, std::size_t count) {
     const double max_weight = max_weight_of(stack);
     const double reach = std::sqrt(max_weight);
     if (looks_at_all(lattice, reaches, max_weight, stack.size())) {
@@ -153,17 +154,17 @@ std::vector<SpanRows> grow_within(const LayerStack& stack, const LayerLattice& l
 /// The void of a line between far left and far right.
 void append_void(std::span<const Run> solid, double weight, WeightedRows& out) {
     std::vector<WeightedRun> runs;
-    std::int32_t at = -far_out;
+    std::int32_t at = -unbounded;
     for (const Run& run : solid) {
         if (run.begin > at) runs.push_back({at, run.begin, weight});
         at = run.end;
     }
-    if (at < far_out) runs.push_back({at, far_out, weight});
+    if (at < unbounded) runs.push_back({at, unbounded, weight});
     out.append_line(runs);
 }
 
 /// The void of a layer with `margin` lines on either side.
-WeightedRows void_of(const SpanRows& rows, std::size_t margin, double radius) {
+WeightedRows void_of(const RunRows& rows, std::size_t margin, double radius) {
     WeightedRows out;
     for (std::size_t l = 0; l < margin; ++l) append_void({}, radius * radius, out);
     for (std::size_t l = 0; l < rows.lines(); ++l) append_void(rows.line(l), radius * radius, out);
@@ -172,9 +173,9 @@ WeightedRows void_of(const SpanRows& rows, std::size_t margin, double radius) {
 }
 
 /// What is left between the grown voids, without the margin.
-void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
+void append_solid(const RunRows& voids, std::size_t margin, RunRows& out) {
     for (std::size_t l = margin; l + margin < voids.lines(); ++l) {
-        std::int32_t at = -far_out;
+        std::int32_t at = -unbounded;
         for (const Run& run : voids.line(l)) {
             out.push(at, run.begin);
             at = run.end;
@@ -185,16 +186,16 @@ void append_solid(const SpanRows& voids, std::size_t margin, SpanRows& out) {
 
 }  // namespace
 
-void grow_rows(const WeightedRows& rows, double row_pitch, SpanRows& out) {
+void grow_rows(const WeightedRows& rows, double row_pitch, RunRows& out) {
     // Other layers, of which there are none, lie beyond every disc.
     const double beyond = 2 * std::sqrt(rows.max_weight()) + row_pitch;
     const LayerLattice lattice{row_pitch, beyond, rows.lines()};
     out = std::move(grow_within({&rows}, lattice, BallExtentTable(lattice, rows.max_weight()), 0, 1).front());
 }
 
-void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out) {
+void shrink_rows(const RunRows& rows, double radius, double row_pitch, RunRows& out) {
     const auto margin = static_cast<std::size_t>(radius / row_pitch);
-    SpanRows voids;
+    RunRows voids;
     grow_rows(void_of(rows, margin, radius), row_pitch, voids);
     out.clear();
     append_solid(voids, margin, out);
@@ -214,7 +215,7 @@ void DilationStream::push(WeightedRows layer) {
     layers_.push_back(std::move(layer));
 }
 
-bool DilationStream::pop(SpanRows& out) {
+bool DilationStream::pop(RunRows& out) {
     const std::size_t waiting = layers_.size() - past_;
     if (done_.empty() && (finished_ ? waiting > 0 : waiting >= block_ + reach_)) finish_block();
     if (done_.empty()) return false;
@@ -244,7 +245,7 @@ void DilationStream::finish_block() {
     LayerStack stack;
     for (std::size_t z = 0; z < window; ++z) stack.push_back(&layers_[z]);
     std::size_t runs = 0, grown_runs = 0;
-    for (SpanRows& layer : grow_within(stack, lattice_, ball_, past_, count)) {
+    for (RunRows& layer : grow_within(stack, lattice_, ball_, past_, count)) {
         grown_runs += layer.runs().size();
         done_.push_back(std::move(layer));
     }
@@ -268,11 +269,11 @@ ErosionStream::ErosionStream(const LayerLattice& lattice, double radius)
 }
 
 void ErosionStream::push_void() {
-    const SpanRows nothing = empty_rows(lattice_.lines);
+    const RunRows nothing = empty_rows(lattice_.lines);
     for (std::size_t i = 0; i < void_layers_; ++i) voids_.push(void_of(nothing, margin_, radius_));
 }
 
-void ErosionStream::push(const SpanRows& layer) {
+void ErosionStream::push(const RunRows& layer) {
     if (layer.lines() != lattice_.lines) throw FaultError("a layer has other lines than the lattice");
     voids_.push(void_of(layer, margin_, radius_));
     ++to_come_;
@@ -283,8 +284,8 @@ void ErosionStream::finish() {
     voids_.finish();
 }
 
-bool ErosionStream::pop(SpanRows& out) {
-    SpanRows voids;
+bool ErosionStream::pop(RunRows& out) {
+    RunRows voids;
     for (; to_drop_ > 0; --to_drop_) {
         if (!voids_.pop(voids)) return false;
     }

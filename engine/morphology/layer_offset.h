@@ -12,9 +12,9 @@ namespace lamella {
 
 /// The rows of one layer, grown by a disc about each of their points. Ends are rounded to the nearest unit;
 /// the rest is exact. Lines beyond the first and the last are not made.
-void grow_rows(const WeightedRows& rows, double row_pitch, SpanRows& out);
+void grow_rows(const WeightedRows& rows, double row_pitch, RunRows& out);
 /// What is left when a disc about each point of the void is taken away; beyond the lines all is void.
-void shrink_rows(const SpanRows& rows, double radius, double row_pitch, SpanRows& out);
+void shrink_rows(const RunRows& rows, double radius, double row_pitch, RunRows& out);
 
 /// Grows layers by a ball about each of their points, exactly (thesis 3.2; Chen, Panozzo and Dumas 2018), in
 /// blocks of lines: by all runs about them where balls are small (BruteForceDilation), else by those that can
@@ -31,7 +31,7 @@ class DilationStream {
     /// No more layers will come.
     void finish() { finished_ = true; }
     /// Takes the next grown layer. False where further layers have to be pushed first, or there are no more.
-    bool pop(SpanRows& out);
+    bool pop(RunRows& out);
 
   private:
     void finish_block();
@@ -48,7 +48,7 @@ class DilationStream {
     PowerCellPruner sight_limits_;
     std::size_t limited_ = 0;     // how many of the layers have limited each other's sights
     bool few_ends_left_ = false;  // by growing, the last time: then it is not worth the while
-    std::deque<SpanRows> done_;
+    std::deque<RunRows> done_;
 };
 
 /// The same for what is left when a ball about each point of the void is taken away. Beyond the lattice all
@@ -56,9 +56,9 @@ class DilationStream {
 class ErosionStream {
   public:
     ErosionStream(const LayerLattice& lattice, double radius);
-    void push(const SpanRows& layer);
+    void push(const RunRows& layer);
     void finish();
-    bool pop(SpanRows& out);
+    bool pop(RunRows& out);
 
   private:
     void push_void();

@@ -36,7 +36,7 @@ SampledBall sampled_ball(const RowBand& band, double layer_height, double thickn
 OpeningStream::OpeningStream(const LayerLattice& lattice, double radius, double slack)
     : reach_(radius + slack), shrunk_(lattice, radius), grown_(lattice, radius + slack) {}
 
-void OpeningStream::push(const SpanRows& layer) {
+void OpeningStream::push(const RunRows& layer) {
     shrunk_.push(layer);
     carry_on();
 }
@@ -48,7 +48,7 @@ void OpeningStream::finish() {
 }
 
 void OpeningStream::carry_on() {
-    for (SpanRows rows; shrunk_.pop(rows);) grown_.push(WeightedRows(rows, reach_));
+    for (RunRows rows; shrunk_.pop(rows);) grown_.push(WeightedRows(rows, reach_));
 }
 
 ClosingStream::ClosingStream(const LayerLattice& lattice, double radius, double slack)
@@ -64,14 +64,14 @@ ClosingStream::ClosingStream(const LayerLattice& lattice, double radius, double 
 
 /// What grows out of the lattice has to be there when it shrinks back.
 void ClosingStream::push_empty() {
-    const SpanRows nothing = empty_rows(lines_ + 2 * margin_);
+    const RunRows nothing = empty_rows(lines_ + 2 * margin_);
     for (std::size_t i = 0; i < beyond_; ++i) grown_.push(WeightedRows(nothing, radius_));
     carry_on();
 }
 
-void ClosingStream::push(const SpanRows& layer) {
+void ClosingStream::push(const RunRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
-    SpanRows wide = empty_rows(margin_);
+    RunRows wide = empty_rows(margin_);
     wide.append_lines(layer);
     for (std::size_t l = 0; l < margin_; ++l) wide.end_line();
     grown_.push(WeightedRows(wide, radius_));
@@ -87,11 +87,11 @@ void ClosingStream::finish() {
 }
 
 void ClosingStream::carry_on() {
-    for (SpanRows rows; grown_.pop(rows);) shrunk_.push(rows);
+    for (RunRows rows; grown_.pop(rows);) shrunk_.push(rows);
 }
 
-bool ClosingStream::pop(SpanRows& out) {
-    SpanRows wide;
+bool ClosingStream::pop(RunRows& out) {
+    RunRows wide;
     for (; to_drop_ > 0; --to_drop_) {
         if (!shrunk_.pop(wide)) return false;
     }

@@ -28,9 +28,9 @@ SampledBall sampled_ball(const RowBand& band, double layer_height, double thickn
 class OpeningStream {
   public:
     OpeningStream(const LayerLattice& lattice, double radius, double slack = 0);
-    void push(const SpanRows& layer);
+    void push(const RunRows& layer);
     void finish();
-    bool pop(SpanRows& out) { return grown_.pop(out); }
+    bool pop(RunRows& out) { return grown_.pop(out); }
 
   private:
     void carry_on();
@@ -46,9 +46,9 @@ class OpeningStream {
 class ClosingStream {
   public:
     ClosingStream(const LayerLattice& lattice, double radius, double slack = 0);
-    void push(const SpanRows& layer);
+    void push(const RunRows& layer);
     void finish();
-    bool pop(SpanRows& out);
+    bool pop(RunRows& out);
 
   private:
     void push_empty();

@@ -32,16 +32,16 @@ struct Mending {
     double ball;    ///< radius of the ball by which thickness is measured
     double radius;  ///< of the discs that are put
     /// From rows of the section to the rows of the cores. Lengths in run units.
-    void (*cores)(const SpanRows& rows, double radius, SpanRows& out);
+    void (*cores)(const RunRows& rows, double radius, RunRows& out);
 };
 
-void grow(const SpanRows& rows, double radius, SpanRows& out) {
+void grow(const RunRows& rows, double radius, RunRows& out) {
     grow_rows(WeightedRows(rows, radius), run_unit, out);
 }
 
 /// Where discs of `radius` have to stand so that all has that radius at least.
-void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
-    SpanRows thin, shrunk, larger, some, all;
+void cores_of_thin(const RunRows& rows, double radius, RunRows& out) {
+    RunRows thin, shrunk, larger, some, all;
     thin_rows(rows, FeatureKind::wall, {radius, outline_slack_share * radius + run_unit}, run_unit, thin);
     out = empty_rows(rows.lines());
     for (int level = levels - 1; level >= 0 && !thin.runs().empty(); --level) {
@@ -57,7 +57,7 @@ void cores_of_thin(const SpanRows& rows, double radius, SpanRows& out) {
     }
 }
 
-void cores_of_narrow(const SpanRows& rows, double radius, SpanRows& out) {
+void cores_of_narrow(const RunRows& rows, double radius, RunRows& out) {
     thin_rows(rows, FeatureKind::gap, {radius, outline_slack_share * radius + run_unit}, run_unit, out);
 }
 
@@ -65,10 +65,10 @@ class MendedSlice : public SliceField {
   public:
     MendedSlice(const SliceField& section, const Mending& mending) : section_(section), mending_(mending) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         const auto discs = scratch.rows();
         const std::vector<Core> cores = cores_about(band.rect(), scratch);
-        if (cores.empty()) return section_.spans(band, scratch, out);
+        if (cores.empty()) return section_.runs(band, scratch, out);
         scratch.collector.clear();
         for (const Core& core : cores) {
             if (band.axis == Axis::x) {
@@ -79,7 +79,7 @@ class MendedSlice : public SliceField {
         }
         scratch.collector.merge(band, *discs);
         const auto before = scratch.rows();
-        section_.spans(band, scratch, *before);
+        section_.runs(band, scratch, *before);
         unite(*before, *discs, out);
     }
 
@@ -123,7 +123,7 @@ class MendedSlice : public SliceField {
         if (met.empty()) return cores;
         const RowBand lines = plane_lattice(Axis::x, met, mending_.pitch);
         const auto rows = scratch.rows(), found = scratch.rows();
-        section_.spans(lines, scratch, *rows);
+        section_.runs(lines, scratch, *rows);
         if (rows->runs().empty()) return cores;
         mending_.cores(*rows, mending_.ball / mending_.pitch * run_unit, *found);
         const Rect near = grown(rect, mending_.radius);

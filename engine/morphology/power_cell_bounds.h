@@ -8,12 +8,12 @@
 namespace lamella {
 
 /// The ways from a line of a stack of layers to those beside it.
-enum class Beside : std::uint8_t { line_before, line_behind, layer_below, layer_above };
+enum class Neighbor : std::uint8_t { line_before, line_behind, layer_below, layer_above };
 
 /// Where lines lie, seen from another one: so many lines to each side, at least.
 class BlockOffset {
   public:
-    constexpr BlockOffset(Beside side, std::int32_t lines)
+    constexpr BlockOffset(Neighbor side, std::int32_t lines)
         : bits_(static_cast<std::uint64_t>(std::clamp(lines, 0, 127)) * each_end
                 << 8 * static_cast<int>(side)) {}
     constexpr BlockOffset operator|(BlockOffset other) const { return BlockOffset(bits_ | other.bits_); }
@@ -33,7 +33,7 @@ class PowerCellBounds {
     static constexpr std::uint8_t unlimited = 127;
 
     /// Limits what can be seen on one side.
-    void limit(Beside side, std::uint8_t lines_of_begin, std::uint8_t lines_of_end) {
+    void limit(Neighbor side, std::uint8_t lines_of_begin, std::uint8_t lines_of_end) {
         const int shift = 8 * static_cast<int>(side);
         constexpr std::uint64_t both = 0xff'0000'00ff;
         bits_ = (bits_ & ~(both << shift)) | (std::uint64_t{lines_of_end} << 32 | lines_of_begin) << shift;

@@ -16,11 +16,11 @@ bool limits(const WeightedRun& run, const WeightedRun& other) {
 }  // namespace
 
 PowerCellPruner::EndSight::EndSight(double pitch, double max_weight) : lines_(1, 0) {
-    constexpr double surely = 1;  // run units^2; far more than rounding makes
+    constexpr double rounding_margin = 1;  // run units^2; far more than rounding makes
     for (int lines = 1; lines < PowerCellBounds::unlimited; ++lines) {
-        const double away = lines * pitch, left = max_weight + surely - away * away;
+        const double away = lines * pitch, left = max_weight + rounding_margin - away * away;
         if (left < 0) break;
-        const double nearer = (2 * lines - 1) * pitch * pitch - surely;
+        const double nearer = (2 * lines - 1) * pitch * pitch - rounding_margin;
         if (nearer < 0) continue;
         // So far back, an end reaches as far if it is a line nearer: seen from here on, it has outdone the
         // other.
@@ -35,10 +35,10 @@ PowerCellPruner::EndSight::EndSight(double pitch, double max_weight) : lines_(1,
 struct PowerCellPruner::Pair {
     std::span<const WeightedRun> runs;
     std::span<PowerCellBounds> sights;
-    Beside other_side;  // where the other line is
+    Neighbor other_side;  // where the other line is
     std::span<const WeightedRun> other_runs;
     std::span<PowerCellBounds> other_sights;
-    Beside side;
+    Neighbor side;
 };
 
 PowerCellPruner::PowerCellPruner(const LayerLattice& lattice, double max_weight)
@@ -46,8 +46,8 @@ PowerCellPruner::PowerCellPruner(const LayerLattice& lattice, double max_weight)
 
 void PowerCellPruner::limit(WeightedRows& layer) const {
     for (std::size_t l = 1; l < layer.lines(); ++l) {
-        limit({layer.line(l - 1), layer.sights(l - 1), Beside::line_behind, layer.line(l), layer.sights(l),
-               Beside::line_before},
+        limit({layer.line(l - 1), layer.sights(l - 1), Neighbor::line_behind, layer.line(l), layer.sights(l),
+               Neighbor::line_before},
               across_);
     }
 }
@@ -55,8 +55,8 @@ void PowerCellPruner::limit(WeightedRows& layer) const {
 void PowerCellPruner::limit(WeightedRows& below, WeightedRows& above, std::size_t first,
                             std::size_t end) const {
     for (std::size_t l = first; l < end; ++l) {
-        limit({below.line(l), below.sights(l), Beside::layer_above, above.line(l), above.sights(l),
-               Beside::layer_below},
+        limit({below.line(l), below.sights(l), Neighbor::layer_above, above.line(l), above.sights(l),
+               Neighbor::layer_below},
               up_);
     }
 }

@@ -35,7 +35,7 @@ PrunedDilation::PrunedDilation(const LayerLattice& lattice, const BallExtentTabl
 void PrunedDilation::grow(const LineBlock& block, std::span<const WeightedRows* const> layers) {
     block_ = block;
     runs_.clear();
-    places_.assign(place_of(block.layers, 0), {0, 0});
+    line_runs_.assign(line_index(block.layers, 0), {0, 0});
     list_farthest();
     cover_by_some(layers);
     table_.assign(covered_);
@@ -66,10 +66,10 @@ void PrunedDilation::cover_by_some(std::span<const WeightedRows* const> layers) 
     BlockExtents reaches(lattice_, ball_, block_);
     for (std::int32_t z = first(block_.layer, up_pitch); z < end_layer; z += stride(up_pitch)) {
         for (std::int32_t l = first_line; l < end_line; l += stride(across_pitch)) {
-            reaches.turn_to(z, l);
+            reaches.set_source_line(z, l);
             for (const WeightedRun& run :
                  layers[static_cast<std::size_t>(z)]->line(static_cast<std::size_t>(l))) {
-                const std::int32_t least = reaches.of(run.weight).least;
+                const std::int32_t least = reaches.bounds(run.weight).least;
                 if (least >= 0) union_.add(run.begin - least, run.end + least);
             }
         }
@@ -115,7 +115,7 @@ void PrunedDilation::gather_layer(std::int32_t layer, const WeightedRows& rows) 
     }
     if (!rows.sights().empty()) {
         const BlockOffset up =
-            BlockOffset(Beside::layer_above, below) | BlockOffset(Beside::layer_below, above);
+            BlockOffset(Neighbor::layer_above, below) | BlockOffset(Neighbor::layer_below, above);
         const BlockOffset* const aside = aside_.data() + (aside_.size() - farthest.size()) / 2;
         const std::span<const std::uint32_t> uncovered(uncovered_.data(), kept);
         kept = uncovered_.data();
@@ -154,8 +154,8 @@ void PrunedDilation::list_farthest() {
     aside_.clear();
     const auto beside = (static_cast<std::int32_t>(farthest_.front().size()) - block_.lines) / 2;
     for (std::int32_t l = -beside; l < block_.lines + beside; ++l) {
-        aside_.push_back(BlockOffset(Beside::line_behind, -l) |
-                         BlockOffset(Beside::line_before, l - block_.lines + 1));
+        aside_.push_back(BlockOffset(Neighbor::line_behind, -l) |
+                         BlockOffset(Neighbor::line_before, l - block_.lines + 1));
     }
 }
 
@@ -188,9 +188,9 @@ void PrunedDilation::cover(const LineBlock& block, const Level& above, std::vect
     BlockExtents of_block(lattice_, ball_, block);
     const RunUnion::Cells cells = union_.cells();
     for (const SourceLine& source : above.lines) {
-        of_block.turn_to(source.layer, source.line);
+        of_block.set_source_line(source.layer, source.line);
         for (const WeightedRun& run : source.runs) {
-            const Reaches reaches = of_block.of(run.weight);
+            const ExtentBounds reaches = of_block.bounds(run.weight);
             if (reaches.least >= 0) cells.add(run.begin - reaches.least, run.end + reaches.least);
             reaches_.push_back(reaches);
         }
@@ -200,17 +200,17 @@ void PrunedDilation::cover(const LineBlock& block, const Level& above, std::vect
 }
 
 /// Finds the runs that reach into gaps.
-void PrunedDilation::see(const Level& above, std::span<const Run> covered) {
+void PrunedDilation::add_visible(const Level& above, std::span<const Run> covered) {
     table_.assign(covered);
     visible_.clear();
-    champions_.assign(covered.size(), {{nullptr, nullptr}, {nullptr, nullptr}, far_out, -far_out});
+    champions_.assign(covered.size(), {{nullptr, nullptr}, {nullptr, nullptr}, unbounded, -unbounded});
     auto reaches = reaches_.begin();
     for (const SourceLine& line : above.lines) {
-        for (const WeightedRun& run : line.runs) see({&line, &run}, *reaches++, covered);
+        for (const WeightedRun& run : line.runs) add_visible({&line, &run}, *reaches++, covered);
     }
 }
 
-void PrunedDilation::see(Source source, const Reaches& reaches, std::span<const Run> covered) {
+void PrunedDilation::add_visible(Source source, const ExtentBounds& reaches, std::span<const Run> covered) {
     const WeightedRun& run = *source.run;
     if (reaches.most < 0) return;
     const Run most = table_.clip({run.begin - reaches.most, run.end + reaches.most});
@@ -279,7 +279,7 @@ void PrunedDilation::keep_visible(const LineBlock& block, std::size_t depth) {
     const Level& above = levels_[depth];
     Level& level = levels_[depth + 1];
     cover(block, above, level.covered);
-    see(above, level.covered);
+    add_visible(above, level.covered);
     level.lines.clear();
     level.runs.clear();
     level.runs.reserve(visible_.size());  // lines point into it
@@ -306,8 +306,8 @@ void PrunedDilation::finish_lines(const LineBlock& block, const Level& level) {
     for (std::int32_t z = 0; z < block.layers; ++z) {
         for (std::int32_t l = 0; l < block.lines; ++l) {
             const std::span<const Run> runs = small_.line(z, l);
-            places_[place_of(block.layer - block_.layer + z, block.line - block_.line + l)] = {runs_.size(),
-                                                                                               runs.size()};
+            line_runs_[line_index(block.layer - block_.layer + z, block.line - block_.line + l)] = {
+                runs_.size(), runs.size()};
             runs_.insert(runs_.end(), runs.begin(), runs.end());
         }
     }
@@ -315,11 +315,11 @@ void PrunedDilation::finish_lines(const LineBlock& block, const Level& level) {
 
 /// All lines of a block get the same runs.
 void PrunedDilation::place(const LineBlock& block, std::span<const Run> runs) {
-    const Place here{runs_.size(), runs.size()};
+    const LineRuns here{runs_.size(), runs.size()};
     runs_.insert(runs_.end(), runs.begin(), runs.end());
     for (std::int32_t z = 0; z < block.layers; ++z) {
         for (std::int32_t l = 0; l < block.lines; ++l)
-            places_[place_of(block.layer - block_.layer + z, block.line - block_.line + l)] = here;
+            line_runs_[line_index(block.layer - block_.layer + z, block.line - block_.line + l)] = here;
     }
 }
 

@@ -29,7 +29,7 @@ class PrunedDilation {
     void grow(const LineBlock& block, std::span<const WeightedRows* const> layers);
     /// A grown line of the block, counted from its first.
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
-        const Place& at = places_[place_of(layer, line)];
+        const LineRuns& at = line_runs_[line_index(layer, line)];
         return {runs_.data() + at.from, at.count};
     }
 
@@ -55,11 +55,11 @@ class PrunedDilation {
         Source left, right;
         std::int32_t least, greatest;  // twice their ends, about
     };
-    struct Place {
+    struct LineRuns {
         std::size_t from, count;  // in runs_
     };
 
-    std::size_t place_of(std::int32_t layer, std::int32_t line) const {
+    std::size_t line_index(std::int32_t layer, std::int32_t line) const {
         return static_cast<std::size_t>(layer) * static_cast<std::size_t>(block_.lines) +
                static_cast<std::size_t>(line);
     }
@@ -69,8 +69,8 @@ class PrunedDilation {
     void list_farthest();
     void refine(const LineBlock& block, std::size_t depth);
     void cover(const LineBlock& block, const Level& above, std::vector<Run>& covered);
-    void see(const Level& above, std::span<const Run> covered);
-    void see(Source source, const Reaches& reaches, std::span<const Run> covered);
+    void add_visible(const Level& above, std::span<const Run> covered);
+    void add_visible(Source source, const ExtentBounds& reaches, std::span<const Run> covered);
     bool is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered) const;
     bool outdoes(const LineBlock& block, Source other, const Visible& seen, bool left, bool right) const;
     void keep_visible(const LineBlock& block, std::size_t depth);
@@ -87,7 +87,7 @@ class PrunedDilation {
     CoverTable table_;
     SimdRunUnion small_;  // blocks that are not halved
     std::vector<Run> covered_;
-    std::vector<Reaches> reaches_;
+    std::vector<ExtentBounds> reaches_;
     std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
     std::vector<BlockOffset> aside_;                   // the block, from lines about it
     std::int32_t farthest_lines_ = 0;                  // of the block for which they were listed
@@ -95,7 +95,7 @@ class PrunedDilation {
     std::vector<Visible> visible_;
     std::vector<Champions> champions_;
     std::vector<Run> runs_;
-    std::vector<Place> places_;
+    std::vector<LineRuns> line_runs_;
 };
 
 }  // namespace lamella

@@ -64,13 +64,13 @@ DiscWidths outer_disc(double radius, double row_pitch) {
 RowBitmask::RowBitmask(const CellLattice& lattice)
     : lattice_(lattice), stride_(stride_of(lattice)), words_(place(lattice.words)) {}
 
-LayerCells::LayerCells(const SpanRows& rows, const CellLattice& lattice) : filled(lattice), met(lattice) {
+LayerCells::LayerCells(const RunRows& rows, const CellLattice& lattice) : inner(lattice), outer(lattice) {
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         const std::size_t line = l + lattice.margin_lines;
         for (const Run& run : rows.line(l)) {
             const std::int32_t begin = run.begin - lattice.first, end = run.end - lattice.first;
-            filled.mark(cells_up(begin), cells_down(end), line);
-            met.mark(cells_down(begin), cells_up(end), line);
+            inner.mark(cells_up(begin), cells_down(end), line);
+            outer.mark(cells_down(begin), cells_up(end), line);
         }
     }
 }
@@ -97,7 +97,7 @@ void RowBitmask::invert() {
     }
 }
 
-SpanRows RowBitmask::runs(std::size_t first_line, std::size_t count) const {
+RunRows RowBitmask::runs(std::size_t first_line, std::size_t count) const {
     constexpr std::size_t at_once = CellLattice::lines_at_once;
     struct CellRun {
         std::size_t line;
@@ -123,7 +123,7 @@ SpanRows RowBitmask::runs(std::size_t first_line, std::size_t count) const {
     std::vector<Run> sorted(found.size());
     for (const CellRun& cells : found)
         sorted[starts[cells.line]++] = cells.run;  // to where the next one starts
-    SpanRows all;
+    RunRows all;
     all.reserve(count, sorted.size());
     std::uint32_t i = first_line > 0 ? starts[first_line - 1] : 0;
     for (std::size_t l = first_line; l < first_line + count; ++l) {
@@ -133,8 +133,8 @@ SpanRows RowBitmask::runs(std::size_t first_line, std::size_t count) const {
     return all;
 }
 
-SpanRows RowBitmask::of(const SpanRows& rows, std::size_t first_line) const {
-    SpanRows inside;
+RunRows RowBitmask::clip(const RunRows& rows, std::size_t first_line) const {
+    RunRows inside;
     intersect(runs(first_line, rows.lines()), rows, inside);
     return inside;
 }

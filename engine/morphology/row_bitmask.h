@@ -57,9 +57,9 @@ class RowBitmask {
     /// Takes away those within a disc of the cells of another set on the same lattice.
     void subtract_dilated(const RowBitmask& other, const DiscWidths& disc);
     /// The cells of so many lines as runs, joined where they touch. Quick where there are few.
-    SpanRows runs(std::size_t first_line, std::size_t count) const;
+    RunRows runs(std::size_t first_line, std::size_t count) const;
     /// What of rows lies in the cells. Their first line is that one of the lattice.
-    SpanRows of(const SpanRows& rows, std::size_t first_line) const;
+    RunRows clip(const RunRows& rows, std::size_t first_line) const;
 
   private:
     std::size_t place(std::size_t word) const { return word * stride_ + CellLattice::lines_at_once; }
@@ -71,10 +71,10 @@ class RowBitmask {
 
 /// The cells of a layer's runs; its first line follows those of the margin.
 struct LayerCells {
-    RowBitmask filled;  ///< by runs, wholly
-    RowBitmask met;     ///< by runs
+    RowBitmask inner;  ///< by runs, wholly
+    RowBitmask outer;  ///< by runs
 
-    LayerCells(const SpanRows& rows, const CellLattice& lattice);
+    LayerCells(const RunRows& rows, const CellLattice& lattice);
 };
 
 }  // namespace lamella

@@ -35,7 +35,7 @@ class RunDifference {
 
     /// Takes away sorted runs that reach further to both sides. Which of two runs ends first is hard to
     /// foretell, so no branch depends on it: each step writes what may be left, and counts it if it is.
-    void take_away(std::span<const Run> taken, const RoundedExtent& reach) {
+    void subtract(std::span<const Run> taken, const RoundedExtent& reach) {
         const Run *t = taken.data(), *const end = t + taken.size();
         const std::int32_t first = runs_.front().begin - reach.ahead,
                            last = runs_[count_ - 1].end + reach.back;

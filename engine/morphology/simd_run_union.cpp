@@ -17,7 +17,7 @@
 namespace lamella {
 
 /// In cells without a run, begins and ends: less than those of any run.
-constexpr std::int32_t no_end = -far_out;
+constexpr std::int32_t no_end = -unbounded;
 
 /// How far a run reaches on the lines of a block.
 struct LineReaches {
@@ -101,7 +101,7 @@ HWY_INLINE void keep_greatest(Lines d, hn::Vec<Lines> value, std::int32_t* at) {
 template <std::size_t layers>
 class OtherBalls {
   public:
-    LineReaches of(double weight, std::int32_t lines, const RunReaches& of_layer) {
+    LineReaches bounds(double weight, std::int32_t lines, const RunReaches& of_layer) {
         for (std::size_t z = 0; z < layers; ++z) {
             const double left = weight - of_layer.up_square(z);
             for (std::size_t l = 0; l < SimdRunUnion::edge; l += hn::Lanes(Reals())) {
@@ -154,7 +154,7 @@ class RunAdder {
     HWY_INLINE void add(const WeightedRun& run, std::int32_t lines, std::int32_t in_table,
                         const RunReaches& of_layer) {
         const bool known = of_layer.are_in_table(run.weight);
-        add(run, known ? of_layer.of_table(in_table) : others_.of(run.weight, lines, of_layer));
+        add(run, known ? of_layer.of_table(in_table) : others_.bounds(run.weight, lines, of_layer));
     }
 
   private:

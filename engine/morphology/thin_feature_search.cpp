@@ -14,7 +14,7 @@ constexpr std::size_t few_share = 4;
 
 /// Calls visit(number) for the runs of a line that meet a stretch.
 template <typename Visit>
-void for_runs_meeting(const SpanRows& rows, std::size_t line, const Run& stretch, Visit visit) {
+void for_runs_meeting(const RunRows& rows, std::size_t line, const Run& stretch, Visit visit) {
     const std::span<const Run> runs = rows.line(line);
     const Run *run = first_ending_behind(runs, stretch.begin), *const end = runs.data() + runs.size();
     auto number = static_cast<std::size_t>(run - rows.runs().data());
@@ -30,13 +30,13 @@ ThinFeatureSearch::ThinFeatureSearch(const LayerLattice& lattice, const Thinness
       margin_(margin_of(thinness, lattice.row_pitch)),
       fitting_(lattice, thinness.radius),
       near_(lattice, thinness.radius + thinness.slack),
-      near_place_(near_),
+      footprint_(near_),
       beyond_(static_cast<std::size_t>(fitting_.layers() + near_.layers())),
       next_(beyond_) {
     push_beyond();
 }
 
-void ThinFeatureSearch::push(const SpanRows& layer) {
+void ThinFeatureSearch::push(const RunRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
     ++to_come_;
     push_slab(widened(layer, margin_), true);
@@ -47,12 +47,12 @@ void ThinFeatureSearch::push_beyond() {
     for (std::size_t i = 0; i < beyond_; ++i) push_slab(empty_rows(lines_ + 2 * margin_), false);
 }
 
-void ThinFeatureSearch::push_slab(SpanRows solid, bool is_judged) {
+void ThinFeatureSearch::push_slab(RunRows solid, bool is_judged) {
     const std::size_t index = first_ + slabs_.size();
-    SpanRows of = complement(solid, -far_out, far_out), beside = std::move(solid);
+    RunRows of = complement(solid, -unbounded, unbounded), beside = std::move(solid);
     if (medium_ == FeatureKind::wall) std::swap(of, beside);
     UndecidedRuns open(of, static_cast<std::int32_t>(index), margin_, is_judged ? lines_ : 0);
-    BallCentersByRun places(of);
+    BallCentersByRun centers(of);
     std::vector<NumberedRun> left;
     if (is_judged) {
         for (std::size_t l = margin_; l < margin_ + lines_; ++l) {
@@ -60,35 +60,36 @@ void ThinFeatureSearch::push_slab(SpanRows solid, bool is_judged) {
             for (std::size_t k = 0; k < of.line(l).size(); ++k) left.push_back({l, first + k});
         }
     }
-    slabs_.push_back({std::move(of), std::move(beside), std::move(open), std::move(left), std::move(places)});
-    for (; found_ + static_cast<std::size_t>(fitting_.layers()) <= index; ++found_) find_places(found_);
+    slabs_.push_back(
+        {std::move(of), std::move(beside), std::move(open), std::move(left), std::move(centers)});
+    for (; found_ + static_cast<std::size_t>(fitting_.layers()) <= index; ++found_) find_centers(found_);
 }
 
-/// Closes what of a run lies near the places that runs beside it in another line are near.
-void ThinFeatureSearch::ask(std::size_t index, const NumberedRun& run, std::size_t other,
-                            std::size_t other_line) {
+/// Closes what of a run lies near the centers that runs beside it in another line are near.
+void ThinFeatureSearch::inherit_from(std::size_t index, const NumberedRun& run, std::size_t other,
+                                     std::size_t other_line) {
     Slab& here = slab(index);
     if (!here.open.is_open(run.number) || other_line >= here.of.lines() || !is_kept(other)) return;
     const Slab& there = slab(other);
     if (!there.open.knows_any(other_line)) return;
-    here.open.inherit_from(there.open, there.of, other_line, places_, here.of.runs()[run.number], run,
-                           near_place_);
+    here.open.inherit_from(there.open, there.of, other_line, centers_, here.of.runs()[run.number], run,
+                           footprint_);
 }
 
-/// What of a run lies near a place is not open any more.
-void ThinFeatureSearch::decide_within(const Place& place, std::size_t index, const NumberedRun& run) {
+/// What of a run lies near a center is not open any more.
+void ThinFeatureSearch::decide_within(const BallCenter& center, std::size_t index, const NumberedRun& run) {
     UndecidedRuns& open = slab(index).open;
-    if (open.may_close(place, run, near_place_))
-        open.decide_within(places_.add(place), places_, run, near_place_);
+    if (open.may_close(center, run, footprint_))
+        open.decide_within(centers_.add(center), centers_, run, footprint_);
 }
 
-/// Finds the places in a run of a layer. They are valid until the next search.
+/// Finds the centers in a run of a layer. They are valid until the next search.
 std::span<const Run> ThinFeatureSearch::search(std::size_t index, const NumberedRun& run) {
     Slab& here = slab(index);
     const Run& whole = here.of.runs()[run.number];
     const RoundedExtent& reach = fitting_.lines().front().reach;
     if (whole.end - whole.begin <= reach.back + reach.ahead) {
-        here.places.put(run.number, run.line, {});
+        here.centers.put(run.number, run.line, {});
         return {};
     }
     beside_.clear();
@@ -97,17 +98,17 @@ std::span<const Run> ThinFeatureSearch::search(std::size_t index, const Numbered
         const bool is_there = i >= 0 && i < static_cast<std::ptrdiff_t>(slabs_.size());
         beside_.push_back(is_there ? &slabs_[static_cast<std::size_t>(i)].beside : nullptr);
     }
-    const std::span<const Run> found = remainder_.of(whole, run.line, beside_, fitting_);
-    here.places.put(run.number, run.line, found);
+    const std::span<const Run> found = remainder_.difference(whole, run.line, beside_, fitting_);
+    here.centers.put(run.number, run.line, found);
     return found;
 }
 
-/// Looks for places in those runs of a layer that lie near none of which their neighbours know.
-void ThinFeatureSearch::find_places(std::size_t index) {
+/// Looks for centers in those runs of a layer that lie near none of which their neighbours know.
+void ThinFeatureSearch::find_centers(std::size_t index) {
     Slab& here = slab(index);
     if (index > first_) {
         const Slab& below = slab(index - 1);
-        here.open.inherit_from(below.open, below.of, places_, here.of, near_place_);
+        here.open.inherit_from(below.open, below.of, centers_, here.of, footprint_);
     }
     const auto forget_closed = [](Slab& slab) {
         std::erase_if(slab.left, [&](const NumberedRun& run) { return !slab.open.is_open(run.number); });
@@ -116,12 +117,12 @@ void ThinFeatureSearch::find_places(std::size_t index) {
     forget_closed(here);
     const auto ask_ahead = [&] {
         std::for_each(here.left.rbegin(), here.left.rend(),
-                      [&](const NumberedRun& run) { ask(index, run, index, run.line + 1); });
+                      [&](const NumberedRun& run) { inherit_from(index, run, index, run.line + 1); });
     };
-    for (const NumberedRun& run : here.left) ask(index, run, index, run.line - 1);
+    for (const NumberedRun& run : here.left) inherit_from(index, run, index, run.line - 1);
     ask_ahead();
     for (const NumberedRun& run : here.left) {
-        ask(index, run, index, run.line - 1);
+        inherit_from(index, run, index, run.line - 1);
         if (!here.open.is_open(run.number)) continue;
         for (const Run& found : search(index, run))
             decide_within({static_cast<std::int32_t>(index), static_cast<std::int32_t>(run.line), found},
@@ -131,14 +132,14 @@ void ThinFeatureSearch::find_places(std::size_t index) {
     forget_closed(here);
     for (std::size_t k = index; k-- > first_;) {
         Slab& below = slab(k);
-        for (const NumberedRun& run : below.left) ask(k, run, k + 1, run.line);
+        for (const NumberedRun& run : below.left) inherit_from(k, run, k + 1, run.line);
         const std::size_t before = below.left.size();
         forget_closed(below);
         if (below.left.size() == before) break;
     }
 }
 
-/// Looks for all places near the open runs of a line, those in runs not searched so far included, and takes
+/// Looks for all centers near the open runs of a line, those in runs not searched so far included, and takes
 /// what lies near them away from what is left.
 void ThinFeatureSearch::look_near(std::size_t index, std::span<const NumberedRun> runs, RunDifference& left) {
     const std::size_t line = runs.front().line;
@@ -149,36 +150,37 @@ void ThinFeatureSearch::look_near(std::size_t index, std::span<const NumberedRun
                           row = line + static_cast<std::size_t>(on.row);
         Slab& there = slab(other);
         if (row >= there.of.lines()) continue;
-        if (!there.places.all_searched(row)) {
+        if (!there.centers.all_searched(row)) {
             const auto search_in = [&](const Run& stretch) {
                 for_runs_meeting(there.of, row, stretch, [&](std::size_t number) {
-                    if (!there.places.is_searched(number)) search(other, {row, number});
+                    if (!there.centers.is_searched(number)) search(other, {row, number});
                 });
             };
             if (are_many) {
-                search_in({-far_out - 1, far_out + 1});
+                search_in({-unbounded - 1, unbounded + 1});
             } else {
                 for (const Run& run : left.all())
                     search_in({run.begin - on.reach.ahead, run.end + on.reach.back});
             }
         }
-        const std::span<const Run> places = there.places.in_line(row);
-        if (places.empty()) continue;
-        left.take_away(places, on.reach);
+        const std::span<const Run> centers = there.centers.in_line(row);
+        if (centers.empty()) continue;
+        left.subtract(centers, on.reach);
         if (are_many) continue;
         // What the runs are near will be asked for by their neighbours.
         for (const NumberedRun& run : runs) {
-            const Run open = slab(index).open.of(run.number);
-            const Run* place = first_ending_behind(places, open.begin - on.reach.ahead);
-            for (; place != places.data() + places.size() && place->begin < open.end + on.reach.back; ++place)
-                decide_within({static_cast<std::int32_t>(other), static_cast<std::int32_t>(row), *place},
+            const Run open = slab(index).open.part(run.number);
+            const Run* center = first_ending_behind(centers, open.begin - on.reach.ahead);
+            for (; center != centers.data() + centers.size() && center->begin < open.end + on.reach.back;
+                 ++center)
+                decide_within({static_cast<std::int32_t>(other), static_cast<std::int32_t>(row), *center},
                               index, run);
         }
     }
 }
 
 /// Appends what is too thin in a layer, without the margin's lines.
-void ThinFeatureSearch::thin_of(std::size_t index, SpanRows& out) {
+void ThinFeatureSearch::thin_of(std::size_t index, RunRows& out) {
     Slab& here = slab(index);
     RunDifference left;
     std::vector<NumberedRun> of_line;
@@ -188,11 +190,11 @@ void ThinFeatureSearch::thin_of(std::size_t index, SpanRows& out) {
         of_line.clear();
         open.clear();
         for (; run != here.left.end() && run->line == line; ++run) {
-            for (const std::size_t row : {line - 1, line + 1}) ask(index, *run, index, row);
-            for (const std::size_t other : {index - 1, index + 1}) ask(index, *run, other, line);
+            for (const std::size_t row : {line - 1, line + 1}) inherit_from(index, *run, index, row);
+            for (const std::size_t other : {index - 1, index + 1}) inherit_from(index, *run, other, line);
             if (!here.open.is_open(run->number)) continue;
             of_line.push_back(*run);
-            open.push_back(here.open.of(run->number));
+            open.push_back(here.open.part(run->number));
         }
         if (of_line.empty()) continue;
         left.assign(open);
@@ -203,14 +205,14 @@ void ThinFeatureSearch::thin_of(std::size_t index, SpanRows& out) {
     out.end_lines(lines_ - out.lines());
 }
 
-bool ThinFeatureSearch::pop(SpanRows& out) {
+bool ThinFeatureSearch::pop(RunRows& out) {
     if (to_come_ == 0 || next_ + beyond_ >= first_ + slabs_.size()) return false;
     out.clear();
     thin_of(next_, out);
     ++next_;
     --to_come_;
     for (; first_ + beyond_ < next_; ++first_) slabs_.pop_front();
-    places_.forget_below(static_cast<std::int32_t>(first_) - near_.layers());
+    centers_.forget_below(static_cast<std::int32_t>(first_) - near_.layers());
     return true;
 }
 

@@ -14,9 +14,9 @@ namespace {
 /// How far from a point lies what decides whether it is too thin.
 double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
 
-SpanRows void_of(const SpanRows& rows) { return complement(rows, -far_out, far_out); }
+RunRows void_of(const RunRows& rows) { return complement(rows, -unbounded, unbounded); }
 
-void without_margin(const SpanRows& wide, std::size_t margin, SpanRows& out) {
+void without_margin(const RunRows& wide, std::size_t margin, RunRows& out) {
     out.clear();
     out.reserve(wide.lines(), wide.runs().size());
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
@@ -37,8 +37,8 @@ std::int32_t cell_scale(const Thinness& thinness) {
 }
 
 /// What lies in `where`, whose rows have a margin, of the solid or of the void.
-SpanRows medium_within(const SpanRows& where, const SpanRows& rows, std::size_t margin, FeatureKind medium) {
-    SpanRows within;
+RunRows medium_within(const RunRows& where, const RunRows& rows, std::size_t margin, FeatureKind medium) {
+    RunRows within;
     for (std::size_t l = 0; l < where.lines(); ++l) {
         const bool in_margin = l < margin || l >= margin + rows.lines();
         const std::span<const Run> solid = in_margin ? std::span<const Run>() : rows.line(l - margin);
@@ -52,12 +52,12 @@ SpanRows medium_within(const SpanRows& where, const SpanRows& rows, std::size_t 
 }
 
 /// On each line what lies no further along and across from rows than a ball reaches, and what is between.
-SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
+RunRows extents_about(const RunRows& rows, double radius, double row_pitch) {
     const auto beside = static_cast<std::size_t>(radius / row_pitch);
     const std::int32_t along = static_cast<std::int32_t>(radius) + 1;
-    SpanRows all;
+    RunRows all;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
-        std::int32_t begin = far_out, end = -far_out;
+        std::int32_t begin = unbounded, end = -unbounded;
         for (std::size_t k = l - std::min(l, beside); k < std::min(l + beside + 1, rows.lines()); ++k) {
             const std::span<const Run> runs = rows.line(k);
             if (runs.empty()) continue;
@@ -73,71 +73,72 @@ SpanRows extents_about(const SpanRows& rows, double radius, double row_pitch) {
 /// Where something may be too thin, and where it matters whether balls fit: no further from there than they
 /// reach. Rows with a margin.
 struct Candidates {
-    SpanRows at, near;
+    RunRows at, near;
     std::size_t margin;
 };
 
 Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureKind medium,
                         const Thinness& thinness, double row_pitch) {
-    RowBitmask void_met = cells.filled;
-    void_met.invert();
+    RowBitmask void_outer = cells.inner;
+    void_outer.invert();
     const double reach = thinness.radius + thinness.slack;
     const RowBitmask suspected =
-        medium == FeatureKind::wall ? candidate_cells(cells.met, void_met, thinness.radius, reach, row_pitch)
-                                    : candidate_cells(void_met, cells.met, thinness.radius, reach, row_pitch);
-    const std::size_t margin = cells.met.lattice().margin_lines, lines = row_count + 2 * margin;
+        medium == FeatureKind::wall
+            ? candidate_cells(cells.outer, void_outer, thinness.radius, reach, row_pitch)
+            : candidate_cells(void_outer, cells.outer, thinness.radius, reach, row_pitch);
+    const std::size_t margin = cells.outer.lattice().margin_lines, lines = row_count + 2 * margin;
     Candidates found{suspected.runs(0, lines), {}, margin};
     if (!found.at.runs().empty()) found.near = suspected.grown(outer_disc(reach, row_pitch)).runs(0, lines);
     return found;
 }
 
 /// The same by cells of several rows.
-Candidates coarse_suspicion_of(const SpanRows& rows, FeatureKind medium, const Thinness& thinness,
+Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Thinness& thinness,
                                double row_pitch) {
     // Rows of two cells lie up to a row of cells nearer or farther; and more than rounding makes.
-    const double surely = row_pitch + 1;
+    const double rounding_margin = row_pitch + 1;
     const std::int32_t scale = cell_scale(thinness);
     const CoarseCells cells(rows, scale, thinness_reach(thinness), row_pitch);
     const double radius = thinness.radius / scale, reach = (thinness.radius + thinness.slack) / scale;
     const bool of_solid = medium == FeatureKind::wall;
     const RowBitmask suspected =
         candidate_cells(of_solid ? cells.solid() : cells.voids(), of_solid ? cells.voids() : cells.solid(),
-                        radius + surely, reach - surely, row_pitch);
+                        radius + rounding_margin, reach - rounding_margin, row_pitch);
     Candidates found{cells.rows_of(suspected), {}, cells.margin()};
     if (!found.at.runs().empty())
-        found.near = cells.rows_of(suspected.grown(outer_disc(reach + surely, row_pitch)));
+        found.near = cells.rows_of(suspected.grown(outer_disc(reach + rounding_margin, row_pitch)));
     return found;
 }
 
 /// The points of a medium that are too thin, out of the suspected ones. They are looked at run by run.
-void thin_among(const Candidates& suspicion, const SpanRows& rows, FeatureKind medium,
-                const Thinness& thinness, double row_pitch, SpanRows& out) {
+void thin_among(const Candidates& suspicion, const RunRows& rows, FeatureKind medium,
+                const Thinness& thinness, double row_pitch, RunRows& out) {
     if (suspicion.at.runs().empty()) {
         out = empty_rows(rows.lines());
         return;
     }
     const double reach = thinness.radius + thinness.slack;
-    const SpanRows about = extents_about(suspicion.near, thinness.radius, row_pitch);
+    const RunRows about = extents_about(suspicion.near, thinness.radius, row_pitch);
     const FeatureKind other = medium == FeatureKind::wall ? FeatureKind::gap : FeatureKind::wall;
-    const auto within = [&](const SpanRows& where, FeatureKind in) {
+    const auto within = [&](const RunRows& where, FeatureKind in) {
         return medium_within(where, rows, suspicion.margin, in);
     };
-    SpanRows core, thin;
+    RunRows core, thin;
     subtract_dilated(within(suspicion.near, medium), within(about, other), thinness.radius, row_pitch, core);
     subtract_dilated(within(suspicion.at, medium), core, reach, row_pitch, thin);
     without_margin(thin, suspicion.margin, out);
 }
 
-void thin_rows_by_coarse_cells(const SpanRows& rows, FeatureKind medium, const Thinness& thinness,
-                               double row_pitch, SpanRows& out) {
+void thin_rows_by_coarse_cells(const RunRows& rows, FeatureKind medium, const Thinness& thinness,
+                               double row_pitch, RunRows& out) {
     thin_among(coarse_suspicion_of(rows, medium, thinness, row_pitch), rows, medium, thinness, row_pitch,
                out);
 }
 
 }  // namespace
 
-SpanRows widened(const SpanRows& rows, std::size_t margin) {
-    SpanRows wide;
+RunRows widened(const RunRows& rows, std::size_t margin) {
+    RunRows wide;
     wide.reserve(rows.lines() + 2 * margin, rows.runs().size());
     for (std::size_t l = 0; l < margin; ++l) wide.end_line();
     wide.append_lines(rows);
@@ -153,15 +154,15 @@ double reach_of_cells(const Thinness& thinness) {
     return cell_scale(thinness) > 1 ? 0 : thinness_reach(thinness);
 }
 
-void thin_rows(const SpanRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
-               SpanRows& out) {
+void thin_rows(const RunRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
+               RunRows& out) {
     if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
     const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
     thin_rows(rows, cells, medium, thinness, row_pitch, out);
 }
 
-void thin_rows(const SpanRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
-               double row_pitch, SpanRows& out) {
+void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
+               double row_pitch, RunRows& out) {
     if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
     thin_among(suspicion_of(cells, rows.lines(), medium, thinness, row_pitch), rows, medium, thinness,
                row_pitch, out);
@@ -185,14 +186,14 @@ void ThinFeatureStream::push_beyond() {
     for (std::size_t i = 0; i < beyond_; ++i) push_wide(empty_rows(lines_ + 2 * margin_));
 }
 
-void ThinFeatureStream::push(const SpanRows& layer) {
+void ThinFeatureStream::push(const RunRows& layer) {
     if (layer.lines() != lines_) throw FaultError("a layer has other lines than the lattice");
     ++to_come_;
     push_wide(widened(layer, margin_));
 }
 
-void ThinFeatureStream::push_wide(SpanRows layer) {
-    SpanRows voids = void_of(layer);
+void ThinFeatureStream::push_wide(RunRows layer) {
+    RunRows voids = void_of(layer);
     if (medium_ == FeatureKind::gap) std::swap(layer, voids);
     of_.push_back(layer);
     core_.push(std::move(layer), std::move(voids));
@@ -207,14 +208,14 @@ void ThinFeatureStream::finish() {
 }
 
 void ThinFeatureStream::carry_on() {
-    for (SpanRows core; core_.pop(core);) {
+    for (RunRows core; core_.pop(core);) {
         thin_.push(std::move(of_.front()), std::move(core));
         of_.pop_front();
     }
 }
 
-bool ThinFeatureStream::pop(SpanRows& out) {
-    SpanRows wide;
+bool ThinFeatureStream::pop(RunRows& out) {
+    RunRows wide;
     for (; to_drop_ > 0; --to_drop_) {
         if (!thin_.pop(wide)) return false;
     }

@@ -26,17 +26,17 @@ enum class FeatureKind : unsigned char { wall, gap };
 /// Rows beyond a layer's that decide about them.
 std::size_t margin_of(const Thinness& thinness, double row_pitch);
 /// Rows with `margin` empty ones on either side.
-SpanRows widened(const SpanRows& rows, std::size_t margin);
+RunRows widened(const RunRows& rows, std::size_t margin);
 
 /// What of a layer's rows, or of the void between them, is too thin within the layer.
-void thin_rows(const SpanRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
-               SpanRows& out);
+void thin_rows(const RunRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
+               RunRows& out);
 /// How far cells must be known beside a layer's rows, run units, to tell what is too thin: not at all where
 /// larger cells, made for it alone, tell as well.
 double reach_of_cells(const Thinness& thinness);
 /// The same where the rows' cells are known so far.
-void thin_rows(const SpanRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
-               double row_pitch, SpanRows& out);
+void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
+               double row_pitch, RunRows& out);
 
 /// What is too thin in layers, by a ball that reaches from layer to layer; beside the lines and layers given
 /// all is void. Layers come out in the order in which they went in, once all are known that the ball reaches.
@@ -44,12 +44,12 @@ class ThinFeatureStream {
   public:
     ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness,
                       FeatureKind medium = FeatureKind::wall);
-    void push(const SpanRows& layer);
+    void push(const RunRows& layer);
     void finish();
-    bool pop(SpanRows& out);
+    bool pop(RunRows& out);
 
   private:
-    void push_wide(SpanRows layer);
+    void push_wide(RunRows layer);
     void push_beyond();
     void carry_on();
 
@@ -58,7 +58,7 @@ class ThinFeatureStream {
     std::size_t beyond_;            // empty layers before the first and behind the last
     std::size_t to_drop_;           // of those before
     std::size_t to_come_ = 0;       // layers that went in and did not come out yet
-    std::deque<SpanRows> of_;       // what is measured, of layers where it is not known where the ball fits
+    std::deque<RunRows> of_;        // what is measured, of layers where it is not known where the ball fits
     DilatedDifferenceStream core_;  // where the middle of a ball may be
     DilatedDifferenceStream thin_;  // what lies far from there
 };

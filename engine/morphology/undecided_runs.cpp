@@ -10,21 +10,22 @@ constexpr double beyond_the_ball = -2;  // a reach that stays negative when it i
 
 }  // namespace
 
-void Places::forget_below(std::int32_t layer) {
-    const auto past = std::ranges::find_if(kept_, [&](const Place& place) { return place.layer >= layer; });
+void BallCenters::forget_below(std::int32_t layer) {
+    const auto past =
+        std::ranges::find_if(kept_, [&](const BallCenter& center) { return center.layer >= layer; });
     // What stays is moved: no more than what goes.
     if (past - kept_.begin() < kept_.end() - past) return;
     first_ += static_cast<std::uint32_t>(past - kept_.begin());
     kept_.erase(kept_.begin(), past);
 }
 
-NearPlace::NearPlace(const BallLines& ball) : layers_(ball.layers()), rows_(ball.rows()) {
+BallFootprint::BallFootprint(const BallLines& ball) : layers_(ball.layers()), rows_(ball.rows()) {
     reaches_.assign(number(2 * layers_, 2 * rows_) + 1, RoundedExtent(beyond_the_ball));
     for (const BallLines::Line& line : ball.lines())
         reaches_[number(line.layer + layers_, line.row + rows_)] = line.reach;
 }
 
-UndecidedRuns::UndecidedRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line,
+UndecidedRuns::UndecidedRuns(const RunRows& rows, std::int32_t layer, std::size_t first_line,
                              std::size_t count)
     : layer_(layer),
       open_(rows.runs().size(), Run{0, 0}),
@@ -36,9 +37,9 @@ UndecidedRuns::UndecidedRuns(const SpanRows& rows, std::int32_t layer, std::size
     }
 }
 
-void UndecidedRuns::decide_within(std::uint32_t place, const Places& places, const NumberedRun& run,
-                                  const NearPlace& near) {
-    const Run closed = near.on(places[place], layer_, static_cast<std::int32_t>(run.line));
+void UndecidedRuns::decide_within(std::uint32_t center, const BallCenters& centers, const NumberedRun& run,
+                                  const BallFootprint& near) {
+    const Run closed = near.on_line(centers[center], layer_, static_cast<std::int32_t>(run.line));
     Run& open = open_[run.number];
     if (closed.end <= open.begin || open.end <= closed.begin) return;
     if (closed.begin <= open.begin) {
@@ -50,35 +51,36 @@ void UndecidedRuns::decide_within(std::uint32_t place, const Places& places, con
     }
     ++known_in_[run.line];
     Link& first = near_[run.number];
-    if (first.place == none) {
-        first.place = place;
+    if (first.center == none) {
+        first.center = center;
         return;
     }
-    more_.push_back({place, first.next});
+    more_.push_back({center, first.next});
     first.next = static_cast<std::uint32_t>(more_.size()) - 1;
 }
 
-/// Closes what of a run lies near any place that another run is known to be near.
-void UndecidedRuns::close_near_all(const UndecidedRuns& others, std::size_t other, const Places& places,
-                                   const NumberedRun& run, const NearPlace& near) {
+/// Closes what of a run lies near any center that another run is known to be near.
+void UndecidedRuns::close_near_all(const UndecidedRuns& others, std::size_t other, const BallCenters& centers,
+                                   const NumberedRun& run, const BallFootprint& near) {
     Link link = others.near_[other];
-    while (link.place != none && is_open(run.number)) {
-        decide_within(link.place, places, run, near);
+    while (link.center != none && is_open(run.number)) {
+        decide_within(link.center, centers, run, near);
         link = link.next == none ? Link{} : others.more_[link.next];
     }
 }
 
-void UndecidedRuns::inherit_from(const UndecidedRuns& others, const SpanRows& other_rows,
-                                 std::size_t other_line, const Places& places, const Run& whole,
-                                 const NumberedRun& run, const NearPlace& near) {
+void UndecidedRuns::inherit_from(const UndecidedRuns& others, const RunRows& other_rows,
+                                 std::size_t other_line, const BallCenters& centers, const Run& whole,
+                                 const NumberedRun& run, const BallFootprint& near) {
     const std::span<const Run> beside = other_rows.line(other_line);
     const Run *other = first_ending_behind(beside, whole.begin), *const end = beside.data() + beside.size();
     for (; other != end && other->begin < whole.end && is_open(run.number); ++other)
-        close_near_all(others, static_cast<std::size_t>(other - other_rows.runs().data()), places, run, near);
+        close_near_all(others, static_cast<std::size_t>(other - other_rows.runs().data()), centers, run,
+                       near);
 }
 
-void UndecidedRuns::inherit_from(const UndecidedRuns& others, const SpanRows& other_rows,
-                                 const Places& places, const SpanRows& rows, const NearPlace& near) {
+void UndecidedRuns::inherit_from(const UndecidedRuns& others, const RunRows& other_rows,
+                                 const BallCenters& centers, const RunRows& rows, const BallFootprint& near) {
     for (std::size_t l = rows.line_with_runs(0); l < rows.lines(); l = rows.line_with_runs(l + 1)) {
         if (!others.knows_any(l)) continue;
         const std::span<const Run> beside = other_rows.line(l);
@@ -89,7 +91,7 @@ void UndecidedRuns::inherit_from(const UndecidedRuns& others, const SpanRows& ot
             while (next != end && all[next].end <= run.begin) ++next;
             for (std::size_t other = next; other != end && all[other].begin < run.end && is_open(number);
                  ++other)
-                close_near_all(others, other, places, {l, number}, near);
+                close_near_all(others, other, centers, {l, number}, near);
             ++number;
         }
     }

@@ -9,38 +9,38 @@
 namespace lamella {
 
 /// A ball centre, or a run of them: a stretch of a line of a stack of layers; run units.
-struct Place {
+struct BallCenter {
     std::int32_t layer, line;
     Run run;
 };
 
 /// Ball centres by number, of layers that stream by.
-class Places {
+class BallCenters {
   public:
-    std::uint32_t add(const Place& place) {
-        kept_.push_back(place);
+    std::uint32_t add(const BallCenter& center) {
+        kept_.push_back(center);
         return first_ + static_cast<std::uint32_t>(kept_.size()) - 1;
     }
-    const Place& operator[](std::uint32_t number) const { return kept_[number - first_]; }
+    const BallCenter& operator[](std::uint32_t number) const { return kept_[number - first_]; }
     /// Forgets some of those below a layer, whose numbers must not be asked for again.
     void forget_below(std::int32_t layer);
 
   private:
-    std::vector<Place> kept_;
+    std::vector<BallCenter> kept_;
     std::uint32_t first_ = 0;  // number of the first that is kept
 };
 
-/// The footprint of the balls centred at a place, line by line.
-class NearPlace {
+/// The footprint of the balls centred at a center, line by line.
+class BallFootprint {
   public:
-    explicit NearPlace(const BallLines& ball);
+    explicit BallFootprint(const BallLines& ball);
     /// Returns the part of a line that the balls reach; an empty run where they reach nothing.
-    Run on(const Place& place, std::int32_t layer, std::int32_t line) const {
-        const int up = layer - place.layer + layers_, across = line - place.line + rows_;
+    Run on_line(const BallCenter& center, std::int32_t layer, std::int32_t line) const {
+        const int up = layer - center.layer + layers_, across = line - center.line + rows_;
         if (up < 0 || up > 2 * layers_ || across < 0 || across > 2 * rows_) return {0, 0};
         const RoundedExtent& reach = reaches_[number(up, across)];
         if (reach.ahead < 0) return {0, 0};
-        return {place.run.begin - reach.back, place.run.end + reach.ahead};
+        return {center.run.begin - reach.back, center.run.end + reach.ahead};
     }
 
   private:
@@ -65,39 +65,40 @@ struct NumberedRun {
 class UndecidedRuns {
   public:
     /// `count` lines from `first_line` on are open wholly, others not at all. The rows stay where they are.
-    UndecidedRuns(const SpanRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count);
+    UndecidedRuns(const RunRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count);
 
     /// Returns the undecided part of run `number`; empty once it is decided.
-    const Run& of(std::size_t number) const { return open_[number]; }
+    const Run& part(std::size_t number) const { return open_[number]; }
     /// Returns true if any run of `line` knows a ball centre within reach.
     bool knows_any(std::size_t line) const { return known_in_[line] > 0; }
-    bool is_open(std::size_t number) const { return of(number).begin < of(number).end; }
-    /// Returns true if the ball at `place` reaches an undecided end of the run.
-    bool may_close(const Place& place, const NumberedRun& run, const NearPlace& near) const {
-        const Run closed = near.on(place, layer_, static_cast<std::int32_t>(run.line)),
+    bool is_open(std::size_t number) const { return part(number).begin < part(number).end; }
+    /// Returns true if the ball at `center` reaches an undecided end of the run.
+    bool may_close(const BallCenter& center, const NumberedRun& run, const BallFootprint& near) const {
+        const Run closed = near.on_line(center, layer_, static_cast<std::int32_t>(run.line)),
                   &open = open_[run.number];
         return closed.begin < open.end && open.begin < closed.end &&
                (closed.begin <= open.begin || open.end <= closed.end);
     }
-    /// Marks what the ball at `place` reaches as decided. Trims ends only: a ball that reaches the middle
+    /// Marks what the ball at `center` reaches as decided. Trims ends only: a ball that reaches the middle
     /// alone changes nothing.
-    void decide_within(std::uint32_t place, const Places& places, const NumberedRun& run,
-                       const NearPlace& near);
+    void decide_within(std::uint32_t center, const BallCenters& centers, const NumberedRun& run,
+                       const BallFootprint& near);
     /// Applies the ball centres known to an adjacent line, of the same layer or of another one, to `run`.
-    void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, std::size_t other_line,
-                      const Places& places, const Run& whole, const NumberedRun& run, const NearPlace& near);
+    void inherit_from(const UndecidedRuns& others, const RunRows& other_rows, std::size_t other_line,
+                      const BallCenters& centers, const Run& whole, const NumberedRun& run,
+                      const BallFootprint& near);
     /// Applies the ball centres known to the same lines of another layer to all runs.
-    void inherit_from(const UndecidedRuns& others, const SpanRows& other_rows, const Places& places,
-                      const SpanRows& rows, const NearPlace& near);
+    void inherit_from(const UndecidedRuns& others, const RunRows& other_rows, const BallCenters& centers,
+                      const RunRows& rows, const BallFootprint& near);
 
   private:
-    void close_near_all(const UndecidedRuns& others, std::size_t other, const Places& places,
-                        const NumberedRun& run, const NearPlace& near);
+    void close_near_all(const UndecidedRuns& others, std::size_t other, const BallCenters& centers,
+                        const NumberedRun& run, const BallFootprint& near);
 
     static constexpr std::uint32_t none = UINT32_MAX;
-    /// A place that a run was found to be near, and where the next one stands in more_.
+    /// A center that a run was found to be near, and where the next one stands in more_.
     struct Link {
-        std::uint32_t place = none, next = none;
+        std::uint32_t center = none, next = none;
     };
     std::int32_t layer_;
     std::vector<Run> open_;   // of each run
@@ -107,7 +108,7 @@ class UndecidedRuns {
 };
 
 /// The number of a line's first run.
-inline std::size_t first_run(const SpanRows& rows, std::size_t line) {
+inline std::size_t first_run(const RunRows& rows, std::size_t line) {
     return static_cast<std::size_t>(rows.line(line).data() - rows.runs().data());
 }
 

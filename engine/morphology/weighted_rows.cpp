@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-WeightedRows::WeightedRows(const SpanRows& rows, double radius) : WeightedRows() {
+WeightedRows::WeightedRows(const RunRows& rows, double radius) : WeightedRows() {
     runs_.reserve(rows.runs().size());
     lines_of_runs_.reserve(rows.runs().size());
     for (std::size_t l = 0; l < rows.lines(); ++l) {

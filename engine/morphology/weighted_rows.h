@@ -11,7 +11,7 @@
 namespace lamella {
 
 /// Run units; solids lie within, the void reaches up to it or beyond. What lies there is not moved by balls.
-inline constexpr std::int32_t far_out = 1 << 29;
+inline constexpr std::int32_t unbounded = 1 << 29;
 
 /// A solid interval of a line and how far a ball about it reaches.
 struct WeightedRun {
@@ -34,7 +34,7 @@ class WeightedRows {
   public:
     WeightedRows() : starts_(1, 0) {}
     /// The same radius everywhere, run units.
-    WeightedRows(const SpanRows& rows, double radius);
+    WeightedRows(const RunRows& rows, double radius);
 
     std::size_t lines() const { return starts_.size() - 1; }
     std::span<const WeightedRun> line(std::size_t l) const {

@@ -15,7 +15,7 @@ bool count_alike(const RowBand& a, const RowBand& b) {
 
 }  // namespace
 
-void LineCache::add(const RowBand& band, const SpanRows& rows) {
+void LineCache::add(const RowBand& band, const RunRows& rows) {
     if (finished_ || band.step != 1 || !count_alike(band, wanted_)) return;
     const auto wanted = static_cast<std::size_t>(wanted_.lines());
     const int begin = band.number(0), end = begin + band.lines();

@@ -14,15 +14,15 @@ class LineCache {
     const RowBand& wanted() const { return wanted_; }
     /// A band and its rows. It follows those that were added before, and what lies between them is empty.
     /// Without effect where its lines are none of the wanted band's.
-    void add(const RowBand& band, const SpanRows& rows);
+    void add(const RowBand& band, const RunRows& rows);
     /// There is nothing behind the bands that were added, which were all like this one.
     void finish(const RowBand& band);
     /// All of the lines wanted; null until they are known.
-    const SpanRows* rows() const { return finished_ ? &rows_ : nullptr; }
+    const RunRows* rows() const { return finished_ ? &rows_ : nullptr; }
 
   private:
     RowBand wanted_;
-    SpanRows rows_;
+    RunRows rows_;
     bool finished_ = false;
 };
 

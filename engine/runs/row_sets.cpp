@@ -7,7 +7,7 @@
 
 namespace lamella {
 
-void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+void unite_line(std::span<const Run> a, std::span<const Run> b, RunRows& out) {
     if (b.empty()) return out.append_line(a);
     if (a.empty()) return out.append_line(b);
     std::size_t i = 0, j = 0;
@@ -20,7 +20,7 @@ void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
     out.end_line();
 }
 
-void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+void intersect_line(std::span<const Run> a, std::span<const Run> b, RunRows& out) {
     if (a.size() > b.size()) std::swap(a, b);
     auto next = b.begin();
     for (const Run& run : a) {
@@ -31,7 +31,7 @@ void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& ou
     out.end_line();
 }
 
-void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out) {
+void subtract_line(std::span<const Run> a, std::span<const Run> b, RunRows& out) {
     if (a.empty()) return out.end_line();
     if (b.empty()) return out.append_line(a);
     std::size_t j = 0;
@@ -50,7 +50,7 @@ void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out
 namespace {
 
 /// The first line from `l` on where both have runs, or behind the last one.
-std::size_t line_with_both(const SpanRows& a, const SpanRows& b, std::size_t l) {
+std::size_t line_with_both(const RunRows& a, const RunRows& b, std::size_t l) {
     for (const std::size_t lines = a.lines();;) {
         const std::size_t of_a = a.line_with_runs(l);
         if (of_a == lines) return lines;
@@ -63,9 +63,9 @@ std::size_t line_with_both(const SpanRows& a, const SpanRows& b, std::size_t l) 
 
 // Where few lines hold anything that the others meet, all others are passed or copied many at once.
 
-void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) {
+void unite(const RunRows& a, const RunRows& b, RunRows& out) {
     const bool a_has_more = a.runs().size() >= b.runs().size();
-    const SpanRows &most = a_has_more ? a : b, &others = a_has_more ? b : a;
+    const RunRows &most = a_has_more ? a : b, &others = a_has_more ? b : a;
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), a.runs().size() + b.runs().size());
@@ -76,7 +76,7 @@ void unite(const SpanRows& a, const SpanRows& b, SpanRows& out) {
     out.append_lines(most, out.lines(), a.lines() - out.lines());
 }
 
-void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
+void intersect(const RunRows& a, const RunRows& b, RunRows& out) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), std::min(a.runs().size(), b.runs().size()));
@@ -87,7 +87,7 @@ void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out) {
     out.end_lines(a.lines() - out.lines());
 }
 
-void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out) {
+void subtract(const RunRows& a, const RunRows& b, RunRows& out) {
     assert(a.lines() == b.lines() && &out != &a && &out != &b);
     out.clear();
     out.reserve(a.lines(), a.runs().size());

@@ -8,29 +8,29 @@
 namespace lamella {
 
 /// One line of the operation, appended.
-void unite_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
-void intersect_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
-void subtract_line(std::span<const Run> a, std::span<const Run> b, SpanRows& out);
+void unite_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
+void intersect_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
+void subtract_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
 
 /// The operands have equally many lines.
-inline SpanRows united(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
+inline RunRows united(const RunRows& a, const RunRows& b) {
+    RunRows out;
     unite(a, b, out);
     return out;
 }
-inline SpanRows common(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
+inline RunRows common(const RunRows& a, const RunRows& b) {
+    RunRows out;
     intersect(a, b, out);
     return out;
 }
-inline SpanRows without(const SpanRows& a, const SpanRows& b) {
-    SpanRows out;
+inline RunRows without(const RunRows& a, const RunRows& b) {
+    RunRows out;
     subtract(a, b, out);
     return out;
 }
 /// What [begin, end) has on each line besides the rows, which lie in it.
-inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_t end) {
-    SpanRows out;
+inline RunRows complement(const RunRows& rows, std::int32_t begin, std::int32_t end) {
+    RunRows out;
     out.reserve(rows.lines(), rows.lines() + rows.runs().size());
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         std::int32_t from = begin;
@@ -44,7 +44,7 @@ inline SpanRows complement(const SpanRows& rows, std::int32_t begin, std::int32_
     return out;
 }
 /// From the first begin to the last end of a run of any line.
-inline Run extent_of(const SpanRows& rows) {
+inline Run extent_of(const RunRows& rows) {
     Run extent{0, 0};
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         if (rows.line(l).empty()) continue;
@@ -55,8 +55,8 @@ inline Run extent_of(const SpanRows& rows) {
     return extent;
 }
 /// Rows without a run.
-inline SpanRows empty_rows(std::size_t lines) {
-    SpanRows out;
+inline RunRows empty_rows(std::size_t lines) {
+    RunRows out;
     out.end_lines(lines);
     return out;
 }

@@ -71,7 +71,7 @@ RunCollector::Segment RunCollector::add(int first, int count) {
     return {begins_.data() + from, ends_.data() + from};
 }
 
-void RunCollector::merge(const RowBand& band, SpanRows& out) {
+void RunCollector::merge(const RowBand& band, RunRows& out) {
     const auto lines = static_cast<std::size_t>(band.lines());
     make_room(lines);
     // Scatter the runs to their lines. Things that follow each other are mostly neighbours whose runs

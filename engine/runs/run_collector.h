@@ -25,7 +25,7 @@ class RunCollector {
     Segment add(int first, int count);
     /// Merges everything to sorted, disjoint runs clipped to the band; one line of `out` for each line of the
     /// band.
-    void merge(const RowBand& band, SpanRows& out);
+    void merge(const RowBand& band, RunRows& out);
 
   private:
     struct Piece {

@@ -12,7 +12,7 @@ namespace {
 bool begins_first(const LabelledRun& a, const LabelledRun& b) { return a.begin < b.begin; }
 
 /// Appends the union of the grown runs of lines [first, last] as one row, each run a component of its own.
-void append_grown_row(const SpanRows& lines, int first, int last, std::int32_t units,
+void append_grown_row(const RunRows& lines, int first, int last, std::int32_t units,
                       std::vector<LabelledRun>& row, LabelledLayer& out) {
     row.clear();
     for (int l = first; l <= last; ++l) {
@@ -116,7 +116,7 @@ void LabelledLayer::serialize(Archive& parcel) {
 namespace {
 
 /// Without growth each run is its own.
-LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
+LabelledLayer label_as_it_is(const RunRows& rows, int layer) {
     LabelledLayer out;
     out.starts.reserve(rows.lines() + 1);
     out.starts.push_back(0);
@@ -156,7 +156,7 @@ LabelledLayer label_as_it_is(const SpanRows& rows, int layer) {
 
 }  // namespace
 
-LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth) {
+LabelledLayer label_layer(const RunRows& rows, int layer, const Growth& growth) {
     if (growth.units == 0 && growth.rows == 0) return label_as_it_is(rows, layer);
     LabelledLayer out;
     out.first_row = -growth.rows;

@@ -60,7 +60,7 @@ struct LabelledLayer {
 };
 
 /// Grows and labels a layer's runs: line l is row l. Pure, so layers can be labelled at once.
-LabelledLayer label_layer(const SpanRows& rows, int layer, const Growth& growth);
+LabelledLayer label_layer(const RunRows& rows, int layer, const Growth& growth);
 
 /// Calls visit(a, b) for every run of `a` and of `b`, two sorted, disjoint lists, that overlap or touch.
 template <typename A, typename B, typename Visit>

@@ -16,7 +16,7 @@ Rect RowBand::rect() const {
     return axis == Axis::x ? Rect{{u.lo, v.lo}, {u.hi, v.hi}} : Rect{{v.lo, u.lo}, {v.hi, u.hi}};
 }
 
-void SpanRows::append_lines(const SpanRows& rows, std::size_t first, std::size_t count) {
+void RunRows::append_lines(const RunRows& rows, std::size_t first, std::size_t count) {
     const std::span<const std::uint32_t> starts = std::span(rows.starts_).subspan(first, count + 1);
     const std::uint32_t begin = starts.front();
     const auto before = static_cast<std::uint32_t>(runs_.size());
@@ -26,13 +26,13 @@ void SpanRows::append_lines(const SpanRows& rows, std::size_t first, std::size_t
     for (std::size_t i = 0; i < count; ++i) starts_[lines + i] = before + (starts[i + 1] - begin);
 }
 
-std::int64_t SpanRows::total_length() const {
+std::int64_t RunRows::total_length() const {
     std::int64_t sum = 0;
     for (const Run& run : runs_) sum += run.end - run.begin;
     return sum;
 }
 
-void SpanRows::serialize(Archive& parcel) {
+void RunRows::serialize(Archive& parcel) {
     parcel(starts_, runs_);
     if (!parcel.unpacks()) return;
     check_row_starts(starts_, runs_.size());

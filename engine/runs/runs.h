@@ -82,9 +82,9 @@ inline std::int32_t round_run(double u) {
 }
 
 /// The runs of a band, line by line: sorted, disjoint, not touching. Lines are appended in order.
-class SpanRows {
+class RunRows {
   public:
-    SpanRows() { starts_.push_back(0); }
+    RunRows() { starts_.push_back(0); }
 
     void clear() {
         runs_.clear();
@@ -131,14 +131,14 @@ class SpanRows {
         end_line();
     }
     /// Appends lines [first, first + count) of other rows.
-    void append_lines(const SpanRows& rows, std::size_t first, std::size_t count);
-    void append_lines(const SpanRows& rows) { append_lines(rows, 0, rows.lines()); }
+    void append_lines(const RunRows& rows, std::size_t first, std::size_t count);
+    void append_lines(const RunRows& rows) { append_lines(rows, 0, rows.lines()); }
     /// Sum of the lengths of all runs, in run units.
     std::int64_t total_length() const;
     /// Packs or unpacks. Throws FaultError for what are no rows.
     void serialize(Archive& parcel);
 
-    friend bool operator==(const SpanRows&, const SpanRows&) = default;
+    friend bool operator==(const RunRows&, const RunRows&) = default;
 
   private:
     std::vector<Run> runs_;
@@ -146,8 +146,8 @@ class SpanRows {
 };
 
 /// Line-by-line set operations; `out` must be another object than the operands.
-void unite(const SpanRows& a, const SpanRows& b, SpanRows& out);
-void intersect(const SpanRows& a, const SpanRows& b, SpanRows& out);
-void subtract(const SpanRows& a, const SpanRows& b, SpanRows& out);
+void unite(const RunRows& a, const RunRows& b, RunRows& out);
+void intersect(const RunRows& a, const RunRows& b, RunRows& out);
+void subtract(const RunRows& a, const RunRows& b, RunRows& out);
 
 }  // namespace lamella

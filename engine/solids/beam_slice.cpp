@@ -87,7 +87,7 @@ void BeamRows::collect(const RowBand& band, const LineRange& lines, RunCollector
     if (group.size() > 0) collect_group(group, band, z_, runs);
 }
 
-void BeamSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+void BeamSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
     scratch.collector.clear();
     rows_.collect(band, scratch.collector);
     scratch.collector.merge(band, out);

@@ -38,7 +38,7 @@ class BeamSlice : public SampledSlice {
     BeamSlice(const Field& field, const std::vector<Beam>& beams, double z)
         : SampledSlice(field, z), rows_(beams, z) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     Rect bounds() const override { return rows_.bounds(); }
 
   private:

@@ -25,7 +25,7 @@ LineRange owned_lines(const RowBand& band, const Interval& across) {
 
 /// The runs of the boxes at height z on the lines of the band. False, and `out` as it was, where there are
 /// none.
-bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector& boxes, SpanRows& out) {
+bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector& boxes, RunRows& out) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     const Rect rect = band.rect();
     boxes.clear();
@@ -82,7 +82,7 @@ class WithoutBoxesSlice : public SampledSlice {
     WithoutBoxesSlice(const WithoutBoxes& field, const SliceField& solid, const RunBoxes& boxes, double z)
         : SampledSlice(field, z), field_(field), solid_(solid), boxes_(boxes), z_(z) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     void sample(const Tile& tile, std::span<float> out) const override {
         solid_.sample(tile, out);
         std::size_t k = 0;
@@ -121,8 +121,8 @@ const SliceField& WithoutBoxes::slice(SliceContext& context, double z) const {
     return context.make<WithoutBoxesSlice>(*this, solid, *boxes_, z);
 }
 
-void WithoutBoxesSlice::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
-    solid_.spans(band, scratch, out);
+void WithoutBoxesSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
+    solid_.runs(band, scratch, out);
     const auto taken = scratch.rows(), rest = scratch.rows();
     if (!box_spans(boxes_, z_, band, scratch.collector, *taken)) return;
     subtract(out, *taken, *rest);
@@ -150,7 +150,7 @@ class BoxSolid : public Field {
 class BoxSolidSlice : public SampledSlice {
   public:
     BoxSolidSlice(const BoxSolid& field, double z) : SampledSlice(field, z), field_(field), z_(z) {}
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         if (box_spans(field_.boxes(), z_, band, scratch.collector, out)) return;
         out.clear();
         for (int l = 0; l < band.lines(); ++l) out.end_line();

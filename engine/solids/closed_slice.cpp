@@ -3,7 +3,7 @@
 
 namespace lamella {
 
-void push_intervals(const RowBand& band, std::span<const Interval> intervals, SpanRows& out) {
+void push_intervals(const RowBand& band, std::span<const Interval> intervals, RunRows& out) {
     const std::int32_t lo = band.lo * run_unit, hi = band.hi * run_unit;
     const auto push = [&](const Interval& interval) {
         const double u = band.coordinate(interval.lo), v = band.coordinate(interval.hi);

@@ -10,7 +10,7 @@ namespace lamella {
 
 /// Rounds intervals (mm, sorted, disjoint) of a line to runs clipped to the band and appends them as one
 /// line.
-void push_intervals(const RowBand& band, std::span<const Interval> intervals, SpanRows& out);
+void push_intervals(const RowBand& band, std::span<const Interval> intervals, RunRows& out);
 
 /// A point in the plane from its coordinates along and across the lines.
 inline dvec2 on_plane(Axis axis, double along, double across) {
@@ -24,7 +24,7 @@ class ClosedSlice : public SampledSlice {
   public:
     ClosedSlice(const Shape& shape, double z) : SampledSlice(shape, z), shape_(shape), z_(z) {}
 
-    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const override {
         out.clear();
         std::vector<Interval> intervals;
         for (int l = 0; l < band.lines(); ++l) {

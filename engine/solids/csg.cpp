@@ -11,13 +11,13 @@ using Slices = std::vector<const SliceField*>;
 
 bool meet(const Rect& a, const Rect& b) { return !intersect(a, b).empty(); }
 
-void empty_rows(const RowBand& band, SpanRows& out) {
+void empty_rows(const RowBand& band, RunRows& out) {
     out.clear();
     for (int l = 0; l < band.lines(); ++l) out.end_line();
 }
 
 /// The pixels of the band that hold all runs, so that later operands need not look elsewhere.
-RowBand narrowed(const RowBand& band, const SpanRows& rows) {
+RowBand narrowed(const RowBand& band, const RunRows& rows) {
     std::int32_t lo = band.hi * run_unit, hi = band.lo * run_unit;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         const auto line = rows.line(l);
@@ -50,7 +50,7 @@ class SetSlice : public SliceField {
   public:
     SetSlice(Slices parts, Rect bounds) : parts_(std::move(parts)), bounds_(bounds) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         if constexpr (is_union) {
             unite_spans(band, scratch, out);
         } else {
@@ -73,30 +73,30 @@ class SetSlice : public SliceField {
     Rect bounds() const override { return bounds_; }
 
   private:
-    void unite_spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+    void unite_spans(const RowBand& band, Scratch& scratch, RunRows& out) const {
         const Rect rect = band.rect();
         bool first = true;
         for (const SliceField* part : parts_) {
             if (!meet(part->bounds(), rect)) continue;
             if (first) {
-                part->spans(band, scratch, out);
+                part->runs(band, scratch, out);
                 first = false;
                 continue;
             }
             const auto more = scratch.rows(), both = scratch.rows();
-            part->spans(band, scratch, *more);
+            part->runs(band, scratch, *more);
             unite(out, *more, *both);
             std::swap(out, *both);
         }
         if (first) empty_rows(band, out);
     }
 
-    void intersect_spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+    void intersect_spans(const RowBand& band, Scratch& scratch, RunRows& out) const {
         if (!meet(bounds_, band.rect())) return empty_rows(band, out);
-        parts_.front()->spans(band, scratch, out);
+        parts_.front()->runs(band, scratch, out);
         for (std::size_t i = 1; i < parts_.size() && !out.runs().empty(); ++i) {
             const auto more = scratch.rows(), both = scratch.rows();
-            parts_[i]->spans(narrowed(band, out), scratch, *more);
+            parts_[i]->runs(narrowed(band, out), scratch, *more);
             intersect(out, *more, *both);
             std::swap(out, *both);
         }
@@ -166,11 +166,11 @@ class DifferenceSlice : public SliceField {
   public:
     DifferenceSlice(const SliceField& from, const SliceField& taken) : from_(from), taken_(taken) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
-        from_.spans(band, scratch, out);
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
+        from_.runs(band, scratch, out);
         if (out.runs().empty() || !meet(taken_.bounds(), band.rect())) return;
         const auto less = scratch.rows(), rest = scratch.rows();
-        taken_.spans(narrowed(band, out), scratch, *less);
+        taken_.runs(narrowed(band, out), scratch, *less);
         subtract(out, *less, *rest);
         std::swap(out, *rest);
     }

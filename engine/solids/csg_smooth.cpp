@@ -98,12 +98,12 @@ class SmoothSlice : public SampledSlice {
                 double z)
         : SampledSlice(field, z), a_(a), tool_(tool), seam_(seam) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
-        a_.spans(band, scratch, out);
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
+        a_.runs(band, scratch, out);
         for (const SliceField* more : {&tool_, &seam_}) {
             if (!meet(more->bounds(), band) || (!is_union && out.runs().empty())) continue;
             const auto rows = scratch.rows(), result = scratch.rows();
-            more->spans(band, scratch, *rows);
+            more->runs(band, scratch, *rows);
             is_union ? unite(out, *rows, *result) : subtract(out, *rows, *result);
             std::swap(out, *result);
         }

@@ -12,14 +12,14 @@ class AlignedSlice : public SliceField {
     AlignedSlice(const SliceField& inner, dvec2 scale, dvec2 shift, double value_scale)
         : inner_(inner), scale_(scale), shift_(shift), value_scale_(value_scale) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
         RowBand inner = band;
         inner.along_origin = (band.along_origin - shift_[along]) / scale_[along];
         inner.along_pitch = band.along_pitch / scale_[along];
         inner.across_origin = (band.across_origin - shift_[across]) / scale_[across];
         inner.across_pitch = band.across_pitch / scale_[across];
-        inner_.spans(inner, scratch, out);
+        inner_.runs(inner, scratch, out);
     }
     Interval range(const Rect& r) const override {
         const dvec2 a = (r.lo - shift_) / scale_, b = (r.hi - shift_) / scale_;

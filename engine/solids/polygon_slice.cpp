@@ -18,7 +18,7 @@ PolygonSlice::PolygonSlice(std::span<const std::vector<dvec2>> polygons) {
     }
 }
 
-void PolygonSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
+void PolygonSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
     out.clear();
     if (band.lines() == 0) return;
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;

@@ -15,7 +15,7 @@ class PolygonSlice : public SliceField {
     /// Polygons without repeated last points, in any order and orientation; mm, finite.
     explicit PolygonSlice(std::span<const std::vector<dvec2>> polygons);
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     Interval range(const Rect& r) const override;
     void sample(const Tile& tile, std::span<float> out) const override;
     Rect bounds() const override { return bounds_; }

@@ -64,7 +64,7 @@ class CavitySurveyor : public Backend {
 
     int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override {
         // A layer of nothing but void lies below the first one.
-        SpanRows all;
+        RunRows all;
         for (int r = 0; r < band_.count; ++r) {
             all.push(0, band_.hi * run_unit);
             all.end_line();
@@ -97,12 +97,12 @@ std::unique_ptr<LayerProduct> CavitySurveyor::render(const Layer& layer) const {
     auto product = std::make_unique<VoidProduct>();
     Scratch scratch;
     const auto some = scratch.rows();
-    SpanRows voids;
+    RunRows voids;
     RowBand band = band_;
     double solid = 0;
     for (band.first = 0; band.first < band_.count; band.first += cavity_band_rows) {
         band.count = std::min(cavity_band_rows, band_.count - band.first);
-        layer.part().spans(band, scratch, *some);
+        layer.part().runs(band, scratch, *some);
         solid += static_cast<double>(some->total_length());
         for (std::size_t l = 0; l < some->lines(); ++l) {
             std::int32_t from = 0;

@@ -14,7 +14,7 @@ namespace lamella {
 namespace {
 
 struct HollowRows : LayerProduct {
-    SpanRows rows;
+    RunRows rows;
 };
 
 /// What may become cavity, layer by layer: the part shrunk by the wall, without what is too narrow.
@@ -47,8 +47,8 @@ class HollowSurveyor : public Backend {
     }
     void finish_course();
     void take_shrunk();
-    SpanRows wide_enough(const SpanRows& rows) const;
-    SpanRows chamber_walls() const;
+    RunRows wide_enough(const RunRows& rows) const;
+    RunRows chamber_walls() const;
 
     const HollowOptions& options_;
     RowBand band_;
@@ -56,7 +56,7 @@ class HollowSurveyor : public Backend {
     dvec3 middle_;   // from the lower corner of the bounds
     ErosionStream shrunk_;
     LayerStack insides_;
-    SpanRows course_;  // what is solid in all of its layers so far
+    RunRows course_;  // what is solid in all of its layers so far
     int in_course_ = 0;
     double part_volume_ = 0;
 };
@@ -71,7 +71,7 @@ std::unique_ptr<LayerProduct> HollowSurveyor::render(const Layer& layer) const {
 }
 
 void HollowSurveyor::write(const Layer& layer, LayerProduct& product) {
-    SpanRows& rows = static_cast<HollowRows&>(product).rows;
+    RunRows& rows = static_cast<HollowRows&>(product).rows;
     part_volume_ += product.area * layer.thickness();
     if (in_course_ == 0) {
         course_ = std::move(rows);
@@ -94,25 +94,25 @@ void HollowSurveyor::finish_course() {
 }
 
 void HollowSurveyor::take_shrunk() {
-    for (SpanRows rows; shrunk_.pop(rows);) insides_.push(wide_enough(rows));
+    for (RunRows rows; shrunk_.pop(rows);) insides_.push(wide_enough(rows));
 }
 
 /// Divided into chambers, and of each what a disc as wide as a bead covers that lies within it.
-SpanRows HollowSurveyor::wide_enough(const SpanRows& rows) const {
-    SpanRows divided = rows;
+RunRows HollowSurveyor::wide_enough(const RunRows& rows) const {
+    RunRows divided = rows;
     if (options_.chamber > 0) subtract(rows, chamber_walls(), divided);
     if (options_.bead == 0) return divided;
-    SpanRows shrunk, opened;
+    RunRows shrunk, opened;
     shrink_rows(divided, units(options_.bead / 2), run_unit, shrunk);
     grow_rows(WeightedRows(shrunk, units(options_.bead / 2)), run_unit, opened);
     return opened;
 }
 
 /// Walls along x and y, of a bead's width at least; one of each goes through the middle.
-SpanRows HollowSurveyor::chamber_walls() const {
+RunRows HollowSurveyor::chamber_walls() const {
     const double every = options_.chamber + options_.bead, half = options_.bead / 2;
     const double width = band_.hi * options_.pitch;
-    SpanRows walls;
+    RunRows walls;
     for (int l = 0; l < band_.count; ++l) {
         const double y = (l + 0.5) * options_.pitch - middle_.y;
         if (std::abs(y - every * std::floor(y / every + 0.5)) < half + options_.pitch / 2) {
@@ -130,7 +130,7 @@ SpanRows HollowSurveyor::chamber_walls() const {
 /// Makes of what may become cavity what does.
 void sweep_down(LayerStack& layers, const RoofRule& rule, const CancelToken* cancel) {
     if (layers.size() == 0) return;
-    SpanRows above = empty_rows(layers[0].lines());
+    RunRows above = empty_rows(layers[0].lines());
     for (std::size_t i = layers.size(); i-- > 0;) {
         if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped while cavities were made");
         above = cavity_below(above, layers[i], rule);
@@ -146,7 +146,7 @@ void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunCompone
                  std::int64_t min_length) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const LabelledLayer labels = label_layer(layers[i], static_cast<int>(i), Growth{});
-        SpanRows rest;
+        RunRows rest;
         std::size_t k = 0;
         for (std::size_t l = 0; l < layers[i].lines(); ++l) {
             for (const Run& run : layers[i].line(l)) {

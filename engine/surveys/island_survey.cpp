@@ -18,7 +18,7 @@ struct LabelledProduct : LayerProduct {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts;  ///< (part's component, body's component)
 };
 
-void find_contacts(const SpanRows& part, LabelledProduct& product) {
+void find_contacts(const RunRows& part, LabelledProduct& product) {
     for (std::size_t l = 0; l < part.lines(); ++l) {
         for_touching(part.line(l), product.body.row(static_cast<int>(l)),
                      [&](const Run& run, const LabelledRun& body) {
@@ -69,12 +69,12 @@ class IslandSurveyor : public Backend {
 std::unique_ptr<LayerProduct> IslandSurveyor::render(const Layer& layer) const {
     auto product = std::make_unique<LabelledProduct>();
     Scratch scratch;
-    const SpanRows part = all_rows(layer.part(), band_, scratch);
+    const RunRows part = all_rows(layer.part(), band_, scratch);
     product->part = label_layer(part, layer.index(), growth_);
     product->area = static_cast<double>(part.total_length()) / run_unit * grid_.pitch * grid_.pitch;
     if (body_) {
         SliceContext context;
-        const SpanRows body = all_rows(context.slice(*body_, layer.z()), band_, scratch);
+        const RunRows body = all_rows(context.slice(*body_, layer.z()), band_, scratch);
         product->body = label_layer(body, layer.index(), Growth{});
         find_contacts(part, *product);
     }

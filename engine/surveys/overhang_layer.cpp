@@ -8,24 +8,24 @@ namespace {
 
 constexpr int rows_per_band = 64;  // a band's runs stay in the cache
 
-SpanRows all_rows(const Layer& layer, RowBand band) {
-    SpanRows all, some;
+RunRows all_rows(const Layer& layer, RowBand band) {
+    RunRows all, some;
     const int count = band.count;
     for (band.first = 0; band.first < count; band.first += rows_per_band) {
         band.count = std::min(rows_per_band, count - band.first);
-        layer.spans(band, some);
+        layer.runs(band, some);
         all.append_lines(some);
     }
     return all;
 }
 
 /// The rows' union with discs of `radius` rows about all their points that lie on a row.
-SpanRows grown_by_disc(const SpanRows& rows, double radius) {
+RunRows grown_by_disc(const RunRows& rows, double radius) {
     const int reach = static_cast<int>(radius);
     std::vector<std::int32_t> widths;
     for (int k = 0; k <= reach; ++k)
         widths.push_back(round_run(run_unit * std::sqrt(radius * radius - k * k)));
-    SpanRows out;
+    RunRows out;
     std::vector<Run> line;
     const auto begins_first = [](const Run& a, const Run& b) { return a.begin < b.begin; };
     const int count = static_cast<int>(rows.lines());

@@ -48,8 +48,8 @@ struct SurveyedLayer : LayerProduct {
     std::vector<OutlineSample> samples;
     std::vector<OutlinePath> paths;
     ContourIndex border;
-    SpanRows rows;   ///< empty without a line where there is no layer
-    SpanRows grown;  ///< the same grown by a disc
+    RunRows rows;   ///< empty without a line where there is no layer
+    RunRows grown;  ///< the same grown by a disc
     LabelledLayer labelled;
     std::vector<LayerPiece> pieces;
 

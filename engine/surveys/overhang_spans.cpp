@@ -14,7 +14,7 @@ struct SpanNode {
 /// Where the layer hangs and where it is held, about all that hangs.
 class HangingLattice {
   public:
-    HangingLattice(const SurveyedLayer& layer, const SpanRows& hang, const SurveyResolution& by)
+    HangingLattice(const SurveyedLayer& layer, const RunRows& hang, const SurveyResolution& by)
         : band_(by.band),
           pitches_(std::max(1, static_cast<int>(std::lround(by.width / by.band.across_pitch)))) {
         int x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
@@ -25,10 +25,10 @@ class HangingLattice {
             y1 = std::max(y1, y);
         });
         if (x0 > x1) return;
-        constexpr int room = 2;  // for what holds round about
-        first_ = {x0 - room, y0 - room};
-        nx_ = x1 - x0 + 1 + 2 * room;
-        ny_ = y1 - y0 + 1 + 2 * room;
+        constexpr int margin = 2;  // for what holds round about
+        first_ = {x0 - margin, y0 - margin};
+        nx_ = x1 - x0 + 1 + 2 * margin;
+        ny_ = y1 - y0 + 1 + 2 * margin;
         states_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), none);
         fill(layer.rows, hold);
         fill(hang, hanging);
@@ -60,7 +60,7 @@ class HangingLattice {
 
     /// Calls act(y, from, to) for the nodes of every run in lines [first, last], both ends inclusive.
     template <typename Act>
-    void each_run(const SpanRows& rows, int first, int last, const Act& act) const {
+    void each_run(const RunRows& rows, int first, int last, const Act& act) const {
         for (int y = std::max(first, 0); y <= last && row_of(y) < band_.count; ++y) {
             for (const Run& run : rows.line(static_cast<std::size_t>(row_of(y)))) {
                 const double unit = static_cast<double>(pitches_) * run_unit;
@@ -70,7 +70,7 @@ class HangingLattice {
             }
         }
     }
-    void fill(const SpanRows& rows, std::uint8_t state) {
+    void fill(const RunRows& rows, std::uint8_t state) {
         each_run(rows, first_.y, first_.y + ny_ - 1, [&](int y, int from, int to) {
             from = std::max(from - first_.x, 0);
             to = std::min(to - first_.x, nx_ - 1);
@@ -166,8 +166,8 @@ std::vector<dvec2> ways_of(const std::vector<dvec2>& bridge_ways) {
 void hold_spans(const PathQuestion& question, const SurveyedLayer& below,
                 const std::vector<dvec2>& bridge_ways, SupportPlacer& placer) {
     const SurveyedLayer& layer = question.layer;
-    SpanRows over;
-    const SpanRows* hang = &layer.rows;
+    RunRows over;
+    const RunRows* hang = &layer.rows;
     if (below.rows.lines() > 0) {
         subtract(layer.rows, below.grown, over);
         hang = &over;

@@ -135,7 +135,7 @@ std::vector<Edge> spanning_tree(const ThinnedPoints& points, const std::vector<s
 }
 
 struct LabelledRows : LayerProduct {
-    SpanRows rows;
+    RunRows rows;
     LabelledLayer labelled;
 };
 

@@ -8,15 +8,15 @@
 namespace lamella {
 namespace {
 
-SpanRows grown(const SpanRows& rows, double by, double row_pitch) {
-    SpanRows out;
+RunRows grown(const RunRows& rows, double by, double row_pitch) {
+    RunRows out;
     grow_rows(WeightedRows(rows, by), row_pitch, out);
     return out;
 }
 
 /// The layer with all that the one beside it has further than a step inside.
-SpanRows with_inside_of(const SpanRows& layer, const SpanRows& beside, const EnclosureRule& rule) {
-    SpanRows inside, out;
+RunRows with_inside_of(const RunRows& layer, const RunRows& beside, const EnclosureRule& rule) {
+    RunRows inside, out;
     shrink_rows(beside, rule.step, rule.row_pitch, inside);
     unite(layer, inside, out);
     return out;
@@ -24,8 +24,8 @@ SpanRows with_inside_of(const SpanRows& layer, const SpanRows& beside, const Enc
 
 /// What of the layer above stands too far out over this one. Rows are taken for what lies between them: where
 /// they graze an outline, a disc may miss it by a part of a row.
-SpanRows hanging_over(const SpanRows& layer, const SpanRows& above, const EnclosureRule& rule) {
-    SpanRows hanging;
+RunRows hanging_over(const RunRows& layer, const RunRows& above, const EnclosureRule& rule) {
+    RunRows hanging;
     subtract(above, grown(layer, rule.corner + rule.row_pitch / 2, rule.row_pitch), hanging);
     return hanging;
 }
@@ -33,13 +33,13 @@ SpanRows hanging_over(const SpanRows& layer, const SpanRows& above, const Enclos
 /// The layer with what holds all of the one above. Sharp corners and fins are drawn in as far as they may be:
 /// of them comes in, row by row outward, what is needed. What hangs together with nothing else stays as it
 /// is.
-SpanRows with_thin_of(const SpanRows& layer, const SpanRows& above, const EnclosureRule& rule) {
+RunRows with_thin_of(const RunRows& layer, const RunRows& above, const EnclosureRule& rule) {
     constexpr int longest = 256;  // rows that a fin is followed
-    SpanRows hanging = hanging_over(layer, above, rule);
+    RunRows hanging = hanging_over(layer, above, rule);
     if (hanging.runs().empty()) return layer;
     const double reach = rule.corner + rule.row_pitch / 2;
-    const SpanRows about = common(above, grown(hanging, reach, rule.row_pitch));
-    SpanRows all = layer, out;
+    const RunRows about = common(above, grown(hanging, reach, rule.row_pitch));
+    RunRows all = layer, out;
     for (int k = 0; k < longest && !hanging.runs().empty(); ++k) {
         unite(all, common(about, grown(all, rule.row_pitch, rule.row_pitch)), out);
         if (out == all) break;
@@ -51,7 +51,7 @@ SpanRows with_thin_of(const SpanRows& layer, const SpanRows& above, const Enclos
 }
 
 /// Whether the layer is another than before.
-bool take(LayerStack& layers, std::size_t i, const SpanRows& rows) {
+bool take(LayerStack& layers, std::size_t i, const RunRows& rows) {
     if (rows == layers[i]) return false;
     layers.replace(i, rows);
     return true;
@@ -60,8 +60,8 @@ bool take(LayerStack& layers, std::size_t i, const SpanRows& rows) {
 bool sweep_down(LayerStack& layers, const EnclosureRule& rule) {
     bool changed = false;
     for (std::size_t i = layers.size(); i-- > 1;) {
-        const SpanRows& above = layers[i];
-        const SpanRows below = with_thin_of(with_inside_of(layers[i - 1], above, rule), above, rule);
+        const RunRows& above = layers[i];
+        const RunRows below = with_thin_of(with_inside_of(layers[i - 1], above, rule), above, rule);
         changed = take(layers, i - 1, below) || changed;
     }
     return changed;

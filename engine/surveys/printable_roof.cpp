@@ -11,8 +11,8 @@ namespace lamella {
 namespace {
 
 /// The rows [first, first + count) of a layer; beyond it they are empty.
-SpanRows rows_of(const SpanRows& all, int first, int count) {
-    SpanRows some;
+RunRows rows_of(const RunRows& all, int first, int count) {
+    RunRows some;
     for (int l = first; l < first + count; ++l) {
         const bool known = 0 <= l && l < static_cast<int>(all.lines());
         some.append_line(known ? all.line(static_cast<std::size_t>(l)) : std::span<const Run>());
@@ -24,53 +24,53 @@ SpanRows rows_of(const SpanRows& all, int first, int count) {
 /// it as a step reaches.
 class PartCavity {
   public:
-    PartCavity(const SpanRows& above, const SpanRows& part, const RoofRule& rule)
+    PartCavity(const RunRows& above, const RunRows& part, const RoofRule& rule)
         : above_(above), part_(part), rule_(rule) {}
 
-    SpanRows largest() const {
+    RunRows largest() const {
         if (overhang(part_).runs().empty()) return part_;
-        const SpanRows cavity = without_thin_walls_lost(grown_above());
+        const RunRows cavity = without_thin_walls_lost(grown_above());
         return united(cavity, under_hip_roof(cavity));
     }
 
   private:
-    SpanRows grown(const SpanRows& rows, double by) const {
-        SpanRows out;
+    RunRows grown(const RunRows& rows, double by) const {
+        RunRows out;
         grow_rows(WeightedRows(rows, by), rule_.row_pitch, out);
         return out;
     }
-    SpanRows shrunk(const SpanRows& rows, double by) const {
-        SpanRows out;
+    RunRows shrunk(const RunRows& rows, double by) const {
+        RunRows out;
         shrink_rows(rows, by, rule_.row_pitch, out);
         return out;
     }
     /// What would hang further than a step from all that is solid beside such a cavity.
-    SpanRows overhang(const SpanRows& cavity) const { return without(shrunk(cavity, rule_.step), above_); }
+    RunRows overhang(const RunRows& cavity) const { return without(shrunk(cavity, rule_.step), above_); }
 
     /// The cavity above and a step about it; what would be too thin between its parts is closed.
-    SpanRows grown_above() const {
-        SpanRows cavity = common(grown(above_, rule_.step), part_);
+    RunRows grown_above() const {
+        RunRows cavity = common(grown(above_, rule_.step), part_);
         if (rule_.min_wall == 0 || cavity.runs().empty()) return cavity;
         const double half = rule_.min_wall / 2;
         return common(united(cavity, shrunk(grown(cavity, half), half)), part_);
     }
 
     /// Less what is solid above within reach of what would hang.
-    SpanRows without_thin_walls_lost(const SpanRows& cavity) const {
-        const SpanRows hanging = overhang(cavity);
+    RunRows without_thin_walls_lost(const RunRows& cavity) const {
+        const RunRows hanging = overhang(cavity);
         if (hanging.runs().empty()) return cavity;
-        const SpanRows about = grown(hanging, rule_.step + rule_.min_wall / 2);
+        const RunRows about = grown(hanging, rule_.step + rule_.min_wall / 2);
         return without(cavity, without(about, above_));
     }
 
     /// The part's inside beyond a distance from its border: the least from which on nothing hangs.
-    SpanRows under_hip_roof(const SpanRows& cavity) const {
+    RunRows under_hip_roof(const RunRows& cavity) const {
         constexpr int parts_of_a_step = 16;
         double too_little = 0, enough = half_width();
-        SpanRows best = empty_rows(part_.lines());
+        RunRows best = empty_rows(part_.lines());
         while (enough - too_little > rule_.step / parts_of_a_step) {
             const double distance = (too_little + enough) / 2;
-            const SpanRows middle = shrunk(part_, distance);
+            const RunRows middle = shrunk(part_, distance);
             if (overhang(united(cavity, middle)).runs().empty()) {
                 enough = distance;
                 best = middle;
@@ -88,16 +88,16 @@ class PartCavity {
         return std::min<double>(longest, rule_.row_pitch * static_cast<double>(part_.lines())) / 2;
     }
 
-    const SpanRows& above_;
-    const SpanRows& part_;
+    const RunRows& above_;
+    const RunRows& part_;
     const RoofRule& rule_;
 };
 
 /// The rows of one component of a labelled layer, with `margin` empty ones on either side.
-SpanRows rows_of_component(const SpanRows& all, const LabelledLayer& labels, std::uint32_t component,
-                           int margin) {
+RunRows rows_of_component(const RunRows& all, const LabelledLayer& labels, std::uint32_t component,
+                          int margin) {
     const ComponentExtent& extent = labels.components[component];
-    SpanRows rows;
+    RunRows rows;
     for (int l = extent.first_row - margin; l <= extent.last_row + margin; ++l) {
         if (extent.first_row <= l && l <= extent.last_row) {
             for (const Run& run : all.line(static_cast<std::size_t>(l))) {
@@ -111,20 +111,20 @@ SpanRows rows_of_component(const SpanRows& all, const LabelledLayer& labels, std
 }
 
 /// Joins rows that begin with line `first` to those of a whole layer.
-SpanRows joined(const SpanRows& whole, const SpanRows& some, int first) {
+RunRows joined(const RunRows& whole, const RunRows& some, int first) {
     return united(whole, rows_of(some, -first, static_cast<int>(whole.lines())));
 }
 
 }  // namespace
 
-SpanRows cavity_below(const SpanRows& above, const SpanRows& inside, const RoofRule& rule) {
+RunRows cavity_below(const RunRows& above, const RunRows& inside, const RoofRule& rule) {
     const LabelledLayer labels = label_layer(inside, 0, Growth{});
     const int margin = static_cast<int>(rule.step / rule.row_pitch) + 1;
-    SpanRows all = empty_rows(inside.lines());
+    RunRows all = empty_rows(inside.lines());
     for (std::uint32_t c = 0; c < labels.components.size(); ++c) {
-        const SpanRows part = rows_of_component(inside, labels, c, margin);
+        const RunRows part = rows_of_component(inside, labels, c, margin);
         const int first = labels.components[c].first_row - margin;
-        const SpanRows near = rows_of(above, first, static_cast<int>(part.lines()));
+        const RunRows near = rows_of(above, first, static_cast<int>(part.lines()));
         all = joined(all, PartCavity(near, part, rule).largest(), first);
     }
     return all;

@@ -23,6 +23,6 @@ struct RoofRule {
 /// from its sides, it stays, as a wall. After Hornus, Lefebvre, Dumas and Claux 2016, who bound enclosures by
 /// such steps; the hip roofs and the walls are ours. The largest cavity is not unique, and this one is not
 /// always among the largest.
-SpanRows cavity_below(const SpanRows& above, const SpanRows& inside, const RoofRule& rule);
+RunRows cavity_below(const RunRows& above, const RunRows& inside, const RoofRule& rule);
 
 }  // namespace lamella

@@ -14,7 +14,7 @@ namespace lamella {
 namespace {
 
 struct ShieldRows : LayerProduct {
-    SpanRows rows;
+    RunRows rows;
 };
 
 /// What the shield has to hold, layer by layer.
@@ -51,23 +51,23 @@ class ShieldSurveyor : public Backend {
     Rect rect_;
     RowBand band_;
     LayerStack layers_;
-    SpanRows course_;  // what there is in any of its layers so far
+    RunRows course_;  // what there is in any of its layers so far
     int in_course_ = 0;
 };
 
 std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
     auto product = std::make_unique<ShieldRows>();
     Scratch scratch;
-    SpanRows print = all_rows(layer.part(), band_, scratch);
+    RunRows print = all_rows(layer.part(), band_, scratch);
     if (layer.supports() != nullptr) print = united(print, all_rows(*layer.supports(), band_, scratch));
-    SpanRows wide;
+    RunRows wide;
     grow_rows(WeightedRows(print, reach_ + smooth_), run_unit, wide);
     shrink_rows(wide, smooth_, run_unit, product->rows);
     return product;
 }
 
 void ShieldSurveyor::write(const Layer& /*layer*/, LayerProduct& product) {
-    const SpanRows& rows = static_cast<ShieldRows&>(product).rows;
+    const RunRows& rows = static_cast<ShieldRows&>(product).rows;
     if (in_course_ == 0) {
         course_ = rows;
     } else {
@@ -82,8 +82,8 @@ void ShieldSurveyor::finish_course() {
 }
 
 /// The rows with what is thinner than `least` made about as thick.
-SpanRows thickened(const SpanRows& rows, double least) {
-    SpanRows core, opened, grown;
+RunRows thickened(const RunRows& rows, double least) {
+    RunRows core, opened, grown;
     shrink_rows(rows, least / 2, run_unit, core);
     // A row more: slivers where rows graze an outline are not thin.
     grow_rows(WeightedRows(core, least / 2 + run_unit), run_unit, opened);
@@ -94,8 +94,8 @@ SpanRows thickened(const SpanRows& rows, double least) {
 /// Leaves of each layer what lies within the wall's thickness of its outline.
 void keep_walls(LayerStack& layers, double wall) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const SpanRows outer = thickened(layers[i], wall);
-        SpanRows inside;
+        const RunRows outer = thickened(layers[i], wall);
+        RunRows inside;
         shrink_rows(outer, wall, run_unit, inside);
         layers.replace(i, without(outer, inside));
     }

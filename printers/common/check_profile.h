@@ -9,19 +9,19 @@ namespace lamella {
 
 /// How a machine makes parts, as far as checks go.
 enum class Process : unsigned char {
-    usual,     ///< as the profile's back-end does, see process_of
-    filament,  ///< beads of molten plastic on each other
-    resin,     ///< layers cured in a vat, the part hanging from a plate
-    powder,    ///< layers of powder bound, sintered or melted
-    cutting    ///< layers cut out of sheets, and stacked
+    from_backend,  ///< as the profile's back-end does, see process_of
+    filament,      ///< beads of molten plastic on each other
+    resin,         ///< layers cured in a vat, the part hanging from a plate
+    powder,        ///< layers of powder bound, sintered or melted
+    cutting        ///< layers cut out of sheets, and stacked
 };
 
 /// What a fault comes to: as usual for the process, or as the profile says.
-enum class SeverityOverride : unsigned char { usual, off, warn, fail };
+enum class SeverityOverride : unsigned char { none, off, warn, fail };
 
 /// Sizes in mm; a negative one is the usual one of the process (see default_limits).
 struct CheckProfile {
-    Process process = Process::usual;
+    Process process = Process::from_backend;
     double pitch = 0;              ///< from row to row of the check; 0: what suits the other sizes
     int places = 10;               ///< faults of each kind that are told of
     double min_thickness = -1;     ///< of walls and struts, within layers

@@ -36,7 +36,7 @@ class LayerAreas {
     int column_ = 0;
     int lit_begin_ = 0;                 ///< of the run that lights up and is not yet ended
     std::uint64_t lit_grey_ = 0;        ///< its sum of greys; 0 where there is none
-    SpanRows lit_;                      ///< in pixels
+    RunRows lit_;                       ///< in pixels
     std::vector<std::uint64_t> greys_;  ///< sums, of each run of lit_
 };
 

@@ -117,7 +117,7 @@ Severity chosen(SeverityOverride given, Severity usual) {
             return warn;
         case SeverityOverride::fail:
             return fail;
-        case SeverityOverride::usual:
+        case SeverityOverride::none:
             break;
     }
     return usual;
@@ -126,7 +126,7 @@ Severity chosen(SeverityOverride given, Severity usual) {
 }  // namespace
 
 Process process_of(const PrinterProfile& profile) {
-    if (profile.check.process != Process::usual) return profile.check.process;
+    if (profile.check.process != Process::from_backend) return profile.check.process;
     const std::string_view backend = profile.backend;
     if (backend == "gcode") {
         return profile.gcode.flavour == Flavour::grbl ? Process::cutting : Process::filament;
@@ -145,7 +145,7 @@ PrintLimits default_limits(Process process, const PrinterProfile& profile) {
             return powder_limits();
         case Process::cutting:
             return cutting_limits(profile);
-        case Process::usual:
+        case Process::from_backend:
         case Process::resin:
             break;
     }

@@ -41,7 +41,7 @@ class SeveralOutputs : public Backend {
         auto products = std::make_unique<Products>(outputs_);
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
             const std::optional<RowBand> lines = outputs_[i]->lines_looked_at();
-            if (lines && layer.index() >= next_[i]) layer.keep_lines(*lines);
+            if (lines && layer.index() >= next_[i]) layer.cache_lines(*lines);
         }
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
             auto product = layer.index() < next_[i] ? nullptr : outputs_[i]->render(layer);

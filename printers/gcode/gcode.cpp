@@ -275,17 +275,19 @@ class Gcode : public Backend {
     void check_fit(const Job& job) const {
         const double reach = reach_beside(profile_, job.layer_height);
         const dvec3 size = job.bounds.size() + dvec3(2 * reach, 2 * reach, 0);
-        const dvec3 room = gcode_room(profile_, job.layer_height) + dvec3(2 * reach, 2 * reach, 0);
+        const dvec3 available =
+            gcode_build_volume(profile_, job.layer_height) + dvec3(2 * reach, 2 * reach, 0);
         const double top = job.layer_count * job.layer_height;
         constexpr double slack = 1e-9;
-        if (size.x <= room.x * (1 + slack) && size.y <= room.y * (1 + slack) && top <= room.z * (1 + slack)) {
+        if (size.x <= available.x * (1 + slack) && size.y <= available.y * (1 + slack) &&
+            top <= available.z * (1 + slack)) {
             return;
         }
-        throw InputError(
-            fmt::format("{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
-                        "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
-                        "larger printer",
-                        with_what(reach > 0), size.x, size.y, top, room.x, room.y, room.z, prime_strip));
+        throw InputError(fmt::format(
+            "{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
+            "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
+            "larger printer",
+            with_what(reach > 0), size.x, size.y, top, available.x, available.y, available.z, prime_strip));
     }
 
     /// Comments, heating, homing and a line that fills the nozzle.
@@ -404,8 +406,8 @@ class Gcode : public Backend {
 
 }  // namespace
 
-dvec3 gcode_room(const PrinterProfile& profile, double layer_height) {
-    if (profile.gcode.flavour == Flavour::grbl) return laser_room(profile);
+dvec3 gcode_build_volume(const PrinterProfile& profile, double layer_height) {
+    if (profile.gcode.flavour == Flavour::grbl) return laser_build_volume(profile);
     const FilamentProfile& bed = profile.filament;
     const double beside = 2 * (prime_strip + reach_beside(profile, layer_height));
     return {bed.bed_x - beside, bed.bed_y - beside, bed.bed_z};

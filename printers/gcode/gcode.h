@@ -25,7 +25,7 @@ std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, const std::st
 std::unique_ptr<Backend> make_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);
 
 /// What the bed has room for beside the strip for the priming line, brim and skirt, and how high, mm; under
-/// grbl laser_room.
-dvec3 gcode_room(const PrinterProfile& profile, double layer_height);
+/// grbl laser_build_volume.
+dvec3 gcode_build_volume(const PrinterProfile& profile, double layer_height);
 
 }  // namespace lamella

@@ -221,9 +221,9 @@ class LaserGcode : public Backend {
         const double more = 2 * cut_allowance(profile_.cutting);
         const dvec3 size = job.bounds.size();
         const FilamentProfile& bed = profile_.filament;
-        const dvec3 room = laser_room(profile_);
+        const dvec3 available = laser_build_volume(profile_);
         constexpr double slack = 1e-9;
-        if (size.x <= room.x + bed.bed_x * slack && size.y <= room.y + bed.bed_y * slack) return;
+        if (size.x <= available.x + bed.bed_x * slack && size.y <= available.y + bed.bed_y * slack) return;
         throw InputError(fmt::format(
             "the part with its kerf is {:.3f} x {:.3f} mm but the bed has {:.3f} x {:.3f} mm; scale or "
             "turn the part, or choose a larger machine (bed_x, bed_y)",
@@ -297,7 +297,7 @@ class LaserGcode : public Backend {
 
 }  // namespace
 
-dvec3 laser_room(const PrinterProfile& profile) {
+dvec3 laser_build_volume(const PrinterProfile& profile) {
     const double beside = 2 * cut_allowance(profile.cutting);
     return {profile.filament.bed_x - beside, profile.filament.bed_y - beside, infinity};
 }

@@ -20,6 +20,6 @@ namespace lamella {
 std::unique_ptr<Backend> make_laser_gcode(const PrinterProfile& profile, std::unique_ptr<GcodeOutput> output);
 
 /// What the bed has room for beside the kerf, mm; upward there is no end.
-dvec3 laser_room(const PrinterProfile& profile);
+dvec3 laser_build_volume(const PrinterProfile& profile);
 
 }  // namespace lamella

@@ -123,7 +123,7 @@ class SliceMask {
         } else {
             const RowBand band = layout_->rows(row, count, sub_);
             spans_.clear();
-            slice_->spans(band, scratch_, spans_);
+            slice_->runs(band, scratch_, spans_);
             for (LineCache& lines : kept_) lines.add(band, spans_);
             if (antialiasing_ == Antialiasing::off) {
                 threshold(band, spans_, runs, white_);
@@ -151,7 +151,7 @@ class SliceMask {
     int white_ = white_of_8_bits;
     RowSpan rows_{0, 0};
     Scratch scratch_;
-    SpanRows spans_;
+    RunRows spans_;
     double pixels_ = 0;
 };
 
@@ -168,7 +168,7 @@ class SolidMask {
               const ImageProfile& profile)
         : width_(layout.width()) {
         for (const SliceField* plane : planes)
-            planes_.emplace_back(*plane, layout, profile, layer.lines_to_keep(*plane));
+            planes_.emplace_back(*plane, layout, profile, layer.lines_to_cache(*plane));
     }
 
     bool meets(int row, int count) const {
@@ -252,16 +252,16 @@ dvec2 display_area_limits(const ImageProfile& profile) {
 
 MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     check_profile(profile);
-    const dvec2 room = display_area_limits(profile);
+    const dvec2 available = display_area_limits(profile);
     const dvec3 size = part_bounds.size();
     // A part as large as the display fits, whatever the rounding of its bounds.
     constexpr double slack = 1e-9;
-    if (size.x > room.x * (1 + slack) || size.y > room.y * (1 + slack)) {
+    if (size.x > available.x * (1 + slack) || size.y > available.y * (1 + slack)) {
         throw InputError(fmt::format(
             "the part is {:.3f} x {:.3f} mm but the display {} {:.3f} x {:.3f} mm ({} x {} px{}); "
             "scale or turn the part, or choose a larger printer",
-            size.x, size.y, profile.margin > 0 ? "has room for" : "is", std::max(room.x, 0.0),
-            std::max(room.y, 0.0), profile.width, profile.height,
+            size.x, size.y, profile.margin > 0 ? "has room for" : "is", std::max(available.x, 0.0),
+            std::max(available.y, 0.0), profile.width, profile.height,
             profile.margin > 0 ? fmt::format(", {} mm kept clear at its edge", profile.margin)
                                : std::string()));
     }
@@ -300,10 +300,10 @@ RowBand MaskLayout::rows(int first, int count, int sub) const {
 }
 
 std::optional<RowBand> mask_lines(const ImageProfile& profile, const Box& part_bounds) {
-    const dvec2 room = display_area_limits(profile);
+    const dvec2 available = display_area_limits(profile);
     const dvec3 size = part_bounds.size();
     const bool reads_lines = profile.antialiasing != Antialiasing::exact && profile.sub_layers == 1;
-    if (!reads_lines || size.x > room.x || size.y > room.y) return {};
+    if (!reads_lines || size.x > available.x || size.y > available.y) return {};
     const MaskLayout layout(profile, part_bounds);
     return layout.rows(0, layout.height(), lines_a_row(profile));
 }

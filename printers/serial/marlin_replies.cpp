@@ -118,7 +118,7 @@ std::optional<std::int64_t> MarlinSender::marker_answered() const {
 void MarlinSender::on_ok(const Reply& reply, double now) {
     if (state_ == State::syncing) {
         const bool of_resend = std::exchange(swallow_ok_, false);
-        of_resend ? sync(now) : ask();
+        of_resend ? sync(now) : probe();
         return;
     }
     if (state_ != State::running && state_ != State::asking) return;

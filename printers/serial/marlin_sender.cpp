@@ -72,7 +72,7 @@ void MarlinSender::sync(double now) {
     transmit(numbered_line(0, "M110 N0"), now);
 }
 
-void MarlinSender::ask() {
+void MarlinSender::probe() {
     state_ = State::asking;
     sent_.clear();
     base_ = cursor_ = next_ = 1;

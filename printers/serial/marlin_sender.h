@@ -61,7 +61,7 @@ class MarlinSender : public LineSender {
     void note_planner(const Reply& reply);
     void sync(double now);
     void settle();
-    void ask();
+    void probe();
     void tickle(double now);
     bool send_new(double now);
     bool send_command(const std::string& command, bool of_job, double now, bool forced);

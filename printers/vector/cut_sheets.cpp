@@ -260,18 +260,19 @@ class NestedSheets : public CutBackend {
     }
 
     [[noreturn]] void refuse(int layer, dvec2 extent) const {
-        const dvec2 room = room_of_sheet(size_, profile().cutting.sheet_margin);
+        const dvec2 available = usable_sheet_size(size_, profile().cutting.sheet_margin);
         throw InputError(fmt::format(
             "layer {} is {:.2f} x {:.2f} mm, and a sheet of {} x {} mm has room for {} x {} mm within its "
             "sheet_margin; accepted: a larger printer.sheet, or part.scale",
-            layer, extent.x, extent.y, size_.x, size_.y, format_number(room.x, 4), format_number(room.y, 4)));
+            layer, extent.x, extent.y, size_.x, size_.y, format_number(available.x, 4),
+            format_number(available.y, 4)));
     }
 
     /// Refuses a layer that fits no sheet before anything is written.
     void check_room(LayerRange range) const {
-        const dvec2 room = room_of_sheet(size_, profile().cutting.sheet_margin);
+        const dvec2 available = usable_sheet_size(size_, profile().cutting.sheet_margin);
         const double allowance = cut_allowance(profile().cutting) + profile().vector.tolerance;
-        const auto fits = [&](dvec2 size) { return size.x <= room.x && size.y <= room.y; };
+        const auto fits = [&](dvec2 size) { return size.x <= available.x && size.y <= available.y; };
         if (fits(grown(job().bounds.rect(), allowance).size())) return;
         for (int i = range.first; i < range.last; ++i) {
             const Layer layer(job(), i);

@@ -31,6 +31,6 @@ class ShelfSheet {
 };
 
 /// The largest rectangle that a sheet holds, mm.
-inline dvec2 room_of_sheet(dvec2 size, double margin) { return size - dvec2(2 * margin); }
+inline dvec2 usable_sheet_size(dvec2 size, double margin) { return size - dvec2(2 * margin); }
 
 }  // namespace lamella

@@ -20,8 +20,8 @@ void mark_plane(const Field& field, const Box& box, double edge, int z, ElementM
     band.hi = sample.size.x;
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(field, box.lo.z + (z + 0.5) * edge).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(field, box.lo.z + (z + 0.5) * edge).runs(band, scratch, rows);
     for (int y = 0; y < sample.size.y; ++y) {
         for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
             // The first middle that is not before the run's begin.

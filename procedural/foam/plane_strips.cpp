@@ -32,7 +32,7 @@ std::size_t PlaneStrips::strip_of(double y) const {
     return static_cast<std::size_t>(std::min(std::max(at, 0.0), static_cast<double>(strips_.size() - 1)));
 }
 
-void PlaneStrips::spans(const RowBand& band, Scratch& scratch, SpanRows& out) const {
+void PlaneStrips::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
     RunCollector& runs = scratch.collector;
     runs.clear();
     const auto collect = [&](const Rows& rows, const LineRange& lines) {

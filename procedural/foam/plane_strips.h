@@ -27,7 +27,7 @@ class PlaneStrips : public SampledSlice {
     using Query = std::function<PlanePieces(std::size_t strip, const Rect&)>;
     PlaneStrips(const Field& field, Query meeting, const Rect& region, int strips, double z);
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     /// The region.
     Rect bounds() const override { return region_; }
 

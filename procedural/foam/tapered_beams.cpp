@@ -47,7 +47,7 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
         // Asking may throw; what was added is gone then.
         places_.swap(ends_);
         ends_.clear();
-        ask();
+        find_radii();
         parts_.clear();
         for (std::size_t i = 0; i < places_.size(); i += 2)
             parts_.push_back({{places_[i], found_[i], places_[i + 1], found_[i + 1]}, false});
@@ -59,7 +59,7 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
 }
 
 /// The radii at places_.
-void TaperedBeams::ask() {
+void TaperedBeams::find_radii() {
     found_.resize(places_.size());
     if (!places_.empty()) radius_.grading().numbers(places_, found_);
 }
@@ -71,7 +71,7 @@ bool TaperedBeams::split() {
         if (!is_straight)
             places_.insert(places_.end(), {(beam.a + beam.b) * 0.5, along(beam, 0.25), along(beam, 0.75)});
     }
-    ask();
+    find_radii();
     halves_.clear();
     std::size_t next = 0;
     for (const auto& [beam, is_straight] : parts_) {

@@ -54,7 +54,7 @@ class TaperedBeams {
         Beam beam;
         bool is_straight;
     };
-    void ask();
+    void find_radii();
     bool split();
 
     NodeRadius radius_;

@@ -96,8 +96,8 @@ class SurfaceSlopes {
 class DividedSlice : public SliceField {
   public:
     DividedSlice(const SliceField& slice, double divisor) : slice_(slice), divisor_(divisor) {}
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
-        slice_.spans(band, scratch, out);
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
+        slice_.runs(band, scratch, out);
     }
     Interval range(const Rect& r) const override {
         const Interval all = slice_.range(r);

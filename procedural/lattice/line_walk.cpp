@@ -71,27 +71,27 @@ class ValueWalk {
         for (std::size_t line = first; line < last; ++line) steepest_.push_back(function.steepest(line));
     }
 
-    void run(SpanRows& out) {
-        ask_stretches();
+    void run(RunRows& out) {
+        evaluate_stretches();
         while (!pairs_.empty()) halve();
         narrow();
         append(out);
     }
 
   private:
-    void ask() {
+    void evaluate() {
         values_.resize(points_.size());
         function_.values(points_, values_);
     }
 
-    void ask_stretches() {
+    void evaluate_stretches() {
         const double begin = std::floor(static_cast<double>(lo_) / stretch) * stretch;
         points_.clear();
         for (std::size_t line = first_; line < last_; ++line) {
             points_.push_back({line, begin});
             for (double u = begin; u < hi_; u += stretch) points_.push_back({line, u + stretch});
         }
-        ask();
+        evaluate();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const LinePoint& point = points_[i];
             if (i == 0 || points_[i - 1].line != point.line) {
@@ -121,7 +121,7 @@ class ValueWalk {
     void halve() {
         points_.clear();
         for (const Pair& pair : pairs_) points_.push_back({pair.line, pair.middle()});
-        ask();
+        evaluate();
         std::swap(pairs_, wholes_);
         pairs_.clear();
         for (std::size_t i = 0; i < wholes_.size(); ++i) {
@@ -139,12 +139,12 @@ class ValueWalk {
             if (open.empty()) return;
             points_.clear();
             for (Turn* const turn : open) points_.push_back({turn->line(), turn->next(round)});
-            ask();
+            evaluate();
             for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(values_[i]);
         }
     }
 
-    void append(SpanRows& out) const {
+    void append(RunRows& out) const {
         std::size_t next = 0;
         for (std::size_t line = first_; line < last_; ++line) {
             std::int32_t begin = lo_;
@@ -175,7 +175,7 @@ class ValueWalk {
 }  // namespace
 
 void walk_lines(const LineFunction& function, std::size_t lines, std::int32_t lo, std::int32_t hi,
-                SpanRows& out) {
+                RunRows& out) {
     const double length = std::max(0.0, static_cast<double>(hi) - lo);
     const auto borders = static_cast<std::size_t>(length / stretch) + 2;
     const std::size_t at_once = std::max<std::size_t>(1, many_points / borders);

@@ -29,6 +29,6 @@ class LineFunction {
 /// made on many lines at once. The stretches lie at whole multiples of their length, so a run does not depend
 /// on where the line begins. NaN is outside.
 void walk_lines(const LineFunction& function, std::size_t lines, std::int32_t lo, std::int32_t hi,
-                SpanRows& out);
+                RunRows& out);
 
 }  // namespace lamella

@@ -82,7 +82,7 @@ TpmsSlice::TpmsSlice(const Field& field, const TpmsSolid& solid, double z)
       region_(region_at(solid.region(), z)),
       height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {}
 
-void TpmsSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const {
+void TpmsSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
     out.clear();
     if (solid_.is_constant()) {
         closed_spans(band, out);
@@ -91,14 +91,14 @@ void TpmsSlice::spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) 
     }
 }
 
-void TpmsSlice::closed_spans(const RowBand& band, SpanRows& out) const {
+void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
     const double period = solid_.period();
     const Interval levels = solid_.solid_levels(period, solid_.thickness_at(solid_.center()));
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
-    const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
+    const Interval lines = across(region_, band.axis), extent = along(region_, band.axis);
     // A pixel more than the band, whose runs are cut after rounding.
     const Interval wanted = along(grown(band.rect(), std::abs(band.along_pitch)), band.axis);
-    const Interval clip{std::max(room.lo, wanted.lo), std::min(room.hi, wanted.hi)};
+    const Interval clip{std::max(extent.lo, wanted.lo), std::min(extent.hi, wanted.hi)};
     std::vector<Interval> intervals;
     for (int l = 0; l < band.lines(); ++l) {
         const double place = band.line(l);
@@ -113,9 +113,9 @@ void TpmsSlice::closed_spans(const RowBand& band, SpanRows& out) const {
     }
 }
 
-void TpmsSlice::walked_spans(const RowBand& band, SpanRows& out) const {
-    const Interval lines = across(region_, band.axis), room = along(region_, band.axis);
-    const double u0 = band.coordinate(room.lo), u1 = band.coordinate(room.hi);
+void TpmsSlice::walked_spans(const RowBand& band, RunRows& out) const {
+    const Interval lines = across(region_, band.axis), extent = along(region_, band.axis);
+    const double u0 = band.coordinate(extent.lo), u1 = band.coordinate(extent.hi);
     const std::int32_t lo = std::max(band.lo * run_unit, round_run(std::min(u0, u1)));
     const std::int32_t hi = std::min(band.hi * run_unit, round_run(std::max(u0, u1)));
     std::vector<int> walked;

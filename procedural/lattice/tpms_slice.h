@@ -11,12 +11,12 @@ class TpmsSlice : public SampledSlice {
   public:
     TpmsSlice(const Field& field, const TpmsSolid& solid, double z);
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
     void sample(const Tile& tile, std::span<float> out) const override;
 
   private:
-    void closed_spans(const RowBand& band, SpanRows& out) const;
-    void walked_spans(const RowBand& band, SpanRows& out) const;
+    void closed_spans(const RowBand& band, RunRows& out) const;
+    void walked_spans(const RowBand& band, RunRows& out) const;
     void sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
                     std::span<float> out) const;
 

@@ -26,14 +26,14 @@ double turns_of(double cosine, double sine) {
 }
 
 WaveRuns wave_runs(const Wave& wave, Interval levels) {
-    const Interval room{levels.lo - wave.constant, levels.hi - wave.constant};
+    const Interval levels_here{levels.lo - wave.constant, levels.hi - wave.constant};
     const double amplitude = wave.amplitude();
-    if (!(room.lo < amplitude && -amplitude < room.hi)) return {};
-    const bool over_crest = room.hi >= amplitude, under_trough = room.lo <= -amplitude;
+    if (!(levels_here.lo < amplitude && -amplitude < levels_here.hi)) return {};
+    const bool over_crest = levels_here.hi >= amplitude, under_trough = levels_here.lo <= -amplitude;
     if (over_crest && under_trough) return {{{-infinity, infinity}}, 1};
     const double crest = turns_of(wave.cosine / amplitude, wave.sine / amplitude);
-    const double near = over_crest ? 0 : arc_cosine(room.hi / amplitude);
-    const double far = under_trough ? 0.5 : arc_cosine(room.lo / amplitude);
+    const double near = over_crest ? 0 : arc_cosine(levels_here.hi / amplitude);
+    const double far = under_trough ? 0.5 : arc_cosine(levels_here.lo / amplitude);
     if (over_crest) return {{{crest - far, crest + far}}, 1};
     if (under_trough) return {{{crest + near, crest + (1 - near)}}, 1};
     return {{{crest - far, crest - near}, {crest + near, crest + far}}, 2};

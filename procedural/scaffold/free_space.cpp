@@ -34,7 +34,7 @@ const std::array<dvec3, 26>& directions_about() {
 
 FreeSpace::FreeSpace(const Field& part, double bed) : part_(part), bed_(bed), metric_(part.metric()) {}
 
-double FreeSpace::room(dvec3 p, double limit) const {
+double FreeSpace::clearance(dvec3 p, double limit) const {
     if (metric_ == Metric::sign) return probed_room(p, limit);
     const double value = part_.value_within(p, limit);
     return value < limit ? value : limit;
@@ -60,7 +60,7 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
     const dvec3 way = length > 0 ? (b - a) / length : dvec3(0);
     double at = 0;
     while (true) {
-        const double here = room(a + way * at, distance + far_enough);
+        const double here = clearance(a + way * at, distance + far_enough);
         if (here < distance) return false;
         if (at >= length) return true;
         at = std::min(length, at + std::max(here - distance, min_step));
@@ -70,8 +70,8 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
 /// The way to the surface from a contact within the part, mm; 0 from one on it.
 std::optional<double> FreeSpace::leaves_part(dvec3 contact, dvec3 way) const {
     double at = 0;
-    for (double here = room(contact, deepest_contact); here < -2 * on_surface;
-         here = room(contact + way * at, deepest_contact)) {
+    for (double here = clearance(contact, deepest_contact); here < -2 * on_surface;
+         here = clearance(contact + way * at, deepest_contact)) {
         at += std::max(-here, on_surface);
         if (at > deepest_contact) return std::nullopt;
     }
@@ -87,7 +87,7 @@ bool FreeSpace::clear_from_contact(dvec3 contact, dvec3 end, double distance, do
     double at = std::min(*left + 3 * min_step, length);
     while (true) {
         const double needed = std::min(distance, slope * (at - *left - min_step));
-        const double here = room(contact + way * at, distance + far_enough);
+        const double here = clearance(contact + way * at, distance + far_enough);
         if (here < needed) return false;
         if (at >= length) return true;
         at = std::min(length, at + std::max((here - needed) / (1 + slope), min_step));
@@ -100,7 +100,7 @@ FreeSpace::Fall FreeSpace::fall(dvec3 p, dvec3 direction, double distance) const
     double at = 0;
     bool clear = true;
     while (true) {
-        const double here = room(p + direction * at, distance + far_enough);
+        const double here = clearance(p + direction * at, distance + far_enough);
         if (clear && here < distance) {
             clear = false;
             fall.clear = std::max(0.0, at - min_step);

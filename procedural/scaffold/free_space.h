@@ -7,9 +7,9 @@
 
 namespace lamella {
 
-/// The room about a part, found by stepping from value to value (sphere tracing, Hart 1996). What is proven
-/// holds to 0.05 mm. Of a part whose values tell the distance, exactly or as a bound, nothing is overlooked;
-/// of one with signs alone, points round about are asked, and what lies between them is not seen.
+/// The clearance about a part, found by stepping from value to value (sphere tracing, Hart 1996). What is
+/// proven holds to 0.05 mm. Of a part whose values tell the distance, exactly or as a bound, nothing is
+/// overlooked; of one with signs alone, points round about are asked, and what lies between them is not seen.
 class FreeSpace {
   public:
     /// The part must outlive this. bed: height below which nothing is asked for, mm.
@@ -17,7 +17,7 @@ class FreeSpace {
 
     double bed() const { return bed_; }
     /// A lower bound of the distance to the part, mm, as far as `limit` (> 0); negative inside.
-    double room(dvec3 p, double limit) const;
+    double clearance(dvec3 p, double limit) const;
     /// Whether the line from a to b stays `distance` (mm) away from the part.
     bool clear(dvec3 a, dvec3 b, double distance) const;
     /// Whether a line that leaves the part at `contact` soon is `distance` away and stays so: near the

@@ -89,7 +89,7 @@ class ScaffoldSlice : public SampledSlice {
                   double z)
         : SampledSlice(field, z), uprights_(uprights), beams_(beams, z) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         scratch.collector.clear();
         uprights_.collect(band, scratch.collector);
         beams_.collect(band, {0, band.lines()}, scratch.collector);

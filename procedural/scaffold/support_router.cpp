@@ -52,13 +52,13 @@ double SupportRouter::foot_radius_on_bed(dvec2 at, double height) const {
     constexpr double slope = 0.25;  // of the line from the foot's border to the top
     const double wanted = std::min(shape_.foot / 2, shape_.pillar / 2 + slope * height);
     const dvec3 middle(at, shape_.bed + shape_.foot_height / 2);
-    return space_.room(middle, wanted + shape_.clearance) - shape_.clearance;
+    return space_.clearance(middle, wanted + shape_.clearance) - shape_.clearance;
 }
 
 /// Whether the part's surface at a place is a floor to stand on rather than a wall.
 bool SupportRouter::level_enough(dvec3 place) const {
     const double below = connector_radius();
-    return space_.room(place - dvec3(0, 0, below), below) < -0.5 * below;
+    return space_.clearance(place - dvec3(0, 0, below), below) < -0.5 * below;
 }
 
 /// The nearest height between layers that is not above z.
@@ -126,7 +126,7 @@ std::optional<Leg> SupportRouter::best_detour(dvec3 top, double min_rise, double
             const dvec3 foot(at, rise > 0 ? layer_below(top.z - rise) : top.z);
             if (foot.z < shape_.bed + shape_.foot_height) continue;
             const double room_for_pillar = shape_.clearance + shape_.pillar / 2;
-            if (space_.room(foot, room_for_pillar) < room_for_pillar) continue;
+            if (space_.clearance(foot, room_for_pillar) < room_for_pillar) continue;
             if (rise > 0 &&
                 !(contact ? space_.clear_from_contact(top, foot, needed) : space_.clear(top, foot, needed))) {
                 continue;
@@ -148,7 +148,7 @@ std::optional<Leg> SupportRouter::best_detour(dvec3 top, double min_rise, double
 std::optional<double> SupportRouter::leaves_part(dvec3 contact, dvec3 way, double longest) const {
     for (const double left : {0.2, 0.5, 1.0}) {
         const double at = std::min(left, longest / 2);
-        if (space_.room(contact + way * at, 0.2) > 0.1 * left) return at;
+        if (space_.clearance(contact + way * at, 0.2) > 0.1 * left) return at;
     }
     return std::nullopt;
 }

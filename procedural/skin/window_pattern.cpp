@@ -20,7 +20,7 @@ class LineWalk {
         : pattern_(pattern), band_(band), z_(z), step_(std::abs(band.along_pitch) / 4) {}
 
     /// Appends the solid part of the runs of a line.
-    void cut(int line, std::span<const Run> runs, SpanRows& out) {
+    void cut(int line, std::span<const Run> runs, RunRows& out) {
         across_ = band_.line(line);
         for (const Run& run : runs) cut(run, out);
         out.end_line();
@@ -33,7 +33,7 @@ class LineWalk {
         return pattern_.value_near(p, hint_);
     }
 
-    void cut(const Run& run, SpanRows& out) {
+    void cut(const Run& run, RunRows& out) {
         // Quarters are counted from the band's origin, so that runs do not depend on how lines are cut.
         std::int32_t u = run.begin >= 0 ? run.begin / quarter * quarter
                                         : -((-run.begin + quarter - 1) / quarter * quarter);
@@ -54,7 +54,7 @@ class LineWalk {
         if (v < 0) push(run, from, run.end, out);
     }
 
-    static void push(const Run& run, std::int32_t begin, std::int32_t end, SpanRows& out) {
+    static void push(const Run& run, std::int32_t begin, std::int32_t end, RunRows& out) {
         out.push(std::max(begin, run.begin), std::min(end, run.end));
     }
 
@@ -85,9 +85,9 @@ class PatternedSlice : public SampledSlice {
     PatternedSlice(const Field& field, const SliceField& shell, const WindowPattern& pattern, double z)
         : SampledSlice(field, z), shell_(shell), pattern_(pattern), z_(z) {}
 
-    void spans(const RowBand& band, Scratch& scratch, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
         const auto whole = scratch.rows();
-        shell_.spans(band, scratch, *whole);
+        shell_.runs(band, scratch, *whole);
         out.clear();
         LineWalk walk(pattern_, band, z_);
         for (int l = 0; l < band.lines(); ++l) walk.cut(l, whole->line(static_cast<std::size_t>(l)), out);

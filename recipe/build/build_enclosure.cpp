@@ -44,7 +44,7 @@ Steps steps_of(const Recipe& recipe, double overhang, double pitch, double acros
 
 /// Runs a survey; what does not suit the part is the section's mistake.
 template <typename Survey>
-auto told(const char* section, Survey survey) {
+auto with_section(const char* section, Survey survey) {
     try {
         return survey();
     } catch (const InputError& error) {
@@ -68,7 +68,7 @@ HollowReport hollow_out(const Recipe& recipe, Job& designed) {
     options.min_volume = cavity.least / volume_scale;
     options.pitch = steps.pitch;
     options.layers_at_once = steps.layers_at_once;
-    const HollowSurvey survey = told("[cavity]", [&] { return hollow_out(designed, options); });
+    const HollowSurvey survey = with_section("[cavity]", [&] { return hollow_out(designed, options); });
     if (!survey.cavities->empty()) designed.part = make_without_boxes(designed.part, survey.cavities);
     return {survey.count, survey.volume * volume_scale, survey.left_solid, survey.part_volume * volume_scale};
 }
@@ -106,7 +106,7 @@ std::optional<ShieldSurvey> add_shield(const Recipe& recipe, Job& job, const Shi
     options.layers_at_once = steps.layers_at_once;
     options.threads = work.threads;
     options.cancel = work.cancel;
-    ShieldSurvey survey = told("[shield]", [&] { return make_shield(job, options); });
+    ShieldSurvey survey = with_section("[shield]", [&] { return make_shield(job, options); });
     FieldPtr wall = make_box_solid(survey.wall);
     const Box box = unite(job.bounds, wall->bounds());
     job.supports = job.supports ? make_union({job.supports, wall}) : std::move(wall);

@@ -99,7 +99,7 @@ void nearest_seeds(FoamBuildContext& making) {
     settings.neighbours = static_cast<int>(foam.neighbours);
     for (std::size_t i = 0; i < 3; ++i) {
         settings.stretch[i] = further(making, "foam.stretch", foam.stretch[i], nearest_factors);
-        settings.turn[i] = making.gradings.of(foam.turn[i], making.names);
+        settings.turn[i] = making.gradings.resolve(foam.turn[i], making.names);
     }
     const auto made = std::make_shared<const NearestFoam>(settings);
     making.built.field = made;

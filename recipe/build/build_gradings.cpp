@@ -37,7 +37,7 @@ GradingPtr build_table(const GradingRecipe& grading, Gradings& others) {
     Table rows;
     for (const auto& row : grading.rows) rows.emplace_back(row[0], row[1]);
     if (!grading.file.empty()) rows = read_table(grading.file);
-    return make_table_grading(others.of(grading.along), std::move(rows), grading.smooth);
+    return make_table_grading(others.resolve(grading.along), std::move(rows), grading.smooth);
 }
 
 GradingPtr package(const GradingRecipe& grading, Gradings& /*others*/) {
@@ -78,7 +78,7 @@ std::span<const GradingBuilder> grading_builders() {
     using G = GradingRecipe;
     static const std::vector<GradingBuilder> list{
         {{"constant", {"value"}, {}}, [](const G& g, Gradings&) { return make_constant_grading(g.value); }},
-        {{"formula", {"formula"}, {}}, [](const G& g, Gradings& others) { return others.of(g.formula); }},
+        {{"formula", {"formula"}, {}}, [](const G& g, Gradings& others) { return others.resolve(g.formula); }},
         {{"volume", {"file"}, {"box", "channel"}}, volume},
         {{"3mf", {"file", "property|function"}, {"object"}}, package},
         {{"table", {"along", "rows|file"}, {"smooth"}}, build_table},
@@ -140,7 +140,7 @@ GradedFormula Gradings::formula_of(const GradedNumber& number,
     }
 }
 
-GradingPtr Gradings::of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more) {
+GradingPtr Gradings::resolve(const GradedNumber& number, const std::map<std::string, GradingPtr>& more) {
     if (!number.is_formula()) return make_constant_grading(number.number());
     GradedFormula graded = formula_of(number, more);
     return make_formula_grading(std::move(graded.formula), std::move(graded.others));
@@ -186,12 +186,12 @@ double greatest_of(const GradedUse& use, const std::string& where, const Field& 
 GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more) {
     const Setting* setting = find_setting(key.substr(0, key.find('.')), key.substr(key.find('.') + 1));
-    GradedUse use{key, gradings.of(number, more), nullptr, limits, setting ? setting->unit : ""};
+    GradedUse use{key, gradings.resolve(number, more), nullptr, limits, setting ? setting->unit : ""};
     std::string where = number.where;
     for (const RegionalNumber& other : gradings.overrides(key)) {
         if (!number.is_formula() && other.number.is_formula()) where = other.number.where;
         use.asked =
-            make_region_grading(use.asked, gradings.of(other.number, more), other.region, other.blend);
+            make_region_grading(use.asked, gradings.resolve(other.number, more), other.region, other.blend);
     }
     use.made = use.asked;
     if (!number.is_formula() && gradings.overrides(key).empty()) return use;

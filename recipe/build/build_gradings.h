@@ -50,7 +50,7 @@ class Gradings {
 
     /// A number or formula of the recipe. Names in `more` come before the recipe's. Throws InputError for
     /// what it needs and cannot be had: a file, or a part to measure depths from.
-    GradingPtr of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
+    GradingPtr resolve(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
     /// A formula with what it needs.
     GradedFormula formula_of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
 

@@ -28,7 +28,7 @@ class RegionFields {
         : gradings_(gradings), part_(part), notes_(notes) {}
 
     /// The region's field; where it blends, with values that are distances.
-    FieldPtr of(const RegionRecipe& region) {
+    FieldPtr make(const RegionRecipe& region) {
         const auto field = std::find_if(gradings_.recipe().fields.begin(), gradings_.recipe().fields.end(),
                                         [&](const FieldRecipe& f) { return f.name == region.field; });
         if (field == gradings_.recipe().fields.end()) {
@@ -142,7 +142,7 @@ BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& grad
     BuiltRegions built;
     RegionFields fields(gradings, part, built.warnings);
     for (const RegionRecipe& region : recipe.regions) {
-        const FieldPtr field = fields.of(region);
+        const FieldPtr field = fields.make(region);
         built.list.push_back({fmt::format("region {} (`{}`)", built.list.size() + 1, region.field),
                               region.make, region.blend, field});
         for (const RegionNumber& given : numbers_of(region)) {

@@ -17,7 +17,7 @@ SurfaceWindowSettings window_settings(const Recipe& recipe, double depth, Gradin
     const SkinRecipe& skin = *recipe.skin;
     SurfaceWindowSettings settings;
     settings.window = skin.window;
-    settings.strut = gradings.of(skin.strut);
+    settings.strut = gradings.resolve(skin.strut);
     const auto strut = settings.strut->constant();
     settings.corner = skin.corner;
     if (skin.corner < 0) settings.corner = strut ? 0.5 * *strut : 0.125 * skin.window;
@@ -47,7 +47,7 @@ FieldPtr hexagons(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, do
 FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
                PatternReport& report) {
     const SkinRecipe& skin = *recipe.skin;
-    const auto strut = gradings.of(skin.strut)->constant();
+    const auto strut = gradings.resolve(skin.strut)->constant();
     if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
     StrutImage picture(read_volume(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
     report.islands = picture.islands();

@@ -55,10 +55,10 @@ std::string with_upright(double within, double up) {
     return text;
 }
 
-std::string room_text(dvec3 room) {
-    if (!std::isfinite(room.x) || !std::isfinite(room.y)) return "the machine's size is not known";
-    std::string text = fmt::format("within {:.6g} x {:.6g}", room.x, room.y);
-    if (std::isfinite(room.z)) text += fmt::format(" x {:.6g}", room.z);
+std::string build_volume_text(dvec3 available) {
+    if (!std::isfinite(available.x) || !std::isfinite(available.y)) return "the machine's size is not known";
+    std::string text = fmt::format("within {:.6g} x {:.6g}", available.x, available.y);
+    if (std::isfinite(available.z)) text += fmt::format(" x {:.6g}", available.z);
     return text + " mm";
 }
 
@@ -94,7 +94,7 @@ std::string check_limit(Check check, const PrintLimits& limits) {
         case Check::cups:
             return fmt::format("no suction cup over {:.4g} mm3", limits.cup);
         case Check::build_volume:
-            return room_text(limits.build_volume);
+            return build_volume_text(limits.build_volume);
         case Check::empty_layers:
             return "something in every layer";
     }

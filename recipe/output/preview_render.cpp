@@ -48,12 +48,12 @@ Camera frame(const Box& bounds, const PreviewOptions& options) {
     camera.right = glm::normalize(glm::cross(camera.forward, dvec3(0, 0, 1)));
     camera.up = glm::cross(camera.right, camera.forward);
     const double shorter = std::min(options.width, options.height);
-    const dvec2 room = dvec2(options.width, options.height) / shorter * (std::tan(half_view) * margin);
+    const dvec2 view_extent = dvec2(options.width, options.height) / shorter * (std::tan(half_view) * margin);
     double back = 0;
     for (int c = 0; c < 8; ++c) {
         const dvec3 corner = dvec3(c & 1, c >> 1 & 1, c >> 2) * bounds.size() - bounds.size() * 0.5;
-        const double x = std::abs(glm::dot(corner, camera.right)) / room.x;
-        const double y = std::abs(glm::dot(corner, camera.up)) / room.y;
+        const double x = std::abs(glm::dot(corner, camera.right)) / view_extent.x;
+        const double y = std::abs(glm::dot(corner, camera.up)) / view_extent.y;
         back = std::max(back, std::max(x, y) - glm::dot(corner, camera.forward));
     }
     camera.eye = bounds.center() - camera.forward * back;

@@ -68,13 +68,13 @@ void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z, Mark mar
     const std::int32_t begin_shift = mark == Mark::touched ? 0 : run_unit / 2;
     const std::int32_t end_shift = mark == Mark::touched ? run_unit - 1 : run_unit / 2;
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     for (int k = 0; k < samples; ++k) {
         const double height = origin_.z + (z + (k + 0.5) / samples) * pitch_;
         if (height < bounds.lo.z || height > bounds.hi.z) continue;
         SliceContext context;
         rows.clear();
-        context.slice(part, height).spans(band, scratch, rows);
+        context.slice(part, height).runs(band, scratch, rows);
         for (std::size_t line = 0; line < rows.lines(); ++line) {
             const double y = band.line(static_cast<int>(line));
             if (y < bounds.lo.y || y > bounds.hi.y) continue;

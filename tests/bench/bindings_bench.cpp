@@ -51,7 +51,7 @@ void mask_inside(benchmark::State& state) {
     Foam foam;
     std::vector<std::uint8_t> pixels(std::size_t{columns} * rows);
     Scratch scratch;
-    SpanRows lines;
+    RunRows lines;
     std::vector<GreyRun> greys;
     for (auto _ : state) {
         SliceContext context;
@@ -68,7 +68,7 @@ void mask_inside(benchmark::State& state) {
             band.hi = columns;
             lines.clear();
             greys.clear();
-            slice.spans(band, scratch, lines);
+            slice.runs(band, scratch, lines);
             coverage(band, lines, greys);
             for (const GreyRun& grey : greys) {
                 std::memset(to, grey.value, grey.length);

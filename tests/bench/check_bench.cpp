@@ -43,16 +43,16 @@ FieldPtr foam() {
     return make_intersection({make_voronoi_foam(settings), make_box(settings.region)});
 }
 
-SpanRows rows_of(const Field& field, int layer) {
+RunRows rows_of(const Field& field, int layer) {
     SliceContext context;
     Scratch scratch;
     return all_rows(context.slice(field, (layer + 0.5) * layer_height), grid().band, scratch);
 }
 
-const std::vector<SpanRows>& layers() {
-    static const std::vector<SpanRows> all = [] {
+const std::vector<RunRows>& layers() {
+    static const std::vector<RunRows> all = [] {
         const FieldPtr field = foam();
-        std::vector<SpanRows> rows;
+        std::vector<RunRows> rows;
         for (int i = 0; i < layer_count; ++i) rows.push_back(rows_of(*field, i));
         return rows;
     }();
@@ -82,11 +82,11 @@ void check_rows(benchmark::State& state) {
 void check_cells(benchmark::State& state) {
     layers();
     for (auto _ : state) {
-        for (const SpanRows& rows : layers())
+        for (const RunRows& rows : layers())
             benchmark::DoNotOptimize(LayerCells(rows, lattice(4 * run_unit)));
     }
     std::size_t runs = 0;
-    for (const SpanRows& rows : layers()) runs += rows.runs().size();
+    for (const RunRows& rows : layers()) runs += rows.runs().size();
     state.counters["runs"] = static_cast<double>(runs);
 }
 
@@ -94,13 +94,13 @@ void check_thickness(benchmark::State& state, FeatureKind medium, double thickne
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, 0);
     const Thinness measure{ball.radius, 1.5 * ball.radius + run_unit};
     std::vector<LayerCells> all_cells;
-    for (const SpanRows& rows : layers()) all_cells.emplace_back(rows, lattice(reach_of_cells(measure)));
+    for (const RunRows& rows : layers()) all_cells.emplace_back(rows, lattice(reach_of_cells(measure)));
     std::int64_t found = 0;
     for (auto _ : state) {
         found = 0;
         auto cells = all_cells.begin();
-        SpanRows thin;
-        for (const SpanRows& rows : layers()) {
+        RunRows thin;
+        for (const RunRows& rows : layers()) {
             thin_rows(rows, *cells++, medium, measure, run_unit, thin);
             found += thin.total_length();
         }
@@ -117,11 +117,11 @@ void thickness_across_layers(benchmark::State& state, FeatureKind medium, double
     for (auto _ : state) {
         found = 0;
         Thin thin(ball.lattice, {ball.radius, 1.5 * ball.radius + run_unit}, medium);
-        SpanRows rows;
+        RunRows rows;
         const auto take = [&] {
             while (thin.pop(rows)) found += rows.total_length();
         };
-        for (const SpanRows& layer : layers()) {
+        for (const RunRows& layer : layers()) {
             thin.push(layer);
             take();
         }
@@ -162,7 +162,7 @@ void check_voids(benchmark::State& state) {
 
 void check_hold(benchmark::State& state) {
     std::vector<LabelledLayer> labels;
-    for (const SpanRows& rows : layers())
+    for (const RunRows& rows : layers())
         labels.push_back(label_layer(rows, static_cast<int>(labels.size()), Growth{}));
     // Layers are cut, and their rows known, where they are checked.
     const FieldPtr field = foam();
@@ -176,7 +176,7 @@ void check_hold(benchmark::State& state) {
     for (auto _ : state) {
         OverhangCheck hold(grid(), limits(), max_places);
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            const SpanRows& rows = layers()[i];
+            const RunRows& rows = layers()[i];
             const auto rows_in = [&](const RowBand& band) { return all_rows(*slices[i], band, scratch); };
             hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i], rows_in,
                      static_cast<int>(i));
@@ -191,7 +191,7 @@ void check_necks(benchmark::State& state) {
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     for (auto _ : state) {
         NeckCheck necks(grid(), 0.6, 1000, max_places);
-        for (const SpanRows& rows : layers()) necks.push(rows);
+        for (const RunRows& rows : layers()) necks.push(rows);
         necks.finish();
     }
 }

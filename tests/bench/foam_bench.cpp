@@ -30,17 +30,17 @@ void foam_coverage_8k(benchmark::State& state) {
     SliceContext context;
     const SliceField& slice = context.slice(*foam, bench::plate_z);
     Scratch scratch;
-    std::vector<SpanRows> bands;
+    std::vector<RunRows> bands;
     const int sub = static_cast<int>(state.range(0));
     for (int first = 0; first < bench::plate_height; first += 128) {
-        slice.spans(bench::plate_band(first, sub), scratch, bands.emplace_back());
+        slice.runs(bench::plate_band(first, sub), scratch, bands.emplace_back());
     }
     std::vector<GreyRun> grey;
     std::size_t grey_runs = 0;
     for (auto _ : state) {
         grey_runs = 0;
         int first = 0;
-        for (const SpanRows& rows : bands) {
+        for (const RunRows& rows : bands) {
             grey.clear();
             coverage(bench::plate_band(first, sub), rows, grey);
             benchmark::DoNotOptimize(grey.data());

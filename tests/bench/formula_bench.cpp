@@ -99,7 +99,7 @@ RowBand whole_layer(int pixels, double side, double origin) {
 void spans_of(benchmark::State& state, const FieldPtr& field, double z, int pixels, double side,
               double origin) {
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     std::int64_t length = 0;
     for (auto _ : state) {
         SliceContext context;
@@ -107,7 +107,7 @@ void spans_of(benchmark::State& state, const FieldPtr& field, double z, int pixe
         RowBand band = whole_layer(pixels, side, origin);
         for (band.first = 0; band.first < pixels; band.first += 128) {
             band.count = std::min(128, pixels - band.first);
-            slice.spans(band, scratch, rows);
+            slice.runs(band, scratch, rows);
             length += rows.total_length();
         }
     }

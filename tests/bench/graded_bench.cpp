@@ -38,10 +38,10 @@ void foam_cells_per_layer_50um(benchmark::State& state) {
     for (auto _ : state) {
         SliceContext context;
         Scratch scratch;
-        SpanRows rows;
+        RunRows rows;
         RowBand nothing = bench::plate_band(0, 1);
         nothing.count = 1;
-        context.slice(*foam, z += 0.05).spans(nothing, scratch, rows);
+        context.slice(*foam, z += 0.05).runs(nothing, scratch, rows);
         benchmark::DoNotOptimize(rows.runs().data());
     }
 }
@@ -84,9 +84,9 @@ void first_layer_100x100x10000(benchmark::State& state) {
         const auto foam = make_voronoi_foam(settings);
         SliceContext context;
         Scratch scratch;
-        SpanRows rows;
+        RunRows rows;
         RowBand band{.along_pitch = 0.05, .across_pitch = 0.05, .count = 4000, .hi = 4000};
-        context.slice(*foam, 0.025).spans(band, scratch, rows);
+        context.slice(*foam, 0.025).runs(band, scratch, rows);
         benchmark::DoNotOptimize(rows.runs().data());
     }
 }
@@ -102,9 +102,9 @@ void first_band_464(benchmark::State& state) {
         const auto foam = make_voronoi_foam(settings);
         SliceContext context;
         Scratch scratch;
-        SpanRows rows;
+        RunRows rows;
         RowBand band{.along_pitch = 0.125, .across_pitch = 0.125, .count = 64, .hi = 7424};
-        context.slice(*foam, 0.025).spans(band, scratch, rows);
+        context.slice(*foam, 0.025).runs(band, scratch, rows);
         benchmark::DoNotOptimize(rows.runs().data());
     }
 }

@@ -67,9 +67,9 @@ void layers_without_islands(benchmark::State& state) {
     band.along_pitch = band.across_pitch = 0.05;
     band.count = static_cast<int>(size.y / 0.05);
     band.hi = static_cast<int>(size.x / 0.05);
-    SpanRows rows;
+    RunRows rows;
     for (auto _ : state) {
-        for (int layer = 0; layer < job.layer_count; layer += 20) Layer(job, layer).spans(band, rows);
+        for (int layer = 0; layer < job.layer_count; layer += 20) Layer(job, layer).runs(band, rows);
         benchmark::DoNotOptimize(rows.runs().data());
     }
 }

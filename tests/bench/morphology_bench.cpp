@@ -37,21 +37,21 @@ FieldPtr solid(std::int64_t kind) {
 }
 
 /// Layer z of n^3 dexels.
-SpanRows dexel_layer(const Field& field, int n, int z) {
+RunRows dexel_layer(const Field& field, int n, int z) {
     RowBand band;
     band.along_pitch = band.across_pitch = edge / n;
     band.along_origin = band.across_origin = -edge / 2;
     band.count = band.hi = n;
     SliceContext context;
     Scratch scratch;
-    SpanRows layer;
-    context.slice(field, -edge / 2 + (z + 0.5) * edge / n).spans(band, scratch, layer);
+    RunRows layer;
+    context.slice(field, -edge / 2 + (z + 0.5) * edge / n).runs(band, scratch, layer);
     return layer;
 }
 
-std::vector<SpanRows> dexels(std::int64_t kind, int n) {
+std::vector<RunRows> dexels(std::int64_t kind, int n) {
     const FieldPtr field = solid(kind);
-    std::vector<SpanRows> layers;
+    std::vector<RunRows> layers;
     for (int z = 0; z < n; ++z) layers.push_back(dexel_layer(*field, n, z));
     return layers;
 }
@@ -61,23 +61,23 @@ void grow_layers(benchmark::State& state) {
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     const int n = static_cast<int>(state.range(1));
     const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
-    const std::vector<SpanRows> layers = dexels(state.range(0), n);
+    const std::vector<RunRows> layers = dexels(state.range(0), n);
     std::int64_t volume = 0, runs = 0;
     for (auto _ : state) {
         DilationStream growing({run_unit, run_unit, static_cast<std::size_t>(n)}, radius);
         volume = 0;
-        SpanRows out;
+        RunRows out;
         const auto take = [&] {
             while (growing.pop(out)) volume += out.total_length();
         };
-        for (const SpanRows& layer : layers) {
+        for (const RunRows& layer : layers) {
             growing.push(WeightedRows(layer, radius));
             take();
         }
         growing.finish();
         take();
     }
-    for (const SpanRows& layer : layers) runs += static_cast<std::int64_t>(layer.runs().size());
+    for (const RunRows& layer : layers) runs += static_cast<std::int64_t>(layer.runs().size());
     state.counters["runs"] = static_cast<double>(runs);
     state.counters["volume"] = static_cast<double>(volume) / run_unit;
 }
@@ -98,7 +98,7 @@ void grow_one_layer(benchmark::State& state) {
     const int n = static_cast<int>(state.range(1));
     const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
     const WeightedRows rows(dexel_layer(*solid(state.range(0)), n, n / 2), radius);
-    SpanRows out;
+    RunRows out;
     for (auto _ : state) grow_rows(rows, run_unit, out);
     state.counters["area"] = static_cast<double>(out.total_length()) / run_unit;
 }
@@ -108,7 +108,7 @@ BENCHMARK(grow_one_layer)->ArgsProduct({{0, 1}, {2048}, {20, 100, 500, 2000}})->
 void grow_layers_brute(benchmark::State& state) {
     const int n = static_cast<int>(state.range(1));
     const double radius = static_cast<double>(state.range(2)) / 10 * run_unit;
-    const std::vector<SpanRows> layers = dexels(state.range(0), n);
+    const std::vector<RunRows> layers = dexels(state.range(0), n);
     const int reach = static_cast<int>(radius / run_unit);
     for (auto _ : state) {
         std::vector<Run> runs;
@@ -128,7 +128,7 @@ void grow_layers_brute(benchmark::State& state) {
                     }
                 }
                 std::ranges::sort(runs, {}, &Run::begin);
-                SpanRows line;
+                RunRows line;
                 for (const Run& run : runs) line.push(run.begin, run.end);
                 line.end_line();
                 volume += line.total_length();

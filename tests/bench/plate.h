@@ -36,12 +36,12 @@ inline RowBand plate_band(int first, int sub) {
 
 /// Makes the runs of the plate's left part, band by band; returns how many.
 inline std::size_t plate_runs(const SliceField& slice, Scratch& scratch, int sub, int width = plate_width) {
-    SpanRows rows;
+    RunRows rows;
     std::size_t runs = 0;
     for (int first = 0; first < plate_height; first += 128) {
         RowBand band = plate_band(first, sub);
         band.hi = width;
-        slice.spans(band, scratch, rows);
+        slice.runs(band, scratch, rows);
         runs += rows.runs().size();
     }
     return runs;
@@ -53,11 +53,11 @@ inline std::vector<GreyRun> plate_grey(int sub) {
     SliceContext context;
     const SliceField& slice = context.slice(*foam, plate_z);
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     std::vector<GreyRun> grey;
     for (int first = 0; first < plate_height; first += 128) {
         const RowBand band = plate_band(first, sub);
-        slice.spans(band, scratch, rows);
+        slice.runs(band, scratch, rows);
         coverage(band, rows, grey);
     }
     return grey;

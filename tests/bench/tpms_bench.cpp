@@ -35,7 +35,7 @@ Box region() { return {dvec3(-ball_radius), dvec3(ball_radius)}; }
 /// Spans of the layer in bands of 64 rows; counts pixels per second.
 void layer_spans(benchmark::State& state, const FieldPtr& solid) {
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     std::size_t runs = 0;
     for (auto _ : state) {
         runs = 0;
@@ -45,7 +45,7 @@ void layer_spans(benchmark::State& state, const FieldPtr& solid) {
         band.hi = side;
         band.count = 64;
         for (band.first = 0; band.first < side; band.first += 64) {
-            slice.spans(band, scratch, rows);
+            slice.runs(band, scratch, rows);
             runs += rows.runs().size();
         }
     }

@@ -113,8 +113,8 @@ TEST_CASE("pixels and runs are the engine's own, to the bit", "[bindings]") {
         band.sub = 4;
         SliceContext context;
         Scratch scratch;
-        SpanRows rows;
-        context.slice(*inside.job.part, z).spans(band, scratch, rows);
+        RunRows rows;
+        context.slice(*inside.job.part, z).runs(band, scratch, rows);
         lamella_runs* runs = nullptr;
         caller.require(lamella_section_runs(caller, section.get(), LAMELLA_PART, &raster, &runs));
         auto view = sized<lamella_runs_view>();

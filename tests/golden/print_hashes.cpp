@@ -135,10 +135,10 @@ std::uint64_t hash_of(const FieldPtr& solid) {
             band.sub = 2;
             band.hi = static_cast<int>((row ? size.x : size.y) / 0.05) + 1;
             const int rows = static_cast<int>((row ? size.y : size.x) / 0.05) + 1;
-            SpanRows runs;
+            RunRows runs;
             for (band.first = 0; band.first < rows; band.first += 64) {
                 band.count = std::min(64, rows - band.first);
-                layer.spans(band, runs);
+                layer.runs(band, runs);
                 for (std::size_t l = 0; l < runs.lines(); ++l) {
                     hash.add(static_cast<std::uint32_t>(runs.line(l).size()));
                     for (const Run& run : runs.line(l)) {

@@ -35,9 +35,9 @@ double solid_length(const BuiltJob& built, int layer) {
     band.hi = rows;
     SliceContext context;
     Scratch scratch;
-    SpanRows spans;
+    RunRows spans;
     context.slice(*built.job.part, box.lo.z + (layer + 0.5) * built.job.layer_height)
-        .spans(band, scratch, spans);
+        .runs(band, scratch, spans);
     double length = 0;
     for (std::size_t line = 0; line < spans.lines(); ++line) {
         for (const Run& run : spans.line(line)) {

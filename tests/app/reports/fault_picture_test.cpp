@@ -90,9 +90,9 @@ TEST_CASE("a block of layers is solid where they are, and nowhere else", "[check
         band.along_pitch = band.across_pitch = 0.05;
         band.count = 60;
         band.hi = 80;
-        SpanRows rows;
+        RunRows rows;
         Scratch scratch;
-        context.slice(*block, z).spans(band, scratch, rows);
+        context.slice(*block, z).runs(band, scratch, rows);
         volume += static_cast<double>(rows.total_length()) / run_unit * 0.05 * 0.05 * 0.1;
     }
     CHECK(wrong == 0);

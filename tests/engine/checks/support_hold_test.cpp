@@ -25,10 +25,10 @@ CheckGrid grid() {
     return grid;
 }
 
-SpanRows random_rows(std::mt19937& random, int one_of_rows, int gap_columns) {
+RunRows random_rows(std::mt19937& random, int one_of_rows, int gap_columns) {
     std::uniform_int_distribution<int> gap(1, gap_columns * run_unit), run(1, 4 * run_unit),
         any(1, one_of_rows);
-    SpanRows rows;
+    RunRows rows;
     for (int l = 0; l < row_count; ++l) {
         for (int u = gap(random); any(random) == 1 && u < columns * run_unit;) {
             const int end = u + run(random);
@@ -42,7 +42,7 @@ SpanRows random_rows(std::mt19937& random, int one_of_rows, int gap_columns) {
 
 /// By how many run units a point of the next layer lies further from all supports than they hold; less than
 /// nothing where it is held.
-double beyond_hold(const std::vector<SpanRows>& layers, double spacing, double gap, int row, double u) {
+double beyond_hold(const std::vector<RunRows>& layers, double spacing, double gap, int row, double u) {
     const double unit = pitch / run_unit;
     double least = 1e9;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -59,7 +59,7 @@ double beyond_hold(const std::vector<SpanRows>& layers, double spacing, double g
     return least;
 }
 
-bool has(const SpanRows& rows, int row, double u) {
+bool has(const RunRows& rows, int row, double u) {
     const auto runs = rows.line(static_cast<std::size_t>(row));
     return std::ranges::any_of(runs, [&](const Run& run) { return run.begin < u && u < run.end; });
 }
@@ -71,8 +71,8 @@ TEST_CASE("supports hold all that lies near enough, at their height or above", "
     for (const double gap : {0.0, 0.12}) {
         const double spacing = 0.7;
         SupportHold hold(grid(), spacing, gap);
-        std::vector<SpanRows> layers;
-        const SpanRows any = random_rows(random, 1, 3);
+        std::vector<RunRows> layers;
+        const RunRows any = random_rows(random, 1, 3);
         CHECK(hold.unheld(any) == any);
         int held = 0, unheld = 0;
         for (int i = 0; i < 30; ++i) {
@@ -80,7 +80,7 @@ TEST_CASE("supports hold all that lies near enough, at their height or above", "
             layers.push_back(i == 0 || i % 7 == 3 ? random_rows(random, 9, 40) : layers.back());
             if (i > 12) layers.back() = empty_rows(row_count);
             hold.add(layers.back());
-            const SpanRows rows = random_rows(random, 2, 5), left = hold.unheld(rows);
+            const RunRows rows = random_rows(random, 2, 5), left = hold.unheld(rows);
             REQUIRE(left.lines() == rows.lines());
             for (int r = 0; r < row_count; ++r) {
                 for (double u = 0.5; u < (columns + 5) * run_unit; u += 37) {

@@ -115,7 +115,7 @@ class HandMade : public SliceField {
     /// Solid wherever the pixel picture has an `#`; a pixel is a square of `side` mm, the first string is the
     /// top row.
     HandMade(std::vector<std::string> picture, double side) : picture_(std::move(picture)), side_(side) {}
-    void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const override {
         out.clear();
         for (int l = 0; l < band.lines(); ++l) {
             const double v = band.line(l);
@@ -228,8 +228,8 @@ TEST_CASE("random thin beams give closed, simple, nested contours at every resol
         Scratch scratch;
         const SliceField& slice = context.slice(*field, 0);
         RowBand fine{Axis::x, -1, 0.01, -1, 0.01, 0, 1200, 1, 0, 1200};
-        SpanRows rows;
-        slice.spans(fine, scratch, rows);
+        RunRows rows;
+        slice.runs(fine, scratch, rows);
         const double area = static_cast<double>(rows.total_length()) / run_unit * 0.01 * 0.01;
         REQUIRE(total_area(contours_of(field, 0, 0.02)) == Approx(area).epsilon(0.01));
     }
@@ -259,7 +259,7 @@ TEST_CASE("rows and columns that disagree are mended to closed contours") {
     class Torn : public SliceField {
       public:
         explicit Torn(unsigned seed) : seed_(seed) {}
-        void spans(const RowBand& band, Scratch& /*scratch*/, SpanRows& out) const override {
+        void runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const override {
             out.clear();
             std::mt19937 random(seed_ + static_cast<unsigned>(band.axis));
             for (int l = 0; l < band.first * band.sub; ++l) random.discard(8);

@@ -35,8 +35,8 @@ Pixels cover(const Field& field, const RowBand& band, bool exact) {
     if (exact) {
         coverage_exact(slice, band, scratch, runs);
     } else {
-        SpanRows rows;
-        slice.spans(band, scratch, rows);
+        RunRows rows;
+        slice.runs(band, scratch, rows);
         coverage(band, rows, runs);
     }
     return expand(band, runs);
@@ -197,7 +197,7 @@ TEST_CASE("a mirrored band is the mirrored picture") {
 }
 
 TEST_CASE("black and white pixels follow their centres") {
-    SpanRows rows;
+    RunRows rows;
     rows.push(128, 128 + 256);  // exactly from centre 0 to centre 1: pixel 0 only
     rows.push(3 * 256 + 129, 4 * 256 + 129);
     rows.end_line();
@@ -208,7 +208,7 @@ TEST_CASE("black and white pixels follow their centres") {
 }
 
 TEST_CASE("coverage rows sum to the width for runs at both ends") {
-    SpanRows rows;
+    RunRows rows;
     rows.push(0, 6 * 256);
     rows.end_line();
     rows.push(0, 1);
@@ -231,7 +231,7 @@ TEST_CASE("random runs are covered as pixel by pixel, in runs as long as they ca
         const int white = random() % 2 == 0 ? white_of_8_bits : white_of_16_bits;
         const int width = band.hi - band.lo;
         const auto shortest = 1 + static_cast<std::int32_t>(random() % 500);
-        SpanRows rows;
+        RunRows rows;
         for (int line = 0; line < band.lines(); ++line) {
             auto u = band.lo * run_unit + static_cast<std::int32_t>(random() % 3) * shortest;
             while (u < band.hi * run_unit) {

@@ -13,8 +13,8 @@ namespace lamella {
 /// rows at a time and all at once. Returns the runs compared.
 inline std::size_t require_same_lines_by_steps(const SliceField& slice, const RowBand& whole) {
     Scratch scratch;
-    SpanRows all, some;
-    slice.spans(whole, scratch, all);
+    RunRows all, some;
+    slice.runs(whole, scratch, all);
     std::size_t compared = 0;
     for (const int step : {2, 3, 13}) {
         for (const int rows : {2, 11, whole.count}) {
@@ -24,7 +24,7 @@ inline std::size_t require_same_lines_by_steps(const SliceField& slice, const Ro
             int lines = 0;
             for (; band.first < whole.first + whole.count; band.first += rows) {
                 band.count = std::min(rows, whole.first + whole.count - band.first);
-                slice.spans(band, scratch, some);
+                slice.runs(band, scratch, some);
                 REQUIRE(some.lines() == static_cast<std::size_t>(band.lines()));
                 lines += band.lines();
                 for (int l = 0; l < band.lines(); ++l) {

@@ -322,8 +322,8 @@ TEST_CASE("runs are solid exactly where the value is negative") {
             INFO(named.name << ", z " << z << ", round " << round);
             SliceContext context;
             Scratch scratch;
-            SpanRows rows;
-            context.slice(*named.field, z).spans(band, scratch, rows);
+            RunRows rows;
+            context.slice(*named.field, z).runs(band, scratch, rows);
             REQUIRE(rows.lines() == static_cast<std::size_t>(band.lines()));
             const double unit = std::abs(band.along_pitch) / run_unit;
             std::uniform_int_distribution<int> any(0, band.hi * run_unit - 1);
@@ -365,13 +365,13 @@ TEST_CASE("closed-form runs equal the runs read off samples") {
                 const RowBand band = band_of(axis, 0.09, 1);
                 SliceContext context;
                 Scratch scratch;
-                SpanRows closed, sampled, only_closed, only_sampled;
-                context.slice(*named.field, z).spans(band, scratch, closed);
+                RunRows closed, sampled, only_closed, only_sampled;
+                context.slice(*named.field, z).runs(band, scratch, closed);
                 const Metric metric = named.field->metric();
                 sampled_spans(SampledSlice(*named.field, z), metric, band, sampled);
                 subtract(closed, sampled, only_closed);
                 subtract(sampled, closed, only_sampled);
-                for (const SpanRows* rest : {&only_closed, &only_sampled}) {
+                for (const RunRows* rest : {&only_closed, &only_sampled}) {
                     for (std::size_t l = 0; l < rest->lines(); ++l) {
                         for (const Run& run : rest->line(l)) {
                             const double middle = (run.begin + run.end) * 0.5;
@@ -452,9 +452,9 @@ TEST_CASE("a slice's samples are the field's values, and its bounds hold its run
                 if (!std::isnan(v)) REQUIRE(sample == Approx(v).margin(1e-5));
             }
         }
-        SpanRows rows;
+        RunRows rows;
         const RowBand band = band_of(Axis::x, 0.09, 1);
-        slice.spans(band, scratch, rows);
+        slice.runs(band, scratch, rows);
         const Rect bounds = grown(slice.bounds(), 1e-3);
         for (int l = 0; l < band.lines(); ++l) {
             for (const Run& run : rows.line(static_cast<std::size_t>(l))) {
@@ -474,12 +474,12 @@ TEST_CASE("a line's runs do not depend on the band it is asked in") {
         Scratch scratch;
         const SliceField& slice = context.slice(*named.field, 0.17);
         RowBand whole = band_of(Axis::x, 0.06, 2);
-        SpanRows all, part;
-        slice.spans(whole, scratch, all);
+        RunRows all, part;
+        slice.runs(whole, scratch, all);
         RowBand band = whole;
         band.count = 7;
         for (band.first = 0; band.first + 7 <= whole.count; band.first += 7) {
-            slice.spans(band, scratch, part);
+            slice.runs(band, scratch, part);
             for (int l = 0; l < band.lines(); ++l) {
                 const auto expected = all.line(static_cast<std::size_t>(band.first * 2 + l));
                 const auto got = part.line(static_cast<std::size_t>(l));
@@ -578,8 +578,8 @@ TEST_CASE("a value that is not a number is outside") {
                                   make_intersection({hole, make_sphere({0, 0, 0}, 3)})}) {
         SliceContext context;
         Scratch scratch;
-        SpanRows rows;
-        context.slice(*field, 0.1).spans(band, scratch, rows);
+        RunRows rows;
+        context.slice(*field, 0.1).runs(band, scratch, rows);
         REQUIRE(rows.total_length() > 0);
         for (const Run& run : rows.runs()) REQUIRE(band.along(run.begin) > -0.01);
     }

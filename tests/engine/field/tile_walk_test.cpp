@@ -106,7 +106,7 @@ TEST_CASE("tiles sampled many at a time make the runs of tiles walked one by one
                          << band.hi);
             OneByOne single(plane);
             ManyAtOnce many(plane);
-            SpanRows expected, rows;
+            RunRows expected, rows;
             sampled_spans(single, metric, band, expected);
             sampled_spans(many, metric, band, rows);
             REQUIRE(rows.lines() == static_cast<std::size_t>(band.lines()));
@@ -116,7 +116,7 @@ TEST_CASE("tiles sampled many at a time make the runs of tiles walked one by one
                 RowBand one = band;
                 one.first += row;
                 one.count = 1;
-                SpanRows alone;
+                RunRows alone;
                 sampled_spans(many, metric, one, alone);
                 for (std::size_t k = 0; k < alone.lines(); ++k) {
                     const auto line = rows.line(static_cast<std::size_t>(row * band.sub) + k);
@@ -132,7 +132,7 @@ TEST_CASE("tiles that need not be walked one by one are sampled by the hundred p
     for (const Metric metric : {Metric::exact, Metric::bound, Metric::sign}) {
         const Plane plane = discs(5, metric);
         ManyAtOnce many(plane);
-        SpanRows rows;
+        RunRows rows;
         sampled_spans(many, metric, band, rows);
         REQUIRE(rows.total_length() > 0);
         const auto points = std::accumulate(many.asked.begin(), many.asked.end(), std::size_t{0});

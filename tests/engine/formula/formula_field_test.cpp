@@ -37,13 +37,13 @@ void require_same_runs(const FieldPtr& a, const FieldPtr& b) {
             const RowBand band = band_of(axis, 0.11);
             SliceContext context;
             Scratch scratch;
-            SpanRows of_a, of_b, only_a, only_b;
-            context.slice(*a, z).spans(band, scratch, of_a);
-            context.slice(*b, z).spans(band, scratch, of_b);
+            RunRows of_a, of_b, only_a, only_b;
+            context.slice(*a, z).runs(band, scratch, of_a);
+            context.slice(*b, z).runs(band, scratch, of_b);
             REQUIRE(of_a.total_length() > 0);
             subtract(of_a, of_b, only_a);
             subtract(of_b, of_a, only_b);
-            for (const SpanRows* rest : {&only_a, &only_b}) {
+            for (const RunRows* rest : {&only_a, &only_b}) {
                 std::int64_t slivers = 0;
                 for (const Run& run : rest->runs()) {
                     REQUIRE(run.end - run.begin <= run_unit / 4);
@@ -92,10 +92,10 @@ TEST_CASE("a formula's solid ends at its bounds") {
     const FieldPtr everywhere = make_formula_field(formula("-1"), {}, room);
     SliceContext context;
     Scratch scratch;
-    SpanRows rows, box;
+    RunRows rows, box;
     const RowBand band = band_of(Axis::x, 0.1);
-    context.slice(*everywhere, 0.2).spans(band, scratch, rows);
-    context.slice(*make_box(room), 0.2).spans(band, scratch, box);
+    context.slice(*everywhere, 0.2).runs(band, scratch, rows);
+    context.slice(*make_box(room), 0.2).runs(band, scratch, box);
     REQUIRE(rows == box);
     REQUIRE(everywhere->value({0, 0, 0}) < 0);
     REQUIRE(everywhere->value({0, 1.6, 0}) > 0);

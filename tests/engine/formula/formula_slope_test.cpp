@@ -144,13 +144,13 @@ TEST_CASE("runs of formulas are those of sampling every quarter, however they ar
         for (const Axis axis : {Axis::x, Axis::y}) {
             const int rows = 48;
             const RowBand whole = band_of(axis, 0, rows);
-            SpanRows all, part;
-            slice.spans(whole, scratch, all);
+            RunRows all, part;
+            slice.runs(whole, scratch, all);
             REQUIRE(all.total_length() > 0);
             for (const int height : {1, 5, 16}) {
                 for (int first = 0; first < rows; first += height) {
                     const int count = std::min(height, rows - first);
-                    slice.spans(band_of(axis, first, count), scratch, part);
+                    slice.runs(band_of(axis, first, count), scratch, part);
                     for (int l = 0; l < count; ++l) {
                         const auto a = all.line(static_cast<std::size_t>(first + l));
                         const auto b = part.line(static_cast<std::size_t>(l));

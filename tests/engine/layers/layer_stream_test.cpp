@@ -34,8 +34,8 @@ class Recorder : public Backend {
         }
         if (layer.index() == fail_at) throw FaultError("the disk is full");
         auto product = std::make_unique<LayerProduct>();
-        SpanRows rows;
-        layer.spans({Axis::x, -6, 0.1, -6, 0.1, 0, 120, 1, 0, 120}, rows);
+        RunRows rows;
+        layer.runs({Axis::x, -6, 0.1, -6, 0.1, 0, 120, 1, 0, 120}, rows);
         product->area = static_cast<double>(rows.total_length()) / run_unit * 0.01;
         return product;
     }

@@ -15,7 +15,7 @@ TEST_CASE("rows of a part of a band are those of the whole band", "[surveys]") {
     Scratch scratch;
     const SliceField& slice = context.slice(*ball, 1.5);
     const RowBand whole = rows_over({{-10, -10}, {10, 10}}, 0.1);
-    const SpanRows all = all_rows(slice, whole, scratch);
+    const RunRows all = all_rows(slice, whole, scratch);
     REQUIRE(all.lines() == 201);
     CHECK(all.runs().size() > 170);
     for (const auto& [first, count] :
@@ -23,7 +23,7 @@ TEST_CASE("rows of a part of a band are those of the whole band", "[surveys]") {
         RowBand part = whole;
         part.first = first;
         part.count = count;
-        SpanRows expected;
+        RunRows expected;
         expected.append_lines(all, static_cast<std::size_t>(first), static_cast<std::size_t>(count));
         CHECK(all_rows(slice, part, scratch) == expected);
     }

@@ -62,9 +62,9 @@ TriangleMesh joined(TriangleMesh a, const TriangleMesh& b, bool turned_inside_ou
 double section_area(const FieldPtr& field, double z) {
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     const RowBand band{Axis::x, -5, 0.02, -5, 0.02, 0, 500, 1, 0, 500};
-    context.slice(*field, z).spans(band, scratch, rows);
+    context.slice(*field, z).runs(band, scratch, rows);
     return static_cast<double>(rows.total_length()) / run_unit * 0.02 * 0.02;
 }
 
@@ -106,8 +106,8 @@ TEST_CASE("lines and planes through vertices and along edges give no streaks") {
     for (const Axis axis : {Axis::x, Axis::y}) {
         // Lines at whole millimetres: some lie exactly on the box's faces.
         RowBand band{axis, -5, 0.25, -5.5, 1, 0, 11, 1, 0, 40};
-        SpanRows rows;
-        context.slice(*box, 0).spans(band, scratch, rows);
+        RunRows rows;
+        context.slice(*box, 0).runs(band, scratch, rows);
         for (int l = 0; l < band.lines(); ++l) {
             const double v = band.line(l);
             const auto line = rows.line(static_cast<std::size_t>(l));
@@ -135,11 +135,11 @@ TEST_CASE("a grown mesh is everything within the distance, reflex edges and thin
                 const double z = at(random) * 0.8;
                 SliceContext context;
                 const RowBand band{Axis::x, -4, 0.04, -4, 0.31, 0, 26, 1, 0, 200};
-                SpanRows in_skin, in_core, in_fat;
-                context.slice(*skin, z).spans(band, scratch, in_skin);
-                context.slice(*core, z).spans(band, scratch, in_core);
-                context.slice(*fat, z).spans(band, scratch, in_fat);
-                const auto solid = [&](const SpanRows& rows, int l, double u) {
+                RunRows in_skin, in_core, in_fat;
+                context.slice(*skin, z).runs(band, scratch, in_skin);
+                context.slice(*core, z).runs(band, scratch, in_core);
+                context.slice(*fat, z).runs(band, scratch, in_fat);
+                const auto solid = [&](const RunRows& rows, int l, double u) {
                     for (const Run& run : rows.line(static_cast<std::size_t>(l))) {
                         if (run.begin <= u && u < run.end) return true;
                     }

@@ -11,8 +11,8 @@ namespace lamella::test {
 
 /// Sampled along lines at a sixteenth of a pixel; lines at whole numbers.
 template <typename Solid>
-SpanRows rows_where(int lines, int width, Solid solid) {
-    SpanRows rows;
+RunRows rows_where(int lines, int width, Solid solid) {
+    RunRows rows;
     for (int l = 0; l < lines; ++l) {
         for (int x = 0; x < width * 16; ++x) {
             if (solid((x + 0.5) / 16, l)) rows.push(x * 16, x * 16 + 16);
@@ -36,7 +36,7 @@ inline double way_out(std::span<const Run> line, std::int32_t u) {
 
 /// The greatest distance, run units, from a place in one layer to the nearest in the other; looked at in
 /// every line, at its runs' ends and between them.
-inline double furthest_from(const SpanRows& layer, const SpanRows& other, double row_pitch) {
+inline double furthest_from(const RunRows& layer, const RunRows& other, double row_pitch) {
     double furthest = 0;
     const int lines = static_cast<int>(layer.lines());
     for (int l = 0; l < lines; ++l) {
@@ -59,7 +59,7 @@ inline double furthest_from(const SpanRows& layer, const SpanRows& other, double
 
 /// The greatest distance, run units, from a place that is not in `above` to the nearest that is not in
 /// `cavity`, both in layers one over the other; looked at in every line, at its runs' ends and between them.
-inline double furthest_overhang(const SpanRows& cavity, const SpanRows& above, double row_pitch) {
+inline double furthest_overhang(const RunRows& cavity, const RunRows& above, double row_pitch) {
     double furthest = 0;
     const int lines = static_cast<int>(cavity.lines());
     for (int l = 0; l < lines; ++l) {

@@ -34,15 +34,15 @@ FieldPtr upright_cylinder(dvec2 center, double radius) {
 /// Lines over [-8, 8) in both directions.
 RowBand plate(Axis axis) { return {axis, -8, pitch, -8, pitch, 0, 320, 1, 0, 320}; }
 
-SpanRows runs_of(const Field& field, double z, const RowBand& band) {
+RunRows runs_of(const Field& field, double z, const RowBand& band) {
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(field, z).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(field, z).runs(band, scratch, rows);
     return rows;
 }
 
-double area_of(const SpanRows& rows) {
+double area_of(const RunRows& rows) {
     return static_cast<double>(rows.total_length()) * pitch * pitch / run_unit;
 }
 
@@ -60,7 +60,7 @@ double area_of(const std::vector<Contour>& contours) {
 
 bool solid_at(const Field& field, double z, dvec2 p) {
     const RowBand band{Axis::x, p.x, pitch, p.y - pitch / 2, pitch, 0, 1, 1, -1, 1};
-    const SpanRows rows = runs_of(field, z, band);
+    const RunRows rows = runs_of(field, z, band);
     for (const Run& run : rows.line(0)) {
         if (run.begin <= 0 && 0 < run.end) return true;
     }
@@ -68,7 +68,7 @@ bool solid_at(const Field& field, double z, dvec2 p) {
 }
 
 /// The width of the only run of each line that has one, mm.
-std::vector<double> widths(const SpanRows& rows) {
+std::vector<double> widths(const RunRows& rows) {
     std::vector<double> list;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         const auto line = rows.line(l);
@@ -120,7 +120,7 @@ TEST_CASE("a disc grows and shrinks to the disc of the other radius") {
         const double most = tolerance * tolerance / (4 * std::abs(by)) + rounding;
         for (const Axis axis : {Axis::x, Axis::y}) {
             const RowBand band = plate(axis);
-            const SpanRows rows = runs_of(*field, 0, band);
+            const RunRows rows = runs_of(*field, 0, band);
             CHECK(area_of(rows) == Approx(pi * radius * radius).margin(2 * pi * radius * most + 0.01));
             const dvec2 center = axis == Axis::x ? dvec2(0.123, -0.321) : dvec2(-0.321, 0.123);
             for (int l = 0; l < band.lines(); ++l) {
@@ -260,8 +260,8 @@ TEST_CASE("rows and columns of a moved outline tell the same at every point") {
     std::mt19937 random(8);
     const FieldPtr field = moved(cheese().solid, 0.15);
     const RowBand row_band = plate(Axis::x), column_band = plate(Axis::y);
-    const SpanRows rows = runs_of(*field, 0.1, row_band), columns = runs_of(*field, 0.1, column_band);
-    const auto inside = [](const SpanRows& lines, std::size_t line, std::int32_t u, std::int32_t margin) {
+    const RunRows rows = runs_of(*field, 0.1, row_band), columns = runs_of(*field, 0.1, column_band);
+    const auto inside = [](const RunRows& lines, std::size_t line, std::int32_t u, std::int32_t margin) {
         for (const Run& run : lines.line(line)) {
             if (run.begin - margin <= u && u < run.end + margin) return true;
         }
@@ -290,11 +290,11 @@ TEST_CASE("the runs of a moved outline do not depend on bands and clipping") {
             for (const Axis axis : {Axis::x, Axis::y}) {
                 for (const double sign : {1.0, -1.0}) {
                     RowBand band{axis, -8 * sign, pitch * sign, 8 * sign, -pitch * sign, 0, 320, 2, 0, 320};
-                    const SpanRows all = runs_of(*field, 0.3, band);
+                    const RunRows all = runs_of(*field, 0.3, band);
                     for (const int count : {1, 7, 64}) {
                         band.count = count;
                         for (band.first = 3; band.first + count <= 320; band.first += 5 * count) {
-                            const SpanRows part = runs_of(*field, 0.3, band);
+                            const RunRows part = runs_of(*field, 0.3, band);
                             for (int l = 0; l < band.lines(); ++l) {
                                 const auto a = all.line(2 * static_cast<std::size_t>(band.first) +
                                                         static_cast<std::size_t>(l));
@@ -308,8 +308,8 @@ TEST_CASE("the runs of a moved outline do not depend on bands and clipping") {
                     half.count = 320;
                     half.lo = 100;
                     half.hi = 171;
-                    const SpanRows clipped = runs_of(*field, 0.3, half);
-                    SpanRows expected;
+                    const RunRows clipped = runs_of(*field, 0.3, half);
+                    RunRows expected;
                     for (std::size_t l = 0; l < all.lines(); ++l) {
                         for (const Run& run : all.line(l)) {
                             expected.push(std::max(run.begin, 100 * run_unit),

@@ -88,8 +88,8 @@ WeightedRows rows_of(const Lines& lines) {
     return rows;
 }
 
-SpanRows spans_of(const Lines& lines) {
-    SpanRows rows;
+RunRows spans_of(const Lines& lines) {
+    RunRows rows;
     for (const auto& line : lines) {
         for (const WeightedRun& run : line) rows.push(run.begin, run.end);
         rows.end_line();
@@ -146,7 +146,7 @@ TEST_CASE("grown rows equal brute force", "[morphology]") {
         const Stack stack =
             random_stack(random, 1, 40, [&](double unit) { return varying ? unit * radius : radius; });
         CAPTURE(round, radius);
-        SpanRows out;
+        RunRows out;
         grow_rows(rows_of(stack[0]), lattice.row_pitch, out);
         REQUIRE(out.lines() == 40);
         for (int l = 0; l < 40; ++l)
@@ -163,7 +163,7 @@ TEST_CASE("rows less grown ones equal brute force", "[morphology]") {
         const Stack from = random_stack(random, 1, 40, [](double) { return 0.0; }),
                     taken = random_stack(random, 1, 40, [&](double) { return radius; });
         CAPTURE(round, radius);
-        SpanRows brute, expected, out;
+        RunRows brute, expected, out;
         for (int l = 0; l < 40; ++l) brute.append_line(grown_line(taken, lattice, 0, l));
         subtract(spans_of(from[0]), brute, expected);
         subtract_dilated(spans_of(from[0]), spans_of(taken[0]), radius, lattice.row_pitch, out);
@@ -181,7 +181,7 @@ TEST_CASE("shrunk rows equal brute force", "[morphology]") {
         const Stack stack = random_stack(random, 1, 40, [](double) { return 0.0; });
         const int margin = static_cast<int>(radius / 256);
         const Stack voids = voids_of(stack, 0, margin, radius);
-        SpanRows out;
+        RunRows out;
         shrink_rows(spans_of(stack[0]), radius, lattice.row_pitch, out);
         REQUIRE(out.lines() == 40);
         for (int l = 0; l < 40; ++l)
@@ -340,16 +340,16 @@ TEST_CASE("a run without an end stays so, whatever is grown beside it", "[morpho
 TEST_CASE("a point grows into a ball, and a ball shrinks to a point", "[morphology]") {
     const double radius = 10 * run_unit;
     const LayerLattice lattice{run_unit, run_unit, 41};
-    std::vector<SpanRows> stack(41);
+    std::vector<RunRows> stack(41);
     for (std::size_t z = 0; z < 41; ++z) {
         for (std::size_t l = 0; l < 41; ++l) {
             if (z == 20 && l == 20) stack[z].push(0, 1);
             stack[z].end_line();
         }
     }
-    const auto as_rows = [&](const SpanRows& rows) { return WeightedRows(rows, radius); };
+    const auto as_rows = [&](const RunRows& rows) { return WeightedRows(rows, radius); };
     double volume = 0;
-    for (const SpanRows& rows : through(DilationStream(lattice, radius), stack, as_rows))
+    for (const RunRows& rows : through(DilationStream(lattice, radius), stack, as_rows))
         volume += static_cast<double>(rows.total_length());
     CHECK(volume / run_unit == Approx(4.0 / 3 * 3.14159265 * 1000).epsilon(0.01));
 }
@@ -367,7 +367,7 @@ TEST_CASE("a layer that does not fit what was said of the stack is refused", "[m
     short_of_a_line.append_line({});
     growing.push(short_of_a_line);
     growing.finish();
-    SpanRows out;
+    RunRows out;
     REQUIRE(growing.pop(out));
     CHECK(out.line(1).size() == 1);
 }

@@ -19,10 +19,10 @@ constexpr int layers = 60;
 using Solid = std::function<bool(double x, double y, double z)>;  // dexels
 
 /// Sampled along lines at a sixteenth of a dexel.
-std::vector<SpanRows> dexels(const Solid& solid) {
-    std::vector<SpanRows> stack;
+std::vector<RunRows> dexels(const Solid& solid) {
+    std::vector<RunRows> stack;
     for (int z = 0; z < layers; ++z) {
-        SpanRows rows;
+        RunRows rows;
         for (std::size_t y = 0; y < lines; ++y) {
             for (int x = 0; x < 60 * 16; ++x) {
                 if (solid((x + 0.5) / 16, static_cast<double>(y), z)) rows.push(x * 16, x * 16 + 16);
@@ -34,16 +34,16 @@ std::vector<SpanRows> dexels(const Solid& solid) {
     return stack;
 }
 
-double volume(const std::vector<SpanRows>& stack) {
+double volume(const std::vector<RunRows>& stack) {
     double sum = 0;
-    for (const SpanRows& rows : stack) sum += static_cast<double>(rows.total_length()) / run_unit;
+    for (const RunRows& rows : stack) sum += static_cast<double>(rows.total_length()) / run_unit;
     return sum;
 }
 
 /// What of a is not in b, dexels.
-double beyond(const std::vector<SpanRows>& a, const std::vector<SpanRows>& b) {
+double beyond(const std::vector<RunRows>& a, const std::vector<RunRows>& b) {
     double sum = 0;
-    SpanRows rest;
+    RunRows rest;
     for (std::size_t i = 0; i < a.size(); ++i) {
         subtract(a[i], b[i], rest);
         sum += static_cast<double>(rest.total_length()) / run_unit;
@@ -74,7 +74,7 @@ TEST_CASE("an opening drops what is thinner than the ball and keeps the rest", "
         a * a * c + 2 * r * (a * a + 2 * a * c) + pi * r * r * (2 * a + c) + 4.0 / 3 * pi * r * r * r;
     CHECK(volume(opened) == Approx(round_block).epsilon(0.03));
     CHECK(beyond(opened, stack) < 0.01 * volume(stack) / 256);
-    const auto upper = std::vector<SpanRows>(opened.begin() + 30, opened.end());
+    const auto upper = std::vector<RunRows>(opened.begin() + 30, opened.end());
     CHECK(volume(upper) == 0);
     // Thin enough a ball keeps it all, but for the edges.
     CHECK(volume(through(OpeningStream(lattice, 1.4 * run_unit), stack)) ==
@@ -92,7 +92,7 @@ TEST_CASE("opening twice is opening once", "[morphology]") {
         CHECK(volume(once) < volume(stack));
         // Each end may be off by a unit.
         double ends = 0;
-        for (const SpanRows& rows : once) ends += 2 * static_cast<double>(rows.runs().size());
+        for (const RunRows& rows : once) ends += 2 * static_cast<double>(rows.runs().size());
         CHECK(beyond(once, twice) + beyond(twice, once) <= 2 * ends / run_unit);
         CHECK(beyond(once, stack) <= 2 * ends / run_unit);
     }
@@ -134,7 +134,7 @@ TEST_CASE("opening and closing are each other's mirror", "[morphology]") {
     for (std::size_t z = 10; z < 50; ++z) {
         for (std::size_t y = 10; y < 50; ++y) {
             std::int64_t filled = 0;
-            SpanRows a, b, common;
+            RunRows a, b, common;
             a.append_line(closed[z].line(y));
             b.append_line(opened[z].line(y));
             intersect(a, b, common);

@@ -31,11 +31,11 @@ FieldPtr block_with_fin(double thickness, double degrees) {
     return make_transform(make_union({box({-10, -4, -1}, {0, 4, 1}), fin}), about_z(degrees), dvec3(0));
 }
 
-SpanRows rows_of(const FieldPtr& solid, const RowBand& band) {
+RunRows rows_of(const FieldPtr& solid, const RowBand& band) {
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(*solid, 0).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(*solid, 0).runs(band, scratch, rows);
     return rows;
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("what is thick enough stays as it is", "[mended]") {
                    filled = make_gaps_filled(part, 0.8, pitch);
     for (const Axis axis : {Axis::x, Axis::y}) {
         const RowBand band = band_about(part, axis, 0.07);
-        const SpanRows rows = rows_of(part, band);
+        const RunRows rows = rows_of(part, band);
         CHECK(!rows.runs().empty());
         CHECK(rows_of(thickened, band) == rows);
         CHECK(rows_of(filled, band) == rows);
@@ -140,11 +140,11 @@ TEST_CASE("bands of a mended outline are parts of the whole", "[mended]") {
     const FieldPtr mended = make_gaps_filled(make_thickened(block_with_fin(0.3, 33), 0.8, pitch), 0.5, pitch);
     for (const Axis axis : {Axis::x, Axis::y}) {
         const RowBand whole = band_about(mended, axis, 0.06);
-        const SpanRows rows = rows_of(mended, whole);
+        const RunRows rows = rows_of(mended, whole);
         RowBand part = whole;
         for (part.first = 0; part.first < whole.count; part.first += 7) {
             part.count = std::min(7, whole.count - part.first);
-            const SpanRows some = rows_of(mended, part);
+            const RunRows some = rows_of(mended, part);
             for (std::size_t l = 0; l < some.lines(); ++l) {
                 const auto a = some.line(l), b = rows.line(l + static_cast<std::size_t>(part.first));
                 REQUIRE(std::vector<Run>(a.begin(), a.end()) == std::vector<Run>(b.begin(), b.end()));

@@ -60,9 +60,10 @@ Grown grow_line(const Stack& stack, const LayerLattice& lattice, int z, int l) {
             const RoundedExtent reach(std::sqrt(left));
             all.add(run.begin - reach.back, run.end + reach.ahead);
             ++grown.runs;
-            if (rows.sights()[i].reaches(
-                    BlockOffset(Beside::line_before, -lines) | BlockOffset(Beside::line_behind, lines) |
-                    BlockOffset(Beside::layer_below, -layers) | BlockOffset(Beside::layer_above, layers))) {
+            if (rows.sights()[i].reaches(BlockOffset(Neighbor::line_before, -lines) |
+                                         BlockOffset(Neighbor::line_behind, lines) |
+                                         BlockOffset(Neighbor::layer_below, -layers) |
+                                         BlockOffset(Neighbor::layer_above, layers))) {
                 seen.add(run.begin - reach.back, run.end + reach.ahead);
             } else {
                 ++grown.unseen;
@@ -117,11 +118,11 @@ TEST_CASE("sight ends where a ball on the next line reaches as far", "[morpholog
     PowerCellPruner(lattice, radius * radius).limit(rows);
     // d lines away both reach as far where 2 d - 1 = 2 sqrt(100 - d^2) + 1 in pitches: d = 7.55.
     const PowerCellBounds sight = rows.sights()[10];
-    CHECK(sight.reaches(BlockOffset(Beside::line_behind, 7)));
-    CHECK_FALSE(sight.reaches(BlockOffset(Beside::line_behind, 8)));
-    CHECK(sight.reaches(BlockOffset(Beside::line_behind, 0)));
-    CHECK_FALSE(sight.reaches(BlockOffset(Beside::line_before, 1)));
-    CHECK(sight.reaches(BlockOffset(Beside::layer_above, 126)));
+    CHECK(sight.reaches(BlockOffset(Neighbor::line_behind, 7)));
+    CHECK_FALSE(sight.reaches(BlockOffset(Neighbor::line_behind, 8)));
+    CHECK(sight.reaches(BlockOffset(Neighbor::line_behind, 0)));
+    CHECK_FALSE(sight.reaches(BlockOffset(Neighbor::line_before, 1)));
+    CHECK(sight.reaches(BlockOffset(Neighbor::layer_above, 126)));
 }
 
 }  // namespace power_cell_pruner_test

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::int32_t cell = CellLattice::cell;
 
-SpanRows random_rows(std::mt19937& random, int lines, int columns) {
+RunRows random_rows(std::mt19937& random, int lines, int columns) {
     std::uniform_int_distribution<int> gap(1, 12 * run_unit), run(1, 9 * run_unit), any(0, 4);
-    SpanRows rows;
+    RunRows rows;
     for (int l = 0; l < lines; ++l) {
         if (any(random) != 0) {
             for (int u = gap(random) - 3 * run_unit; u < columns * run_unit;) {
@@ -31,7 +31,7 @@ SpanRows random_rows(std::mt19937& random, int lines, int columns) {
     return rows;
 }
 
-CellLattice lattice_of(const SpanRows& rows, int columns, double reach) {
+CellLattice lattice_of(const RunRows& rows, int columns, double reach) {
     return {{-3 * run_unit, (columns + 9) * run_unit}, rows.lines(), reach, run_unit};
 }
 
@@ -67,7 +67,7 @@ bool any_within(const RowBitmask& cells, const DiscWidths& disc, int line, int c
 
 TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
     std::mt19937 random(1);
-    const SpanRows rows = random_rows(random, 23, 70);
+    const RunRows rows = random_rows(random, 23, 70);
     const CellLattice lattice = lattice_of(rows, 70, 3.5 * run_unit);
     REQUIRE(lattice.margin_lines >= 3);
     const LayerCells cells(rows, lattice);
@@ -78,8 +78,8 @@ TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
         for (int c = 0; c < columns_of(lattice); ++c) {
             const int length =
                 is_row ? length_in(rows.line(static_cast<std::size_t>(row)), lattice.first + c * cell) : 0;
-            REQUIRE(has(cells.met, l, c) == (length > 0));
-            REQUIRE(has(cells.filled, l, c) == (length == cell));
+            REQUIRE(has(cells.outer, l, c) == (length > 0));
+            REQUIRE(has(cells.inner, l, c) == (length == cell));
             filled += length == cell ? 1 : 0;
             partly += length > 0 && length < cell ? 1 : 0;
         }
@@ -87,11 +87,11 @@ TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
     CHECK(filled > 100);
     CHECK(partly > 100);
     // Whatever is met holds all of the rows, and what lies in the others none of it.
-    CHECK(cells.met.of(rows, lattice.margin_lines) == rows);
-    RowBitmask others = cells.met;
+    CHECK(cells.outer.of(rows, lattice.margin_lines) == rows);
+    RowBitmask others = cells.outer;
     others.invert();
     CHECK(others.of(rows, lattice.margin_lines).runs().empty());
-    CHECK(cells.filled.of(rows, lattice.margin_lines).total_length() == std::int64_t{filled} * cell);
+    CHECK(cells.inner.of(rows, lattice.margin_lines).total_length() == std::int64_t{filled} * cell);
     RowBitmask none = others;
     none.subtract_dilated(others, outer_disc(run_unit, run_unit));
     CHECK(none.runs(0, lattice.lines).runs().empty());
@@ -100,14 +100,14 @@ TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
 
 TEST_CASE("cells grow by all that a disc about them may meet, and no further", "[morphology]") {
     std::mt19937 random(2);
-    const SpanRows rows = random_rows(random, 31, 40);
+    const RunRows rows = random_rows(random, 31, 40);
     for (const double radius : {0.3, 1.0, 2.6, 9.4, 40.0}) {
         const CellLattice lattice = lattice_of(rows, 40, radius * run_unit);
-        const RowBitmask cells = LayerCells(rows, lattice).filled,
-                         all = LayerCells(random_rows(random, 31, 40), lattice).met;
+        const RowBitmask cells = LayerCells(rows, lattice).inner,
+                         all = LayerCells(random_rows(random, 31, 40), lattice).outer;
         const DiscWidths covered = inner_disc(radius * run_unit, run_unit),
                          met = outer_disc(radius * run_unit, run_unit);
-        for (std::size_t k = 0; k < met.size(); ++k) {
+        for (std::size_t k = 0; k < outer.size(); ++k) {
             const double reach = std::sqrt(radius * radius - double(k) * double(k)) * run_unit;
             CHECK(covered[k] * cell <= reach + 1);
             CHECK(met[k] * cell >= reach - 1);
@@ -155,7 +155,7 @@ TEST_CASE("cells grow alike where few are, where all are, and in lines of many w
     constexpr int columns = 10000;  // 158 words
     std::mt19937 random(3);
     std::uniform_int_distribution<std::size_t> any(0, 4);
-    SpanRows few, most;
+    RunRows few, most;
     const std::vector<int> places{7, 640, 644, 6100, 9990};
     for (int l = 0; l < 41; ++l) {
         const int place = places[any(random)];
@@ -167,13 +167,13 @@ TEST_CASE("cells grow alike where few are, where all are, and in lines of many w
     }
     const CellLattice lattice({0, columns * run_unit}, few.lines(), 40 * run_unit, run_unit);
     REQUIRE(lattice.words > 2 * 64);
-    for (const SpanRows* rows : {&few, &most}) {
-        const RowBitmask cells = LayerCells(*rows, lattice).met;
+    for (const RunRows* rows : {&few, &most}) {
+        const RowBitmask cells = LayerCells(*rows, lattice).outer;
         CHECK(cells.of(*rows, lattice.margin_lines) == *rows);
         for (const double radius : {0.0, 1.5, 3.0, 39.0}) {
             const DiscWidths disc = outer_disc(radius * run_unit, run_unit);
             const RowBitmask grown = cells.grown(disc), beyond = cells.beyond(disc);
-            RowBitmask left = LayerCells(most, lattice).met;
+            RowBitmask left = LayerCells(most, lattice).outer;
             const RowBitmask all = left;
             left.subtract_dilated(cells, disc);
             INFO("radius " << radius << (rows == &few ? ", few" : ", most"));

@@ -43,8 +43,8 @@ Scene random_scene(std::mt19937& random) {
             if (at < end) runs.push_back({at, end, radius * radius});
             at = end + between(1, 600);
         }
-        if (between(0, 9) == 0) runs.insert(runs.begin(), {-far_out, -5000 - between(0, 900), 90000});
-        if (between(0, 9) == 0) runs.push_back({12000 + between(1, 900), far_out, 90000});
+        if (between(0, 9) == 0) runs.insert(runs.begin(), {-unbounded, -5000 - between(0, 900), 90000});
+        if (between(0, 9) == 0) runs.push_back({12000 + between(1, 900), unbounded, 90000});
     }
     for (const std::vector<WeightedRun>& runs : scene.runs)
         scene.lines.push_back(

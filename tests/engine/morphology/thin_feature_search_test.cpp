@@ -19,14 +19,14 @@ using namespace lamella::test;
 
 namespace {
 
-using Stack = std::vector<SpanRows>;
+using Stack = std::vector<RunRows>;
 
 /// Layers all about each of a stack's.
 class About {
   public:
     About(const Stack& stack, const BallLines& ball) : stack_(stack), reach_(ball.layers()) {}
-    std::vector<const SpanRows*> operator()(int layer) const {
-        std::vector<const SpanRows*> about;
+    std::vector<const RunRows*> operator()(int layer) const {
+        std::vector<const RunRows*> about;
         for (int k = layer - reach_; k <= layer + reach_; ++k) {
             const bool is_there = k >= 0 && k < static_cast<int>(stack_.size());
             about.push_back(is_there ? &stack_[static_cast<std::size_t>(k)] : nullptr);
@@ -44,14 +44,14 @@ Stack without_what_is_near(const Stack& from, const Stack& taken, const BallLine
     RunDifference runs;
     Stack left(from.size());
     for (std::size_t z = 0; z < from.size(); ++z) {
-        const std::vector<const SpanRows*> beside = about(static_cast<int>(z));
+        const std::vector<const RunRows*> beside = about(static_cast<int>(z));
         for (std::size_t l = 0; l < from[z].lines(); ++l) {
             runs.assign(from[z].line(l));
             for (const BallLines::Line& line : ball.lines()) {
-                const SpanRows* rows = beside[static_cast<std::size_t>(line.layer + ball.layers())];
+                const RunRows* rows = beside[static_cast<std::size_t>(line.layer + ball.layers())];
                 const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(l) + line.row;
                 if (rows == nullptr || row < 0 || row >= static_cast<std::ptrdiff_t>(rows->lines())) continue;
-                if (!runs.empty()) runs.take_away(rows->line(static_cast<std::size_t>(row)), line.reach);
+                if (!runs.empty()) runs.subtract(rows->line(static_cast<std::size_t>(row)), line.reach);
             }
             left[z].append_line(runs.all());
         }
@@ -66,14 +66,14 @@ Stack all_thin(const Stack& stack, const LayerLattice& lattice, const Thinness& 
     const auto rows = static_cast<std::size_t>(fitting.rows() + near.rows()),
                layers = static_cast<std::size_t>(fitting.layers() + near.layers());
     Stack solid(layers, empty_rows(lattice.lines + 2 * rows)), voids;
-    for (const SpanRows& layer : stack) {
+    for (const RunRows& layer : stack) {
         solid.emplace_back();
         solid.back().end_lines(rows);
         solid.back().append_lines(layer);
         solid.back().end_lines(rows);
     }
     solid.resize(solid.size() + layers, empty_rows(lattice.lines + 2 * rows));
-    for (const SpanRows& layer : solid) voids.push_back(complement(layer, -far_out, far_out));
+    for (const RunRows& layer : solid) voids.push_back(complement(layer, -unbounded, unbounded));
     if (medium == FeatureKind::gap) std::swap(solid, voids);
     const Stack thin = without_what_is_near(solid, without_what_is_near(solid, voids, fitting), near);
     Stack inner(stack.size());
@@ -103,7 +103,7 @@ Stack foam(double beam_radius) {
 
 std::int64_t length_of(const Stack& stack) {
     std::int64_t sum = 0;
-    for (const SpanRows& rows : stack) sum += rows.total_length();
+    for (const RunRows& rows : stack) sum += rows.total_length();
     return sum;
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("layers at random are thin where no place near has room for the ball",
         std::mt19937 random(seed);
         std::uniform_int_distribution<int> gap(run_unit / 3, 4 * run_unit), run(run_unit, 30 * run_unit);
         Stack stack(25);
-        for (SpanRows& layer : stack) {
+        for (RunRows& layer : stack) {
             for (int l = 0; l < 20; ++l) {
                 for (int u = gap(random); u < 60 * run_unit;) {
                     const int end = u + run(random);

@@ -15,13 +15,13 @@ using namespace lamella::test;
 namespace {
 
 constexpr int lines = 24, layers = 18, columns = 40;
-using Stack = std::vector<SpanRows>;
+using Stack = std::vector<RunRows>;
 
 Stack random_stack(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> gap(run_unit / 2, 9 * run_unit), run(run_unit, 12 * run_unit);
     Stack stack(layers);
-    for (SpanRows& layer : stack) {
+    for (RunRows& layer : stack) {
         for (int l = 0; l < lines; ++l) {
             for (int u = gap(random); u < columns * run_unit;) {
                 const int end = u + run(random);
@@ -116,7 +116,7 @@ TEST_CASE("layers one by one are what a ball without height makes of them", "[mo
     const LayerLattice flat{run_unit, 100.0 * run_unit, lines};
     const Stack thin = through(ThinFeatureStream(flat, thinness), stack),
                 narrow = through(ThinFeatureStream(flat, thinness, FeatureKind::gap), stack);
-    SpanRows rows;
+    RunRows rows;
     std::int64_t found = 0;
     for (std::size_t z = 0; z < stack.size(); ++z) {
         thin_rows(stack[z], FeatureKind::wall, thinness, run_unit, rows);
@@ -141,9 +141,9 @@ TEST_CASE("what is thin beside many rows is what a ball without height finds", "
         std::vector<Disc> discs(30);
         for (Disc& disc : discs)
             disc = {150 * unit(random), 150 * unit(random), 2 + 30 * unit(random), unit(random)};
-        SpanRows rows;
+        RunRows rows;
         for (int y = 0; y < rows_across; ++y) {
-            SpanRows line, one, both;
+            RunRows line, one, both;
             line.end_line();
             for (const Disc& disc : discs) {
                 const double away = std::abs(y - disc.y) / (disc.lean < 0.5 ? 1 : 3);
@@ -163,7 +163,7 @@ TEST_CASE("what is thin beside many rows is what a ball without height finds", "
                 CAPTURE(radius, slack, pitch);
                 const Thinness thinness{radius * run_unit, slack * radius * run_unit};
                 const LayerLattice flat{pitch * run_unit, 1000.0 * run_unit, rows_across};
-                SpanRows found;
+                RunRows found;
                 for (const FeatureKind medium : {FeatureKind::wall, FeatureKind::gap}) {
                     thin_rows(rows, medium, thinness, flat.row_pitch, found);
                     CHECK(found == through(ThinFeatureStream(flat, thinness, medium), Stack{rows}).front());
@@ -178,8 +178,8 @@ TEST_CASE("what is narrow in a solid is what is thin in its void", "[morphology]
     // A solid all about, with a void in the middle: far from the border both are the same.
     const Stack voids = random_stack(4);
     Stack solid_stack;
-    for (const SpanRows& layer : voids) {
-        SpanRows rows;
+    for (const RunRows& layer : voids) {
+        RunRows rows;
         for (std::size_t l = 0; l < layer.lines(); ++l) {
             std::int32_t at = -20 * run_unit;
             for (const Run& run : layer.line(l)) {
@@ -198,7 +198,7 @@ TEST_CASE("what is narrow in a solid is what is thin in its void", "[morphology]
     std::int64_t differ = 0, all = 0;
     for (std::size_t z = 5; z + 5 < voids.size(); ++z) {
         for (std::size_t l = 6; l + 6 < lines; ++l) {
-            SpanRows a, b, common;
+            RunRows a, b, common;
             a.append_line(thin[z].line(l));
             b.append_line(narrow[z].line(l));
             intersect(a, b, common);
@@ -213,7 +213,7 @@ TEST_CASE("what is narrow in a solid is what is thin in its void", "[morphology]
 TEST_CASE("slack excuses edges and keeps fins", "[morphology]") {
     // A wedge of 60 degrees, and a fin.
     const auto rows_of = [](double (*half)(double)) {
-        SpanRows rows;
+        RunRows rows;
         for (int l = 0; l < 200; ++l) {
             const double w = half(l) * run_unit;
             if (w > 0) rows.push(static_cast<int>(100 * run_unit - w), static_cast<int>(100 * run_unit + w));
@@ -221,10 +221,10 @@ TEST_CASE("slack excuses edges and keeps fins", "[morphology]") {
         }
         return rows;
     };
-    const SpanRows wedge = rows_of([](double y) { return (y - 10) * 0.57735; }),
-                   fin = rows_of([](double y) { return y < 100 ? 3.0 : 60.0; });
+    const RunRows wedge = rows_of([](double y) { return (y - 10) * 0.57735; }),
+                  fin = rows_of([](double y) { return y < 100 ? 3.0 : 60.0; });
     const double r = 6 * run_unit;
-    SpanRows thin;
+    RunRows thin;
     thin_rows(wedge, FeatureKind::wall, {r, 0}, run_unit, thin);
     CHECK(thin.total_length() > 0);
     // The tip of a wedge of 60 degrees is a radius away from the ball in it.

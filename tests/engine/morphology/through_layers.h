@@ -10,9 +10,9 @@ namespace lamella::test {
 
 /// All that comes out; layers are taken as soon as they are there. `as` makes of a layer what is pushed.
 template <typename Layers, typename Stack, typename As>
-std::vector<SpanRows> through(Layers&& process, const Stack& stack, As as) {
-    std::vector<SpanRows> result;
-    SpanRows rows;
+std::vector<RunRows> through(Layers&& process, const Stack& stack, As as) {
+    std::vector<RunRows> result;
+    RunRows rows;
     for (const auto& layer : stack) {
         process.push(as(layer));
         while (process.pop(rows)) result.push_back(rows);
@@ -23,8 +23,8 @@ std::vector<SpanRows> through(Layers&& process, const Stack& stack, As as) {
 }
 
 template <typename Layers>
-std::vector<SpanRows> through(Layers&& process, const std::vector<SpanRows>& stack) {
-    return through(process, stack, [](const SpanRows& layer) -> const SpanRows& { return layer; });
+std::vector<RunRows> through(Layers&& process, const std::vector<RunRows>& stack) {
+    return through(process, stack, [](const RunRows& layer) -> const RunRows& { return layer; });
 }
 
 }  // namespace lamella::test

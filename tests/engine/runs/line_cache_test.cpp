@@ -15,8 +15,8 @@ namespace {
 RowBand whole_band() {
     return {.axis = Axis::y, .across_pitch = -0.1, .first = 3, .count = 37, .sub = 3, .hi = 100};
 }
-SpanRows rows_of(const RowBand& band) {
-    SpanRows rows;
+RunRows rows_of(const RowBand& band) {
+    RunRows rows;
     for (int l = 0; l < band.lines(); ++l) {
         for (int k = 0; k < band.number(l) % 4; ++k) rows.push(1000 * k, 1000 * k + band.number(l));
         rows.end_line();
@@ -51,7 +51,7 @@ TEST_CASE("lines are kept by their numbers, and what is passed over is empty", "
     CHECK(kept.rows() == nullptr);
     kept.finish(whole_band());
     REQUIRE(kept.rows() != nullptr);
-    const SpanRows expected = rows_of(wanted);
+    const RunRows expected = rows_of(wanted);
     REQUIRE(kept.rows()->lines() == expected.lines());
     std::size_t empty = 0;
     for (int l = 0; l < wanted.lines(); ++l) {

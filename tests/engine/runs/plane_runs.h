@@ -18,11 +18,11 @@ inline RowBand band_over(const Box& box, double pitch) {
     return band;
 }
 
-inline SpanRows runs_at(const Field& field, double z, const RowBand& band) {
+inline RunRows runs_at(const Field& field, double z, const RowBand& band) {
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(field, z).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(field, z).runs(band, scratch, rows);
     return rows;
 }
 

@@ -109,8 +109,8 @@ TEST_CASE("rows and columns lose exactly the boxes, in either direction") {
                                    0,           120};
                 SliceContext context;
                 Scratch scratch;
-                SpanRows rows;
-                context.slice(*rest, z).spans(band, scratch, rows);
+                RunRows rows;
+                context.slice(*rest, z).runs(band, scratch, rows);
                 REQUIRE(rows.lines() == 600);
                 bool lost = false;
                 for (int l = 0; l < band.lines(); ++l) {

@@ -38,7 +38,7 @@ TEST_CASE("runs that overlap, touch, miss and stick out merge to what bits say")
                 for (std::int32_t u = lo; u < hi; ++u) bits[line][static_cast<std::size_t>(u - least)] = true;
             }
         }
-        SpanRows rows;
+        RunRows rows;
         collector.merge(band, rows);
         REQUIRE(rows.lines() == static_cast<std::size_t>(lines));
         for (std::size_t l = 0; l < rows.lines(); ++l) {

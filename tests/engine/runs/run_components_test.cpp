@@ -13,8 +13,8 @@ using namespace lamella;
 namespace {
 
 /// One line a string, one run unit a character, '#' is solid.
-SpanRows drawn(const std::vector<std::string>& lines) {
-    SpanRows rows;
+RunRows drawn(const std::vector<std::string>& lines) {
+    RunRows rows;
     for (const std::string& line : lines) {
         for (std::size_t i = 0; i < line.size(); ++i) {
             if (line[i] == '#') rows.push(static_cast<int>(i), static_cast<int>(i) + 1);
@@ -154,7 +154,7 @@ TEST_CASE("random grids have the components of a flood fill") {
         std::map<std::pair<std::uint32_t, int>, int> pairs;
         std::vector<std::pair<std::uint32_t, int>> seen;
         for (int l = 0; l < 7; ++l) {
-            const SpanRows rows = drawn(grid[static_cast<std::size_t>(l)]);
+            const RunRows rows = drawn(grid[static_cast<std::size_t>(l)]);
             const LabelledLayer layer = label_layer(rows, l, growth);
             const auto owners = layer.owners;
             const auto numbers = components.add(layer, l);

@@ -21,8 +21,8 @@ Bits bits_of(std::span<const Run> line) {
     return bits;
 }
 
-SpanRows random_rows(std::mt19937& random, int lines) {
-    SpanRows rows;
+RunRows random_rows(std::mt19937& random, int lines) {
+    RunRows rows;
     std::uniform_int_distribution<int> step(0, 12);
     for (int l = 0; l < lines; ++l) {
         for (int u = step(random); u < width - 13;) {
@@ -35,7 +35,7 @@ SpanRows random_rows(std::mt19937& random, int lines) {
     return rows;
 }
 
-void check_canonical(const SpanRows& rows) {
+void check_canonical(const RunRows& rows) {
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         int last = -1;
         for (const Run& run : rows.line(l)) {
@@ -53,12 +53,12 @@ TEST_CASE("set operations on runs equal set operations on bits") {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     for (int round = 0; round < 50; ++round) {
-        const SpanRows a = random_rows(random, 8), b = random_rows(random, 8);
-        SpanRows all, both, rest;
+        const RunRows a = random_rows(random, 8), b = random_rows(random, 8);
+        RunRows all, both, rest;
         unite(a, b, all);
         intersect(a, b, both);
         subtract(a, b, rest);
-        for (const SpanRows* rows : {&all, &both, &rest}) check_canonical(*rows);
+        for (const RunRows* rows : {&all, &both, &rest}) check_canonical(*rows);
         for (std::size_t l = 0; l < 8; ++l) {
             const Bits x = bits_of(a.line(l)), y = bits_of(b.line(l));
             const Bits u = bits_of(all.line(l)), i = bits_of(both.line(l)), s = bits_of(rest.line(l));
@@ -72,7 +72,7 @@ TEST_CASE("set operations on runs equal set operations on bits") {
 }
 
 TEST_CASE("runs that meet are joined, empty ones vanish") {
-    SpanRows rows;
+    RunRows rows;
     rows.push(0, 10);
     rows.push(10, 20);
     rows.push(20, 20);
@@ -86,8 +86,8 @@ TEST_CASE("runs that meet are joined, empty ones vanish") {
 
 TEST_CASE("lines appended at once are the lines appended one by one") {
     std::mt19937 random(7);
-    const SpanRows rows = random_rows(random, 20), more = random_rows(random, 30);
-    SpanRows at_once = rows, one_by_one = rows;
+    const RunRows rows = random_rows(random, 20), more = random_rows(random, 30);
+    RunRows at_once = rows, one_by_one = rows;
     at_once.append_lines(more, 4, 17);
     at_once.append_lines(more, 30, 0);
     at_once.append_lines(more);

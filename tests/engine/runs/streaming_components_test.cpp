@@ -13,11 +13,11 @@ namespace {
 
 constexpr int layers = 40, rows = 12, columns = 16;
 
-std::vector<SpanRows> random_stack(unsigned seed, double density) {
+std::vector<RunRows> random_stack(unsigned seed, double density) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> draw(0, 1);
-    std::vector<SpanRows> stack(layers);
-    for (SpanRows& layer : stack) {
+    std::vector<RunRows> stack(layers);
+    for (RunRows& layer : stack) {
         for (int r = 0; r < rows; ++r) {
             for (int c = 0; c < columns; ++c) {
                 if (draw(random) < density)
@@ -38,8 +38,8 @@ std::vector<std::int64_t> numbers_of(const ComponentExtent& e) {
     return {e.length, e.along.begin, e.along.end, e.first_row, e.last_row, e.first_layer, e.last_layer};
 }
 
-SpanRows drawn(const std::vector<std::string>& lines) {
-    SpanRows out;
+RunRows drawn(const std::vector<std::string>& lines) {
+    RunRows out;
     for (const std::string& line : lines) {
         for (std::size_t i = 0; i < line.size(); ++i) {
             if (line[i] == '#') out.push(static_cast<int>(i) * run_unit, static_cast<int>(i + 1) * run_unit);

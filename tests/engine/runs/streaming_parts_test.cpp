@@ -11,9 +11,9 @@ using namespace lamella;
 
 namespace {
 
-SpanRows random_layer(std::mt19937& random, double density) {
+RunRows random_layer(std::mt19937& random, double density) {
     std::uniform_real_distribution<double> draw(0, 1);
-    SpanRows layer;
+    RunRows layer;
     for (int r = 0; r < 12; ++r) {
         for (int c = 0; c < 16; ++c) {
             if (draw(random) < density) layer.push(c * 10, c * 10 + 4 + static_cast<int>(3 * draw(random)));

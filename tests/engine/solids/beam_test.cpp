@@ -103,8 +103,8 @@ TEST_CASE("the row kernel equals the exact cut to a run unit, on rows and column
         RowBand band{round % 3 == 0 ? Axis::y : Axis::x, -5, 0.05, -5, 0.05, 0, 200, 2, 0, 200};
         if (round % 4 == 1) band.along_origin = 5, band.along_pitch = -0.05;
         if (round % 4 == 2) band.across_origin = 5, band.across_pitch = -0.05;
-        SpanRows rows;
-        slice.spans(band, scratch, rows);
+        RunRows rows;
+        slice.runs(band, scratch, rows);
         const dvec3 direction = band.axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         for (int l = 0; l < band.lines(); ++l) {
             const double v = band.line(l);
@@ -137,14 +137,14 @@ TEST_CASE("every SIMD target gives the same bits") {
     for (int k = 0; k < 400; ++k) beams.push_back(random_beam(random));
     const OneBeam field(beams[0]);
     const RowBand band{Axis::x, -5, 0.01, -5, 0.01, 0, 1000, 3, 0, 1000};
-    std::vector<SpanRows> results;
+    std::vector<RunRows> results;
     const auto targets = simd_targets();
     REQUIRE(targets.size() >= 2);
     for (const std::string& target : targets) {
         force_simd_target(target);
         Scratch scratch;
         results.emplace_back();
-        BeamSlice(field, beams, 0.1).spans(band, scratch, results.back());
+        BeamSlice(field, beams, 0.1).runs(band, scratch, results.back());
     }
     force_simd_target("");
     for (std::size_t k = 0; k < results.size(); ++k) {

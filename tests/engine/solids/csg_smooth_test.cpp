@@ -58,12 +58,12 @@ TEST_CASE("away from the seam, runs are those of the plain operations to the las
     const FieldPtr near_ball = make_sphere({5, 1, 0.5}, 2.5 + radius);
     const RowBand band = band_over({{-10, -10, -3}, {10, 10, 3}}, 0.04);
     for (double z = -2.97; z < 3.2; z += 0.37) {
-        const SpanRows near = runs_at(*near_ball, z, band);
-        SpanRows rest, plain_rest;
+        const RunRows near = runs_at(*near_ball, z, band);
+        RunRows rest, plain_rest;
         subtract(runs_at(*make_smooth_union(ring, ball, radius), z, band), near, rest);
         subtract(runs_at(*make_union({ring, ball}), z, band), near, plain_rest);
         CHECK(rest == plain_rest);
-        SpanRows cut, plain_cut;
+        RunRows cut, plain_cut;
         subtract(runs_at(*make_smooth_difference(ring, ball, radius), z, band), near, cut);
         subtract(runs_at(*make_difference(ring, ball), z, band), near, plain_cut);
         CHECK(cut == plain_cut);
@@ -75,8 +75,8 @@ TEST_CASE("a rounded union holds both, and a rounded difference nothing of what 
     const FieldPtr ball = make_sphere({5, 1, 0.5}, 2.5);
     const RowBand band = band_over({{-10, -10, -3}, {10, 10, 3}}, 0.05);
     for (double z = -2.4; z < 2.5; z += 0.4) {
-        const SpanRows both = runs_at(*make_smooth_union(ring, ball, 0.9), z, band);
-        SpanRows missing, left;
+        const RunRows both = runs_at(*make_smooth_union(ring, ball, 0.9), z, band);
+        RunRows missing, left;
         subtract(runs_at(*make_union({ring, ball}), z, band), both, missing);
         CHECK(missing.runs().empty());
         intersect(runs_at(*make_smooth_difference(ring, ball, 0.9), z, band), runs_at(*ball, z, band), left);

@@ -56,8 +56,8 @@ TEST_CASE("runs of polygons are where an odd number of them is", "[polygon_slice
             band.count = 200;
             band.hi = 260;
             Scratch scratch;
-            SpanRows rows;
-            slice.spans(band, scratch, rows);
+            RunRows rows;
+            slice.runs(band, scratch, rows);
             REQUIRE(rows.lines() == static_cast<std::size_t>(band.lines()));
             for (int l = 0; l < band.lines(); l += 7) {
                 for (int u = 37; u < 260 * run_unit; u += 991) {

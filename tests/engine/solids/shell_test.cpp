@@ -79,7 +79,7 @@ double brute_value(const std::vector<Sample>& samples, dvec3 p) {
     return least;
 }
 
-bool solid_at(const SpanRows& rows, int line, double u) {
+bool solid_at(const RunRows& rows, int line, double u) {
     for (const Run& run : rows.line(static_cast<std::size_t>(line))) {
         if (run.begin <= u && u < run.end) return true;
     }
@@ -203,8 +203,8 @@ TEST_CASE("the runs of a graded skin are solid exactly where its value is negati
                     SliceContext context;
                     const RowBand band{
                         round % 2 == 0 ? Axis::x : Axis::y, -4, 0.04, -4, 0.31, 0, 26, 1, 0, 200};
-                    SpanRows rows;
-                    context.slice(*skin, z).spans(band, scratch, rows);
+                    RunRows rows;
+                    context.slice(*skin, z).runs(band, scratch, rows);
                     for (int k = 0; k < 400; ++k) {
                         const int l = static_cast<int>(random() % 26);
                         const double u = static_cast<double>(random() % 51200) + 0.5;
@@ -242,8 +242,8 @@ TEST_CASE("the runs of a skin on any side are solid exactly where its value is n
                 const double z = height(random);
                 SliceContext context;
                 const RowBand band{Axis::x, -6, 0.04, -6, 0.31, 0, 38, 1, 0, 300};
-                SpanRows rows;
-                context.slice(*part, z).spans(band, scratch, rows);
+                RunRows rows;
+                context.slice(*part, z).runs(band, scratch, rows);
                 for (int k = 0; k < 120; ++k) {
                     const int l = static_cast<int>(random() % 38);
                     const double u = static_cast<double>(random() % 76800) + 0.5;
@@ -299,10 +299,10 @@ TEST_CASE("a skin outside a mesh is the mesh grown less the mesh, its seam close
     const RowBand band{Axis::x, -6, 0.04, -6, 0.05, 0, 240, 1, 0, 300};
     for (const double z : {-1.9, -1.5, 0.1, 1.4, 1.7}) {
         for (const auto& [field, by] : {std::pair(filled, 0.5), std::pair(centred, 0.25)}) {
-            SpanRows expected, got;
+            RunRows expected, got;
             SliceContext context;
-            context.slice(*make_offset(body, by), z).spans(band, scratch, expected);
-            context.slice(*field, z).spans(band, scratch, got);
+            context.slice(*make_offset(body, by), z).runs(band, scratch, expected);
+            context.slice(*field, z).runs(band, scratch, got);
             REQUIRE(got == expected);
         }
     }
@@ -316,12 +316,12 @@ TEST_CASE("a skin of a constant thickness takes the constant path, to the bit") 
     Scratch scratch;
     for (const double z : {-0.8, 0.1, 0.77}) {
         const RowBand band{Axis::x, -4, 0.04, -4, 0.05, 0, 160, 1, 0, 200};
-        SpanRows expected, got;
+        RunRows expected, got;
         SliceContext context;
-        context.slice(*plain, z).spans(band, scratch, expected);
+        context.slice(*plain, z).runs(band, scratch, expected);
         REQUIRE(!expected.runs().empty());
         for (const FieldPtr& field : {graded, clamped}) {
-            context.slice(*field, z).spans(band, scratch, got);
+            context.slice(*field, z).runs(band, scratch, got);
             REQUIRE(got == expected);
             REQUIRE(field->value({0.3, 0.2, z}) == plain->value({0.3, 0.2, z}));
         }

@@ -88,8 +88,8 @@ bool solid_at(const Field& field, dvec3 p, Axis axis) {
     const RowBand band{axis, along - 2.5 * pitch, pitch, across - pitch / 2, pitch, 0, 1, 1, 0, 5};
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(field, p.z).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(field, p.z).runs(band, scratch, rows);
     const int u = 5 * run_unit / 2;
     for (const Run& run : rows.line(0)) {
         if (run.begin <= u && u < run.end) return true;

@@ -26,7 +26,7 @@ RoundTriangle random_triangle(std::mt19937& random, int round) {
     return t;
 }
 
-SpanRows rows_of(const std::vector<RoundTriangle>& triangles, double z, const RowBand& band) {
+RunRows rows_of(const std::vector<RoundTriangle>& triangles, double z, const RowBand& band) {
     std::vector<Beam> beams;
     for (const RoundTriangle& t : triangles) {
         for (std::size_t i = 0; i < 3; ++i) beams.push_back(edge_beam(t, i));
@@ -37,7 +37,7 @@ SpanRows rows_of(const std::vector<RoundTriangle>& triangles, double z, const Ro
     collector.clear();
     wedges.collect(band, collector);
     edges.collect(band, collector);
-    SpanRows rows;
+    RunRows rows;
     collector.merge(band, rows);
     return rows;
 }
@@ -56,7 +56,7 @@ TEST_CASE("the rows of a round triangle are its exact cuts, on rows and columns,
         RowBand band{round % 3 == 0 ? Axis::y : Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200};
         if (round % 4 == 1) band.along_origin = 5, band.along_pitch = -0.05;
         if (round % 4 == 2) band.across_origin = 5, band.across_pitch = -0.05;
-        const SpanRows rows = rows_of({t}, z, band);
+        const RunRows rows = rows_of({t}, z, band);
         const dvec3 direction = band.axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         for (int l = 0; l < band.lines(); ++l) {
             const double v = band.line(l);
@@ -89,7 +89,7 @@ TEST_CASE("the rows of many round triangles are the same bits on every SIMD targ
     std::vector<RoundTriangle> triangles;
     for (int k = 0; k < 200; ++k) triangles.push_back(random_triangle(random, k));
     RowBand band{Axis::x, -5, 0.02, -5, 0.02, 0, 500, 2, 0, 500};
-    const SpanRows all = rows_of(triangles, 0.1, band);
+    const RunRows all = rows_of(triangles, 0.1, band);
     REQUIRE(all.runs().size() > 500);
     for (const std::string& target : simd_targets()) {
         INFO("target " << target);
@@ -99,7 +99,7 @@ TEST_CASE("the rows of many round triangles are the same bits on every SIMD targ
     force_simd_target("");
     band.count = 20;
     for (band.first = 0; band.first < 500; band.first += 20) {
-        const SpanRows part = rows_of(triangles, 0.1, band);
+        const RunRows part = rows_of(triangles, 0.1, band);
         for (std::size_t l = 0; l < part.lines(); ++l) {
             const auto got = part.line(l), expected = all.line(static_cast<std::size_t>(band.first) * 2 + l);
             REQUIRE(std::equal(got.begin(), got.end(), expected.begin(), expected.end()));

@@ -37,11 +37,11 @@ HollowOptions options_of(double wall, double pitch = 0.1) {
 Job job_of(const FieldPtr& part) { return scenes::job_of(part, part->bounds(), height); }
 
 /// The cavities of each layer of a plan as rows.
-std::vector<SpanRows> layers_of(const RunBoxes& plan, int layers, int lines) {
-    std::vector<SpanRows> stack;
+std::vector<RunRows> layers_of(const RunBoxes& plan, int layers, int lines) {
+    std::vector<RunRows> stack;
     auto at = plan.runs().begin();
     for (int i = 0; i < layers; ++i) {
-        SpanRows rows;
+        RunRows rows;
         for (int l = 0; l < lines; ++l) {
             for (; at != plan.runs().end() && at->layer == i && at->row == l; ++at)
                 rows.push(at->begin, at->end);

@@ -107,8 +107,8 @@ std::vector<PlacedRun> all_runs(const Job& job, double pitch) {
     const int n = static_cast<int>(job.bounds.size().x / pitch) + 1;
     const RowBand band{Axis::x, job.bounds.lo.x, pitch, job.bounds.lo.y, pitch, 0, n, 1, 0, n};
     for (int layer = 0; layer < job.layer_count; ++layer) {
-        SpanRows rows;
-        Layer(job, layer).spans(band, rows);
+        RunRows rows;
+        Layer(job, layer).runs(band, rows);
         for (int r = 0; r < n; ++r) {
             for (const Run& run : rows.line(static_cast<std::size_t>(r))) {
                 runs.push_back({layer, r, run.begin, run.end});

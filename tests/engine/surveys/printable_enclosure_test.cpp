@@ -19,7 +19,7 @@ constexpr int lines = 48;
 constexpr std::size_t plenty = 100'000'000;
 constexpr double step = 2.0 * run_unit, corner = 1.6 * step;
 
-using Stack = std::vector<SpanRows>;
+using Stack = std::vector<RunRows>;
 
 /// Balls of at least `least` pixels at random.
 Stack balls(unsigned seed, int layers, int count, double least) {
@@ -45,12 +45,12 @@ Stack balls(unsigned seed, int layers, int count, double least) {
 
 LayerStack kept(const Stack& stack) {
     LayerStack layers(plenty, 0.1);
-    for (const SpanRows& rows : stack) layers.push(rows);
+    for (const RunRows& rows : stack) layers.push(rows);
     return layers;
 }
 
-bool within(const SpanRows& a, const SpanRows& b) {
-    SpanRows rest;
+bool within(const RunRows& a, const RunRows& b) {
+    RunRows rest;
     subtract(a, b, rest);
     return rest.runs().empty();
 }
@@ -68,7 +68,7 @@ void check_bonds(const Stack& stack, const LayerStack& layers) {
 }
 
 /// Distance from a place to the nearest outside the rows, beyond which all is outside.
-double depth(const SpanRows& rows, int l, std::int32_t u) {
+double depth(const RunRows& rows, int l, std::int32_t u) {
     double nearest = infinity;
     for (int k = -1; k <= lines; ++k) {
         const bool beyond = k < 0 || k >= lines;
@@ -87,7 +87,7 @@ struct Spare {
 Spare spare_places(const Stack& stack, const LayerStack& layers) {
     Spare spare;
     for (std::size_t i = 0; i < stack.size(); ++i) {
-        SpanRows added;
+        RunRows added;
         subtract(layers[i], stack[i], added);
         for (int l = 0; l < lines; ++l) {
             for (const Run& run : added.line(static_cast<std::size_t>(l))) {
@@ -154,7 +154,7 @@ TEST_CASE("what begins in the air tapers off below, to a thin pillar", "[enclosu
         enclose(layers, {step, corner, run_unit}, nullptr);
         check_bonds(stack, layers);
         for (int below = 0; below < count; ++below) {
-            const SpanRows& rows = layers[static_cast<std::size_t>(count - 1 - below)];
+            const RunRows& rows = layers[static_cast<std::size_t>(count - 1 - below)];
             check(below, static_cast<double>(rows.total_length()) / run_unit);
         }
     };
@@ -199,7 +199,7 @@ TEST_CASE("an enclosure has no more room than it is given, and stops when told t
     const Stack stack = balls(1, 30, 6, 1);
     REQUIRE_THROWS_AS(
         [&] {
-            for (const SpanRows& rows : stack) small.push(rows);
+            for (const RunRows& rows : stack) small.push(rows);
         }(),
         InputError);
     LayerStack layers = kept(stack);

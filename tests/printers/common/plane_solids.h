@@ -57,10 +57,10 @@ class FigureSlice : public SliceField {
     FigureSlice(std::vector<Figure> figures, std::vector<Figure> holes)
         : figures_(std::move(figures)), holes_(std::move(holes)) {}
 
-    void spans(const RowBand& band, Scratch&, SpanRows& out) const override {
+    void runs(const RowBand& band, Scratch&, RunRows& out) const override {
         out.clear();
-        SpanRows solid;
-        SpanRows hollow;
+        RunRows solid;
+        RunRows hollow;
         collect(band, figures_, solid);
         collect(band, holes_, hollow);
         for (std::size_t l = 0; l < solid.lines(); ++l) {
@@ -102,7 +102,7 @@ class FigureSlice : public SliceField {
     }
 
   private:
-    static void collect(const RowBand& band, const std::vector<Figure>& figures, SpanRows& out) {
+    static void collect(const RowBand& band, const std::vector<Figure>& figures, RunRows& out) {
         for (int l = 0; l < band.lines(); ++l) {
             std::vector<std::pair<std::int32_t, std::int32_t>> runs;
             for (const Figure& figure : figures) {

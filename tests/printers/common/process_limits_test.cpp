@@ -71,7 +71,8 @@ TEST_CASE("each kind of machine works by its process", "[check]") {
     profile.check.process = Process::powder;
     CHECK(process_of(profile) == Process::powder);
     // No back-end is forgotten: all of them have one.
-    for (const BackendInfo& backend : backends()) CHECK(process_of(machine(backend.name)) != Process::usual);
+    for (const BackendInfo& backend : backends())
+        CHECK(process_of(machine(backend.name)) != Process::from_backend);
 }
 
 TEST_CASE("what matters is decided by the process, and by the profile over it", "[check]") {

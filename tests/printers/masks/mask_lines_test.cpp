@@ -62,11 +62,11 @@ TEST_CASE("what masks keep of their lines is what those lines give when they are
             lines->step = 3;
             for (const int index : {5, 25, 45}) {
                 const Layer layer(job, index);
-                layer.keep_lines(*lines);
+                layer.cache_lines(*lines);
                 CHECK(layer.kept_lines(layer.part(), *lines) == nullptr);
                 draw(layer, profile);
                 for (const SliceField* slice : {&layer.part(), layer.supports()}) {
-                    const SpanRows* kept = layer.kept_lines(*slice, *lines);
+                    const RunRows* kept = layer.kept_lines(*slice, *lines);
                     REQUIRE(kept != nullptr);
                     CHECK(*kept == all_rows(*slice, *lines, scratch));
                 }
@@ -89,7 +89,7 @@ TEST_CASE("masks that are made of more than lines keep none", "[mask]") {
         profile.sub_layers = exact ? 1 : 2;
         CHECK_FALSE(mask_lines(profile, job.bounds).has_value());
         const Layer layer(job, 25);
-        layer.keep_lines(lines);
+        layer.cache_lines(lines);
         draw(layer, profile);
         CHECK(layer.kept_lines(layer.part(), lines) == nullptr);
     }

@@ -43,7 +43,7 @@ TEST_CASE("no two rectangles of a sheet come nearer than the margin, whatever th
 
 TEST_CASE("a rectangle as large as the room fits, a larger one does not", "[nesting]") {
     const dvec2 size(100, 60);
-    CHECK(room_of_sheet(size, 5) == dvec2(90, 50));
+    CHECK(usable_sheet_size(size, 5) == dvec2(90, 50));
     const auto corner = ShelfSheet(size, 5).place({90, 50});
     REQUIRE(corner);
     CHECK(corner->x == Approx(5));

@@ -46,11 +46,11 @@ std::vector<bool> voxels(const Field& foam, int n, double pitch) {
     const auto side = static_cast<std::size_t>(n);
     std::vector<bool> solid(side * side * side);
     Scratch scratch;
-    SpanRows rows;
+    RunRows rows;
     for (int z = 0; z < n; ++z) {
         SliceContext context;
         const RowBand band{Axis::x, 0, pitch, 0, pitch, 0, n, 1, 0, n};
-        context.slice(foam, (z + 0.5) * pitch).spans(band, scratch, rows);
+        context.slice(foam, (z + 0.5) * pitch).runs(band, scratch, rows);
         for (int y = 0; y < n; ++y) {
             for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
                 // A voxel is solid where its row is over at least half of it.
@@ -176,8 +176,8 @@ TEST_CASE("the runs of a foam with walls are solid exactly where its value is ne
             const double z = 0.31 + 0.9 * layer;
             SliceContext context;
             const RowBand band{layer % 2 == 0 ? Axis::x : Axis::y, 0, 0.03, 0.01, 0.21, 0, 28, 1, 0, 200};
-            SpanRows rows;
-            context.slice(foam, z).spans(band, scratch, rows);
+            RunRows rows;
+            context.slice(foam, z).runs(band, scratch, rows);
             for (int k = 0; k < 700; ++k) {
                 const CounterHash hash(25, 0, k, layer, 0);
                 const int l = static_cast<int>(28 * hash.uniform(0));
@@ -259,14 +259,14 @@ TEST_CASE("the foam with walls does not depend on the region, the cache or the o
         CHECK(a.value(p) == b.value(p));
     }
     Scratch scratch;
-    SpanRows whole, part;
+    RunRows whole, part;
     SliceContext context;
     const SliceField& slice = context.slice(c, 2.2);
     RowBand band{Axis::x, 0, 0.03, 0, 0.03, 0, 200, 1, 0, 200};
-    slice.spans(band, scratch, whole);
+    slice.runs(band, scratch, whole);
     band.count = 20;
     for (band.first = 0; band.first < 200; band.first += 20) {
-        slice.spans(band, scratch, part);
+        slice.runs(band, scratch, part);
         for (std::size_t l = 0; l < 20; ++l) {
             const auto got = part.line(l), expected = whole.line(static_cast<std::size_t>(band.first) + l);
             REQUIRE(std::equal(got.begin(), got.end(), expected.begin(), expected.end()));

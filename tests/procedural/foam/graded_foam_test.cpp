@@ -255,11 +255,11 @@ TEST_CASE("strips give the runs of the undivided plane", "[graded_foam]") {
     const PlaneStrips whole(foam, query, foam.bounds().rect(), 1, 4.3),
         cut(foam, query, foam.bounds().rect(), 7, 4.3);
     Scratch scratch;
-    SpanRows expected, found;
+    RunRows expected, found;
     for (const Axis axis : {Axis::x, Axis::y}) {
         RowBand band{axis, 0, 0.05, 0, 0.05, 30, 150, 2, 0, 240};
-        whole.spans(band, scratch, expected);
-        cut.spans(band, scratch, found);
+        whole.runs(band, scratch, expected);
+        cut.runs(band, scratch, found);
         CHECK(std::equal(expected.runs().begin(), expected.runs().end(), found.runs().begin(),
                          found.runs().end()));
         CHECK(expected.runs().size() > 1000);

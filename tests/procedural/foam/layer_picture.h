@@ -94,7 +94,7 @@ struct LayerGrid {
 
 inline LayerPicture picture_of(const Field& field, double z, const RowBand& band) {
     LayerPicture picture(band.hi, band.count);
-    const SpanRows rows = runs_at(field, z, band);
+    const RunRows rows = runs_at(field, z, band);
     for (int y = 0; y < band.count; ++y) {
         for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
             // The first pixel whose middle is not before the run's begin.

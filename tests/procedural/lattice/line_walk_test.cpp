@@ -29,7 +29,7 @@ class Shifted : public LineFunction {
 
 template <typename Value>
 std::vector<Run> walk(const Value& value, double steepest, int lo, int hi) {
-    SpanRows out;
+    RunRows out;
     walk_lines(Shifted(value, steepest, 0), 1, lo * run_unit, hi * run_unit, out);
     REQUIRE(out.lines() == 1);
     return {out.runs().begin(), out.runs().end()};
@@ -105,7 +105,7 @@ TEST_CASE("many lines are each walked as if alone", "[line_walk]") {
     constexpr std::size_t count = 700;
     constexpr int hi = 400;
     constexpr double shift = 37;
-    SpanRows out;
+    RunRows out;
     walk_lines(Shifted(wave, 0.02, shift), count, 0, hi * run_unit, out);
     REQUIRE(out.lines() == count);
     for (std::size_t l = 0; l < count; ++l) {
@@ -113,7 +113,7 @@ TEST_CASE("many lines are each walked as if alone", "[line_walk]") {
         const auto line = out.line(l);
         CHECK(std::vector<Run>(line.begin(), line.end()) == walk(alone, 0.02, 0, hi));
     }
-    SpanRows none;
+    RunRows none;
     walk_lines(Shifted(wave, 0.02, shift), 0, 0, hi * run_unit, none);
     CHECK(none.lines() == 0);
 }

@@ -65,11 +65,11 @@ RowBand band_over(const Box& region, Axis axis, double pitch) {
     return band;
 }
 
-SpanRows runs_of(const Field& field, const RowBand& band, double z) {
+RunRows runs_of(const Field& field, const RowBand& band, double z) {
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(field, z).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(field, z).runs(band, scratch, rows);
     return rows;
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("runs end where g reaches its levels, along rows and columns", "[tpms]
                     const auto field = make_tpms(settings(kind, network, period, share * period, region));
                     const Interval levels = defined_levels(kind, network, share);
                     const RowBand band = band_over(region, axis, 0.05);
-                    const SpanRows rows = runs_of(*field, band, z);
+                    const RunRows rows = runs_of(*field, band, z);
                     const auto g = [&](double u, int line) {
                         return defined_g(kind, (position(band, u, line, z) - center) * (2 * pi / period));
                     };
@@ -272,7 +272,7 @@ TEST_CASE("a solid with one graded number has the runs of its definition", "[tpm
                 const double z = -0.43, pitch = 0.08;
                 for (const Axis axis : {Axis::x, Axis::y}) {
                     const RowBand band = band_over(region, axis, pitch);
-                    const SpanRows rows = runs_of(*field, band, z);
+                    const RunRows rows = runs_of(*field, band, z);
                     const auto solid = [&](double u, int l) {
                         const dvec3 p = position(band, u, l, z);
                         const double period = s.period->at(p);

@@ -103,13 +103,13 @@ TEST_CASE("a part without distances is felt for", "[free_space]") {
     const FieldPtr ball = make_sphere({0, 0, 5}, 3);
     const SignsOnly signs(ball);
     const FreeSpace space(signs, 0);
-    CHECK(space.room({0, 0, 12}, 2) == Approx(2));
-    CHECK(space.room({0, 0, 8.5}, 2) <= 0.5);
-    CHECK(space.room({0, 0, 5}, 2) < 0);
+    CHECK(space.clearance({0, 0, 12}, 2) == Approx(2));
+    CHECK(space.clearance({0, 0, 8.5}, 2) <= 0.5);
+    CHECK(space.clearance({0, 0, 5}, 2) < 0);
     CHECK(space.clear({5, 0, 0}, {5, 0, 10}, 1.5));
     CHECK(!space.clear({4, 0, 0}, {4, 0, 10}, 1.5));
     // Close to the part, too, where a connector leaves it.
-    CHECK(space.room({0, 0, 1.7}, 5) > 0.2);
+    CHECK(space.clearance({0, 0, 1.7}, 5) > 0.2);
     CHECK(space.clear_from_contact({0, 0, 2}, {0, 0, -2}, 1));
     CHECK(!space.clear_from_contact({0, 0, 2}, {0, 0, 8}, 1));
 }

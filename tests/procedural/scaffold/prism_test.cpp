@@ -41,7 +41,7 @@ TEST_CASE("rows and columns of upright pieces agree with their distance", "[upri
             runs.clear();
             const UprightRows rows({piece});
             rows.collect(band, runs);
-            SpanRows merged;
+            RunRows merged;
             runs.merge(band, merged);
             for (int l = 0; l < band.lines(); ++l) {
                 std::vector<std::uint8_t> solid(121, 0);

@@ -115,11 +115,11 @@ TEST_CASE("a scaffold's slices are those of its pieces, and its bounds hold them
         const RowBand band = band_over(grown(bounds, 1), 0.11);
         std::int64_t solid = 0;
         for (double z = bounds.lo.z - 0.53; z < bounds.hi.z + 0.5; z += 0.31) {
-            SpanRows only, other;
-            const SpanRows made = runs_at(*field, z, band), expected = runs_at(*pieces, z, band);
+            RunRows only, other;
+            const RunRows made = runs_at(*field, z, band), expected = runs_at(*pieces, z, band);
             subtract(made, expected, only);
             subtract(expected, made, other);
-            for (const SpanRows* rest : {&only, &other}) {
+            for (const RunRows* rest : {&only, &other}) {
                 // Turned boxes have runs read off samples, which end within a hundredth of a millimetre.
                 for (std::size_t l = 0; l < rest->lines(); ++l) {
                     for (const Run& run : rest->line(l)) {
@@ -146,7 +146,7 @@ TEST_CASE("layers of a bar and of a foot are as many as their heights have", "[s
     const FieldPtr field = make_scaffold_field(scaffold);
     const auto length_at = [&](int layer) {
         const RowBand band = band_over({{-5, -0.05, 0}, {10, 0.05, 1}}, 0.1);
-        const SpanRows rows = runs_at(*field, (layer + 0.5) * 0.2, band);
+        const RunRows rows = runs_at(*field, (layer + 0.5) * 0.2, band);
         return static_cast<double>(rows.total_length()) / run_unit * 0.1;
     };
     for (int layer = 0; layer < 20; ++layer) {

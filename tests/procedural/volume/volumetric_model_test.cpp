@@ -166,7 +166,7 @@ TEST_CASE("a gyroid's graph is the same formula: bits, ranges and runs", "[volum
     const FieldPtr read = model.built();
     const RowBand band = band_over(cube, 0.1);
     for (const double z : {-5.0, -1.3, 0.4, 3.3}) {
-        const SpanRows a = runs_at(*written, z, band), b = runs_at(*read, z, band);
+        const RunRows a = runs_at(*written, z, band), b = runs_at(*read, z, band);
         REQUIRE(a.lines() == b.lines());
         for (std::size_t line = 0; line < a.lines(); ++line) {
             const auto p = a.line(line), q = b.line(line);

@@ -35,7 +35,7 @@ std::string grading(const std::string& keys) { return "[[grading]]\nname = \"g\"
 double at(const std::string& keys, dvec3 p, const std::string& formula = "g") {
     const Recipe recipe = read(grading(keys));
     Gradings gradings(recipe);
-    return gradings.of({formula, "here"})->at(p);
+    return gradings.resolve({formula, "here"})->at(p);
 }
 
 /// A file that is gone when the test is.
@@ -139,10 +139,10 @@ TEST_CASE("an attribute is what the mesh's nearest surface has, in the part's sc
 TEST_CASE("the depth is measured from the part's surface") {
     const Recipe recipe = read("");
     Gradings gradings(recipe);
-    CHECK_THROWS_AS(gradings.of({"d", "--cell"}), InputError);
+    CHECK_THROWS_AS(gradings.resolve({"d", "--cell"}), InputError);
     std::optional<MeshReport> none;
     gradings.set_body(build_body(recipe, gradings, none));
-    CHECK(gradings.of({"2 * d", "--cell"})->at({0, 0, 7}) == Approx(6));
+    CHECK(gradings.resolve({"2 * d", "--cell"})->at({0, 0, 7}) == Approx(6));
 }
 
 TEST_CASE("a file that is missing is told with the grading that wants it, and only when it is used") {

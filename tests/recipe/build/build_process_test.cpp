@@ -24,8 +24,8 @@ dvec2 widths(const Job& job, int index) {
     dvec2 found{0};
     for (const Axis axis : {Axis::x, Axis::y}) {
         const RowBand band{axis, -10, 0.05, 0.01, 0.05, 0, 1, 1, 0, 400};
-        SpanRows rows;
-        layer.spans(band, rows);
+        RunRows rows;
+        layer.runs(band, rows);
         if (rows.runs().empty()) continue;
         const auto runs = rows.line(0);
         found[axis == Axis::x ? 0 : 1] = (runs.back().end - runs.front().begin) * band.along_pitch / run_unit;
@@ -103,9 +103,9 @@ TEST_CASE("a scaled part is cut where the designed one would be") {
     REQUIRE(scaled.job.layer_count == scaled.designed.layer_count);
     for (const int index : {0, 77, 199}) {
         const Layer printed(scaled.job, index), designed(scaled.designed, index);
-        SpanRows got, expected;
-        printed.spans({Axis::x, -6.25, 0.0625, -6.25, 0.0625, 0, 200, 1, 0, 200}, got);
-        designed.spans({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, expected);
+        RunRows got, expected;
+        printed.runs({Axis::x, -6.25, 0.0625, -6.25, 0.0625, 0, 200, 1, 0, 200}, got);
+        designed.runs({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, expected);
         REQUIRE(!expected.runs().empty());
         // The plane's height and the positions may differ by a rounding.
         CHECK(std::abs(got.total_length() - expected.total_length()) < 200);
@@ -124,11 +124,11 @@ TEST_CASE("islands are dropped from a scaled part as from the designed one") {
     CHECK(a.islands->count == b.islands->count);
     CHECK(a.islands->volume == b.islands->volume);
     const Layer one(a.job, 40), other(b.job, 40), kept(b.designed, 40);
-    SpanRows expected, got;
-    one.spans({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, expected);
-    kept.spans({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, got);
+    RunRows expected, got;
+    one.runs({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, expected);
+    kept.runs({Axis::x, -5, 0.05, -5, 0.05, 0, 200, 1, 0, 200}, got);
     CHECK(got == expected);
-    other.spans({Axis::x, -5.5, 0.055, -5.5, 0.055, 0, 200, 1, 0, 200}, got);
+    other.runs({Axis::x, -5.5, 0.055, -5.5, 0.055, 0, 200, 1, 0, 200}, got);
     CHECK(std::abs(got.total_length() - expected.total_length()) < 500);
 }
 

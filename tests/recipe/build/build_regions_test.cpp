@@ -36,8 +36,8 @@ std::string region(const std::string& field, const std::string& rest) {
 const FieldPtr ball = make_sphere({2, 1, 0}, 4);
 
 /// Runs of several layers of the part.
-std::vector<SpanRows> layers(const BuiltJob& built, double pitch) {
-    std::vector<SpanRows> all;
+std::vector<RunRows> layers(const BuiltJob& built, double pitch) {
+    std::vector<RunRows> all;
     for (double z = -5.9; z < 6; z += 0.83)
         all.push_back(runs_at(*built.job.part, z, band_over(built.job.bounds, pitch)));
     return all;
@@ -75,14 +75,14 @@ TEST_CASE("a solid region is solid to its surface, stays within the body, and le
         CHECK(with.job.bounds.hi.z == 6);
         const RowBand band = band_over(grown(with.job.bounds, 2), 0.06);
         for (double z = -5.9; z < 7.5; z += 0.61) {
-            const SpanRows part = runs_at(*with.job.part, z, band), body = runs_at(*with.body, z, band);
-            SpanRows in_body, missing, beyond, rest, before;
+            const RunRows part = runs_at(*with.job.part, z, band), body = runs_at(*with.body, z, band);
+            RunRows in_body, missing, beyond, rest, before;
             intersect(runs_at(*high_ball, z, band), body, in_body);
             subtract(in_body, part, missing);
             CHECK(missing.runs().empty());
             subtract(part, body, beyond);
             CHECK(beyond.runs().empty());
-            const SpanRows near = runs_at(*reach, z, band);
+            const RunRows near = runs_at(*reach, z, band);
             subtract(part, near, rest);
             subtract(runs_at(*without.job.part, z, band), near, before);
             CHECK(rest == before);
@@ -101,11 +101,11 @@ TEST_CASE("a keep-out zone is void and leaves what is farther than its blend byt
         const RowBand band = band_over(with.job.bounds, 0.06);
         int touched = 0;
         for (double z = -5.9; z < 6; z += 0.61) {
-            const SpanRows part = runs_at(*with.job.part, z, band), old = runs_at(*without.job.part, z, band);
-            SpanRows inside, rest, before;
+            const RunRows part = runs_at(*with.job.part, z, band), old = runs_at(*without.job.part, z, band);
+            RunRows inside, rest, before;
             intersect(part, runs_at(*shaft(-1e-4), z, band), inside);
             CHECK(inside.runs().empty());
-            const SpanRows near = runs_at(*shaft(blend + 1e-4), z, band);
+            const RunRows near = runs_at(*shaft(blend + 1e-4), z, band);
             subtract(part, near, rest);
             subtract(old, near, before);
             CHECK(rest == before);
@@ -244,8 +244,8 @@ TEST_CASE("regions give the same layers whatever the order and the thread they a
                              region("half", "\"foam\"\ncell = 1.8\nblend = 3") +
                              region("half", "\"skin\"\nthickness = 0.4\nblend = 2");
     const BuiltJob built = build(text);
-    const std::vector<SpanRows> once = layers(built, 0.1);
-    std::vector<std::vector<SpanRows>> again(3);
+    const std::vector<RunRows> once = layers(built, 0.1);
+    std::vector<std::vector<RunRows>> again(3);
     std::vector<std::thread> threads;
     for (auto& result : again) {
         threads.emplace_back([&result, &text] { result = layers(build(text), 0.1); });

@@ -37,8 +37,8 @@ double area(const BuiltJob& job, double z) {
     band.hi = static_cast<int>(box.size().x / pitch + 1.5);
     SliceContext context;
     Scratch scratch;
-    SpanRows rows;
-    context.slice(*job.job.part, z).spans(band, scratch, rows);
+    RunRows rows;
+    context.slice(*job.job.part, z).runs(band, scratch, rows);
     return static_cast<double>(rows.total_length()) / run_unit * pitch * pitch;
 }
 

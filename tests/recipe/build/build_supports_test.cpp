@@ -39,14 +39,14 @@ Walk walk(const Job& job) {
     // Run ends are rounded to a unit.
     const double lo = band.coordinate(job.bounds.lo.x) - 1, hi = band.coordinate(job.bounds.hi.x) + 1;
     for (int layer = -8; layer < job.layer_count + 4; ++layer) {
-        const SpanRows part = runs_at(*job.part, job.plane(layer), band);
-        const SpanRows supports = runs_at(*job.supports, job.plane(layer), band);
+        const RunRows part = runs_at(*job.part, job.plane(layer), band);
+        const RunRows supports = runs_at(*job.supports, job.plane(layer), band);
         found.part += static_cast<double>(part.total_length()) * volume;
         found.supports += static_cast<double>(supports.total_length()) * volume;
         for (std::size_t l = 0; l < part.lines(); ++l) {
             found.both += shared(part.line(l), supports.line(l));
             const double across = band.line(static_cast<int>(l));
-            for (const SpanRows* rows : {&part, &supports}) {
+            for (const RunRows* rows : {&part, &supports}) {
                 const auto runs = rows->line(l);
                 if (runs.empty()) continue;
                 found.below += layer < 0;
@@ -105,8 +105,8 @@ bool same_plan(const SupportPlan& a, const SupportPlan& b) {
 bool same_part(const Job& a, const Job& b, int shift = 0) {
     const RowBand band = band_over(grown(a.bounds, 1), 0.2);
     for (int layer = 0; layer < a.layer_count; ++layer) {
-        const SpanRows one = runs_at(*a.part, a.plane(layer), band);
-        const SpanRows two = runs_at(*b.part, b.plane(layer + shift), band);
+        const RunRows one = runs_at(*a.part, a.plane(layer), band);
+        const RunRows two = runs_at(*b.part, b.plane(layer + shift), band);
         if (!std::equal(one.runs().begin(), one.runs().end(), two.runs().begin(), two.runs().end()))
             return false;
     }
@@ -306,8 +306,8 @@ TEST_CASE("supports end where outlines that are moved begin") {
         const RowBand band = band_over(grown(s.job().bounds, 1), 0.2);
         std::int64_t both = 0, before = 0, after = 0;
         for (int i = 0; i < designed.layer_count; ++i) {
-            const SpanRows solid = runs_at(*designed.part, s.job().plane(i), band);
-            const SpanRows shown = runs_at(*s.supports->before_offsets, s.job().plane(i), band);
+            const RunRows solid = runs_at(*designed.part, s.job().plane(i), band);
+            const RunRows shown = runs_at(*s.supports->before_offsets, s.job().plane(i), band);
             for (std::size_t l = 0; l < solid.lines(); ++l) both += shared(solid.line(l), shown.line(l));
             before += shown.total_length();
             after += runs_at(*s.job().supports, s.job().plane(i), band).total_length();
@@ -382,8 +382,8 @@ TEST_CASE("a plan is found again by the same job alone") {
     CHECK(again.job().bounds.hi == first.job().bounds.hi);
     const RowBand band = band_over(grown(first.job().bounds, 1), 0.2);
     for (int i = 0; i < first.job().layer_count; ++i) {
-        const SpanRows a = runs_at(*first.job().supports, first.job().plane(i), band);
-        const SpanRows b = runs_at(*again.job().supports, again.job().plane(i), band);
+        const RunRows a = runs_at(*first.job().supports, first.job().plane(i), band);
+        const RunRows b = runs_at(*again.job().supports, again.job().plane(i), band);
         CHECK(std::equal(a.runs().begin(), a.runs().end(), b.runs().begin(), b.runs().end()));
     }
 
