@@ -81,9 +81,9 @@ RunRows beyond(const RunRows& a, const RunRows& b, double pitches) {
 }
 
 /// Where something of rows that meet these cells may lie further than that from what fills the others.
-RunRows maybe_beyond(const RunRows& rows, const RowBitmask& met, const RowBitmask& filled, double pitches) {
-    RowBitmask suspected = met;
-    suspected.subtract_dilated(filled, inner_disc(pitches * run_unit, run_unit));
+RunRows maybe_beyond(const RunRows& rows, const RowBitmask& outer, const RowBitmask& inner, double pitches) {
+    RowBitmask suspected = outer;
+    suspected.subtract_dilated(inner, inner_disc(pitches * run_unit, run_unit));
     return suspected.clip(rows, suspected.lattice().margin_lines);
 }
 
@@ -154,16 +154,16 @@ void OverhangCheck::add(LayerFootprint layer, LayerCells cells, const LabelledLa
 }
 
 /// Tells of what hangs beside islands; `next` is to hold what of it may.
-void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitmask& met,
+void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitmask& outer,
                                      const RunRows& islands, Below& next, int index) {
     // Rows see a border up to a pitch late.
     const Below& below = below_.back();
     const RunRows out =
-        beyond(maybe_beyond(layer.part, met, *below.inner, step_ + 1), below.rows.part, step_ + 1);
+        beyond(maybe_beyond(layer.part, outer, *below.inner, step_ + 1), below.rows.part, step_ + 1);
     const RunRows hanging = without(supports_.unheld(out), islands);
     const RunRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    const RunRows steep = too_steep(layer, met, next.hung);
+    const RunRows steep = too_steep(layer, outer, next.hung);
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
@@ -191,7 +191,7 @@ RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledL
 }
 
 /// What went out further over several layers than it may, but for what lies above things that may hang.
-RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& met,
+RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& outer,
                                  const RunRows& hangs) const {
     RunRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
@@ -201,8 +201,8 @@ RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& 
     const auto large = [&](const RunRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
     const Below& lowest = below_[first];
     std::optional<RowBitmask> anew;
-    if (!lowest.inner) anew = LayerCells(lowest.rows.part, met.lattice()).inner;
-    RunRows steep = large(maybe_beyond(layer.part, met, lowest.inner ? *lowest.inner : *anew, far));
+    if (!lowest.inner) anew = LayerCells(lowest.rows.part, outer.lattice()).inner;
+    RunRows steep = large(maybe_beyond(layer.part, outer, lowest.inner ? *lowest.inner : *anew, far));
     const auto explain = [&](const RunRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
         steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
