@@ -39,7 +39,7 @@ void HostBackend::check(std::int32_t status, const char* callback) const {
     throw FaultError(told);
 }
 
-int HostBackend::begin(const Job& job, LayerRange range, bool resume) {
+int HostBackend::open(const Job& job, LayerRange range, bool resume) {
     if (callbacks_.begin == nullptr) {
         if (resume) throw InputError("the back-end cannot continue what was begun; accepted: a new run");
         return range.first;
@@ -75,7 +75,7 @@ void HostBackend::write(const Layer& layer, LayerProduct& product) {
           "write");
 }
 
-void HostBackend::end() {
+void HostBackend::finish() {
     if (callbacks_.end != nullptr) check(callbacks_.end(callbacks_.user), "end");
 }
 

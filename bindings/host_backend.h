@@ -13,10 +13,10 @@ class HostBackend : public Backend {
     /// `flags` are handed to `begin`. Throws BadCall where a callback is missing.
     HostBackend(const lamella_backend& callbacks, std::uint32_t flags);
 
-    int begin(const Job& job, LayerRange range, bool resume) override;
+    int open(const Job& job, LayerRange range, bool resume) override;
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override;
+    void finish() override;
 
   private:
     void check(std::int32_t status, const char* callback) const;

@@ -107,12 +107,12 @@ class PluginBackend : public Backend {
                   const std::string& path, bool force)
         : open_(std::move(plugin), profile, path, force), host_(open_.callbacks, force ? LAMELLA_FORCE : 0) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        return host_.begin(job, range, resume);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        return host_.open(job, range, resume);
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override { return host_.render(layer); }
     void write(const Layer& layer, LayerProduct& product) override { host_.write(layer, product); }
-    void end() override { host_.end(); }
+    void finish() override { host_.finish(); }
 
   private:
     OpenBackend open_;

@@ -32,9 +32,9 @@ class Announcing : public Backend {
     Announcing(Ranks& ranks, std::unique_ptr<Backend> outputs, const CancelToken* cancel)
         : ranks_(ranks), outputs_(std::move(outputs)), cancel_(cancel) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         fetching_ = make_fetching(std::move(outputs_), [this](int layer) { return fetch(layer); });
-        const int first = fetching_->begin(job, range, resume);
+        const int first = fetching_->open(job, range, resume);
         for (int rank = 1; rank < ranks_.size(); ++rank)
             ranks_.send(rank, begin_tag, packed(Beginning{first, job.identity}));
         turns_.emplace(ranks_.size(), LayerRange{first, range.last}, times_, [this](Turn turn) {
@@ -49,7 +49,7 @@ class Announcing : public Backend {
     void write(const Layer& layer, LayerProduct& product) override {
         times_.writing.measure([&] { fetching_->write(layer, product); });
     }
-    void end() override { fetching_->end(); }
+    void finish() override { fetching_->finish(); }
     std::vector<std::string> notes() const override { return fetching_->notes(); }
 
   private:

@@ -10,14 +10,14 @@ namespace {
 class SharedCheck : public Backend {
   public:
     explicit SharedCheck(std::shared_ptr<PrintCheck> check) : check_(std::move(check)) {}
-    int begin(const Job& job, LayerRange range, bool /*resume*/) override {
-        return check_->begin(job, range, false);
+    int open(const Job& job, LayerRange range, bool /*resume*/) override {
+        return check_->open(job, range, false);
     }
-    std::optional<RowBand> lines_looked_at() const override { return check_->lines_looked_at(); }
+    std::optional<RowBand> shared_lines() const override { return check_->shared_lines(); }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override { return check_->render(layer); }
     std::unique_ptr<LayerProduct> empty_product() const override { return check_->empty_product(); }
     void write(const Layer& layer, LayerProduct& product) override { check_->write(layer, product); }
-    void end() override { check_->end(); }
+    void finish() override { check_->finish(); }
 
   private:
     std::shared_ptr<PrintCheck> check_;

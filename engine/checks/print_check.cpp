@@ -185,13 +185,13 @@ PrintCheck::PrintCheck(const Job& job, const PrintCheckOptions& options) {
 }
 PrintCheck::~PrintCheck() = default;
 
-int PrintCheck::begin(const Job& /*job*/, LayerRange range, bool /*resume*/) {
+int PrintCheck::open(const Job& /*job*/, LayerRange range, bool /*resume*/) {
     if (range.first != 0 || range.last != state_->layer_count)
         throw InputError("a check looks at all layers of a job; a range of them cannot be checked");
     return 0;
 }
 
-std::optional<RowBand> PrintCheck::lines_looked_at() const { return state_->rows.lines(); }
+std::optional<RowBand> PrintCheck::shared_lines() const { return state_->rows.lines(); }
 
 std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
@@ -244,7 +244,7 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     if (state.pieces) state.pieces->add(std::move(checked.part), index);
 }
 
-void PrintCheck::end() { state_->finish(); }
+void PrintCheck::finish() { state_->finish(); }
 
 const CheckReport& PrintCheck::report() const { return state_->report; }
 

@@ -66,12 +66,12 @@ class PrintCheck : public Backend {
     PrintCheck(const Job& job, const PrintCheckOptions& options);
     ~PrintCheck() override;
 
-    int begin(const Job& job, LayerRange range, bool resume) override;
-    std::optional<RowBand> lines_looked_at() const override;
+    int open(const Job& job, LayerRange range, bool resume) override;
+    std::optional<RowBand> shared_lines() const override;
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     std::unique_ptr<LayerProduct> empty_product() const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override;
+    void finish() override;
 
     /// After `end`.
     const CheckReport& report() const;

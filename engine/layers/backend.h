@@ -1,4 +1,4 @@
-// Backend: where finished layers go. One interface for files, image stacks and machines.
+// LayerPass and Backend: the interfaces of everything that takes layers in order.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace lamella {
 
-/// What a back-end made of one layer, ready to be written. Back-ends derive their own payload.
+/// What a pass computes from one layer. Each pass derives its own payload.
 struct LayerProduct {
     virtual ~LayerProduct() = default;
-    /// Packs or unpacks what is written of the layer, the areas not included.
+    /// Packs or unpacks the payload, without the areas. Throws FaultError where products cannot be sent.
     virtual void serialize(Archive& /*parcel*/) {
         throw FaultError("what was made of a layer cannot be carried");
     }
@@ -35,28 +35,47 @@ struct LayerRange {
     int count() const { return last - first; }
 };
 
-/// A destination of layers. `render` is called for several layers at once; the rest comes from one thread, in
-/// order: begin, write for each layer by ascending index, then end. A back-end that is destroyed before `end`
-/// leaves what it has written under its unfinished name, so that a later run can continue it.
-class Backend {
+/// A pass over a job's layers. `render` is called for several layers at once; the rest comes from one thread,
+/// in order: `write` for each layer by ascending index, then `finish`.
+class LayerPass {
   public:
-    virtual ~Backend() = default;
-    /// Opens the output. Returns the first layer that is still missing: range.first, or later when `resume`
-    /// is set and an unfinished output of the same job (Job::identity) and range exists. Throws InputError
-    /// when the output exists already or belongs to another job, FaultError when it cannot be made.
-    virtual int begin(const Job& job, LayerRange range, bool resume) = 0;
-    /// Lines of each layer that `render` looks at, where others may go through them, too.
-    virtual std::optional<RowBand> lines_looked_at() const { return {}; }
-    /// Computes what will be written of a layer. Thread-safe, pure.
+    virtual ~LayerPass() = default;
+    /// Returns the scanlines of each layer that `render` reads, if other passes may share them.
+    virtual std::optional<RowBand> shared_lines() const { return {}; }
+    /// Computes a layer's product. Thread-safe, pure.
     virtual std::unique_ptr<LayerProduct> render(const Layer& layer) const = 0;
-    /// An empty product, to unpack into what `render` of another process packed. Null where layers cannot be
-    /// carried.
-    virtual std::unique_ptr<LayerProduct> empty_product() const { return nullptr; }
-    /// Writes one layer. Throws FaultError when that fails.
+    /// Takes one layer's product. Throws FaultError when it cannot be written.
     virtual void write(const Layer& layer, LayerProduct& product) = 0;
-    /// Completes the output and gives it its final name.
-    virtual void end() = 0;
-    /// What a user should know about the layers written in this run; a sentence each.
+    /// Ends the pass after its last layer.
+    virtual void finish() {}
+};
+
+/// A destination of layers: a file, an image stack or a machine. `open` is called first; `finish` gives the
+/// output its final name. A back-end that is destroyed before `finish` leaves the layers written so far under
+/// an unfinished name, from which a later run can continue.
+///
+///     class Areas : public Backend {
+///         int open(const Job&, LayerRange range, bool) override { return range.first; }
+///         std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
+///             auto product = std::make_unique<LayerProduct>();
+///             product->area = area(layer.contours(0.01));
+///             return product;
+///         }
+///         void write(const Layer& layer, LayerProduct& product) override {
+///             std::cout << layer.index() << " " << product.area << "\n";
+///         }
+///     };
+class Backend : public LayerPass {
+  public:
+    /// Opens the output. Returns the first layer that is still missing: range.first, or later when `resume`
+    /// is set and an unfinished output of the same job (Job::identity) and range exists. The range lies
+    /// within the job. Throws InputError when the output exists already or belongs to another job, FaultError
+    /// when it cannot be made.
+    virtual int open(const Job& job, LayerRange range, bool resume) = 0;
+    /// Returns an empty product, to unpack a product that `render` of another process packed. Null where
+    /// products cannot be sent between processes.
+    virtual std::unique_ptr<LayerProduct> empty_product() const { return nullptr; }
+    /// Returns what a user should know about the layers written in this run; a sentence each.
     virtual std::vector<std::string> notes() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// The pipeline: indices in order, layers rendered in parallel, products written in order.
+// The pipeline of a stream, by oneTBB.
 #include "engine/layers/layer_stream.h"
 
 #include <oneapi/tbb/global_control.h>
@@ -41,6 +41,107 @@ void check_range(const Job& job, const LayerRange& range) {
     }
 }
 
+/// One stream of layers: indices in order, layers rendered in parallel, products written in order. At most
+/// `look_ahead` layers are in flight and they leave in order, so layer k's slot is free again when
+/// k + look_ahead comes.
+class LayerStream {
+  public:
+    LayerStream(const Job& job, LayerPass& pass, LayerRange range, int look_ahead, const PassControl& control)
+        : job_(job),
+          pass_(pass),
+          control_(control),
+          end_(range.last),
+          next_(range.first),
+          slots_(static_cast<std::size_t>(look_ahead)) {
+        progress_.total = range.count();
+    }
+
+    /// Runs on `threads` threads. Returns false if it was cancelled before its last layer.
+    bool run(int threads) {
+        namespace tbb = oneapi::tbb;
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+        tbb::task_arena arena(threads);
+        arena.execute([&] {
+            const Rejoin rejoin{in_order_, slots_};
+            using tbb::filter_mode;
+            tbb::parallel_pipeline(
+                slots_.size(),
+                tbb::make_filter<void, int>(filter_mode::serial_in_order, [this](tbb::flow_control& control) {
+                    return issue(control);
+                }) & tbb::make_filter<int, int>(filter_mode::parallel, [this](int index) {
+                    return render(index);
+                }) & tbb::make_filter<int, void>(filter_mode::serial_in_order, [this](int index) {
+                    write(index);
+                }));
+        });
+        return !(cancelled() && (stopped_ || next_ < end_));
+    }
+
+    const Progress& progress() const { return progress_; }
+
+  private:
+    bool cancelled() const { return control_.cancel != nullptr && control_.cancel->cancelled(); }
+
+    Slot& slot_of(int index) {
+        const std::lock_guard lock(in_order_);
+        return slots_[static_cast<std::size_t>(index) % slots_.size()];
+    }
+
+    int issue(oneapi::tbb::flow_control& control) {
+        const std::lock_guard lock(in_order_);
+        if (next_ >= end_ || cancelled()) {
+            control.stop();
+            return -1;
+        }
+        return next_++;
+    }
+
+    /// Leaves the slot without a product when the stream is cancelled before or while the layer is rendered.
+    int render(int index) {
+        Slot& slot = slot_of(index);
+        const std::lock_guard lock(slot.busy);
+        if (cancelled()) return index;
+        slot.layer.emplace(job_, index, control_.cancel);
+        try {
+            slot.product = pass_.render(*slot.layer);
+        } catch (const Interrupted&) {
+            if (!cancelled()) throw;
+            slot.product.reset();
+        }
+        return index;
+    }
+
+    /// Writes nothing from the first missing layer on.
+    void write(int index) {
+        Slot& slot = slot_of(index);
+        const std::lock_guard lock(slot.busy);
+        stopped_ = stopped_ || !slot.product;
+        if (!stopped_) {
+            pass_.write(*slot.layer, *slot.product);
+            ++progress_.done;
+            progress_.layer = index;
+            progress_.volume += slot.product->area * slot.layer->thickness();
+            progress_.support_volume += slot.product->support_area * slot.layer->thickness();
+            if (control_.on_progress) control_.on_progress(progress_);
+        }
+        slot.product.reset();
+        slot.layer.reset();
+        const std::lock_guard done(in_order_);
+    }
+
+    const Job& job_;
+    LayerPass& pass_;
+    const PassControl& control_;
+    int end_, next_;
+    std::vector<Slot> slots_;
+    std::mutex in_order_;
+    Progress progress_;
+    bool stopped_ = false;
+};
+
+int thread_count(int asked) { return asked > 0 ? asked : oneapi::tbb::info::default_concurrency(); }
+
 }  // namespace
 
 std::string pack(LayerProduct& product) {
@@ -58,98 +159,32 @@ void unpack(std::string bytes, LayerProduct& product) {
 }
 
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options) {
-    namespace tbb = oneapi::tbb;
     check_range(job, options.range);
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const int look_ahead = options.look_ahead > 0 ? options.look_ahead : 2 * threads;
-    const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->cancelled(); };
-
-    const int start = backend.begin(job, options.range, options.resume);
-    StreamReport report;
-    report.layers_kept = start - options.range.first;
-    Progress progress;
-    progress.total = options.range.last - start;
-
-    // At most `look_ahead` layers are in flight and they leave in order, so layer k's slot is free again when
-    // k + look_ahead comes.
-    std::vector<Slot> slots(static_cast<std::size_t>(look_ahead));
-    std::mutex in_order;
-    const auto slot_of = [&](int index) -> Slot& {
-        const std::lock_guard lock(in_order);
-        return slots[static_cast<std::size_t>(index) % slots.size()];
-    };
-    int next = start;
-    bool stopped = false;
-    const auto issue = [&](tbb::flow_control& control) -> int {
-        const std::lock_guard lock(in_order);
-        if (next >= options.range.last || cancelled()) {
-            control.stop();
-            return -1;
-        }
-        return next++;
-    };
-    const auto render = [&](int index) {
-        Slot& slot = slot_of(index);
-        const std::lock_guard lock(slot.busy);
-        if (cancelled()) return index;  // nobody waits for what is not begun yet
-        slot.layer.emplace(job, index, options.cancel);
-        try {
-            slot.product = backend.render(*slot.layer);
-        } catch (const Interrupted&) {
-            if (!cancelled()) throw;
-            slot.product.reset();  // nor for what is not finished
-        }
-        return index;
-    };
-    const auto write = [&](int index) {
-        Slot& slot = slot_of(index);
-        const std::lock_guard lock(slot.busy);
-        stopped = stopped || !slot.product;
-        if (stopped) {  // what comes behind a layer that is missing cannot be written
-            slot.product.reset();
-            slot.layer.reset();
-            return;
-        }
-        backend.write(*slot.layer, *slot.product);
-        ++report.layers_written;
-        report.volume += slot.product->area * slot.layer->thickness();
-        report.support_volume += slot.product->support_area * slot.layer->thickness();
-        progress.done = report.layers_written;
-        progress.layer = index;
-        progress.volume = report.volume;
-        progress.support_volume = report.support_volume;
-        if (options.on_progress) options.on_progress(progress);
-        slot.product.reset();
-        slot.layer.reset();
-        const std::lock_guard done(in_order);
-    };
-
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-        const Rejoin rejoin{in_order, slots};
-        tbb::parallel_pipeline(static_cast<std::size_t>(look_ahead),
-                               tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, issue) &
-                                   tbb::make_filter<int, int>(tbb::filter_mode::parallel, render) &
-                                   tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order, write));
-    });
-    if (cancelled() && (stopped || next < options.range.last)) {
+    const int threads = thread_count(options.threads);
+    const int start = backend.open(job, options.range, options.resume);
+    LayerStream stream(job, backend, {start, options.range.last},
+                       options.look_ahead > 0 ? options.look_ahead : 2 * threads, options);
+    const bool finished = stream.run(threads);
+    const Progress& done = stream.progress();
+    const StreamReport report{done.done, start - options.range.first, done.volume, done.support_volume};
+    if (!finished) {
         throw Interrupted("stopped after " + std::to_string(report.layers_kept + report.layers_written) +
                           " of " + std::to_string(options.range.count()) + " layers");
     }
-    backend.end();
+    backend.finish();
     return report;
 }
 
-void survey_layers(const Job& job, Backend& surveyor, int threads,
-                   const std::function<void(const Progress&)>& on_progress, const CancelToken* cancel) {
-    StreamOptions options;
-    options.range = {0, job.layer_count};
-    options.threads = threads;
-    options.on_progress = on_progress;
-    options.cancel = cancel;
-    stream_layers(job, surveyor, options);
+void survey_layers(const Job& job, LayerPass& pass, const PassControl& control) {
+    const LayerRange all{0, job.layer_count};
+    check_range(job, all);
+    const int threads = thread_count(control.threads);
+    LayerStream stream(job, pass, all, 2 * threads, control);
+    if (!stream.run(threads)) {
+        throw Interrupted("stopped after " + std::to_string(stream.progress().done) + " of " +
+                          std::to_string(all.count()) + " layers");
+    }
+    pass.finish();
 }
 
 }  // namespace lamella

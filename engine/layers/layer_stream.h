@@ -17,13 +17,17 @@ struct Progress {
     double support_volume = 0;  ///< of its supports, mm^3
 };
 
-struct StreamOptions {
-    LayerRange range;                                    ///< which layers
+/// Threads, progress and cancellation of a pass over layers.
+struct PassControl {
     int threads = 0;                                     ///< 0: one per core
-    int look_ahead = 0;                                  ///< layers in flight at most; 0: two per thread
-    bool resume = false;                                 ///< continue an unfinished output
     std::function<void(const Progress&)> on_progress{};  ///< may be empty
     const CancelToken* cancel = nullptr;                 ///< may be null
+};
+
+struct StreamOptions : PassControl {
+    LayerRange range{};   ///< which layers
+    int look_ahead = 0;   ///< layers in flight at most; 0: two per thread
+    bool resume = false;  ///< continue an unfinished output
 };
 
 struct StreamReport {
@@ -37,8 +41,8 @@ struct StreamReport {
 /// layers. Throws what the back-end throws, and Interrupted when cancelled.
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options);
 
-/// Streams all layers of a job to a back-end that only looks at them.
-void survey_layers(const Job& job, Backend& surveyor, int threads,
-                   const std::function<void(const Progress&)>& on_progress, const CancelToken* cancel);
+/// Streams all layers of a job through a pass that writes nothing. Throws what the pass throws, and
+/// Interrupted when cancelled.
+void survey_layers(const Job& job, LayerPass& pass, const PassControl& control);
 
 }  // namespace lamella

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "engine/field/slice_context.h"
@@ -26,6 +27,37 @@ RunRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch
 /// (survey_pitch_range) or lie further apart than an outline moves by from one group of layers to the next,
 /// `step` mm.
 void check_survey_pitch(const char* survey, const Job& job, double pitch, double step);
+
+/// The rows that a survey computes of one layer.
+struct RowsProduct : LayerProduct {
+    RunRows rows;
+};
+
+/// Combines every `count` successive layers into one, from the lowest on; the last group may be smaller.
+class LayerGroups {
+  public:
+    using Combine = RunRows (&)(const RunRows&, const RunRows&);
+    /// `combine`: united for their union, common for their intersection.
+    LayerGroups(int count, Combine combine) : count_(count), combine_(combine) {}
+
+    /// Adds the next layer. Returns true once the group is complete; take it then.
+    bool add(RunRows rows) {
+        group_ = size_ == 0 ? std::move(rows) : combine_(group_, rows);
+        return ++size_ == count_;
+    }
+    /// Whether the group begun holds no layer yet.
+    bool empty() const { return size_ == 0; }
+    /// Returns the group and begins another one.
+    RunRows take() {
+        size_ = 0;
+        return std::move(group_);
+    }
+
+  private:
+    int count_, size_ = 0;
+    Combine combine_;
+    RunRows group_;
+};
 
 /// The rows of layers, from the lowest on. Memory: eight bytes a run and four a row, and while boxes are made
 /// of them another 48 a run; all of it is counted from the beginning.

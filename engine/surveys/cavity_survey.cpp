@@ -53,28 +53,25 @@ struct VoidProduct : LayerProduct {
     std::vector<LayerShare> shares;  ///< by component
 };
 
-class CavitySurveyor : public Backend {
+class CavitySurveyor : public LayerPass {
   public:
     CavitySurveyor(const Job& job, const CavitySurveyOptions& options)
         : pitch_(options.pitch),
           height_(job.layer_height),
           z0_(job.z0()),
           band_(void_band(job, options.pitch)),
-          components_(Growth{}, 0) {}
-
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override {
+          components_(Growth{}, 0) {
         // A layer of nothing but void lies below the first one.
         RunRows all;
         for (int r = 0; r < band_.count; ++r) {
             all.push(0, band_.hi * run_unit);
             all.end_line();
         }
-        outside_ = components_.add(label_layer(all, range.first - 1, Growth{}), range.first - 1).front();
-        return range.first;
+        outside_ = components_.add(label_layer(all, -1, Growth{}), -1).front();
     }
+
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override {}
 
     CavitySurvey result(std::size_t most);
 
@@ -217,7 +214,7 @@ CavitySurvey survey_cavities(const Job& job, const CavitySurveyOptions& options)
                          format_number(suited.hi, 9) + " mm");
     }
     CavitySurveyor surveyor(job, options);
-    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, surveyor, options);
     return surveyor.result(options.most);
 }
 

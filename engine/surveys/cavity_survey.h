@@ -14,12 +14,9 @@ struct Cavity {
     dvec3 highest{0};   ///< the same of its highest layer
 };
 
-struct CavitySurveyOptions {
-    double pitch = 0.1;                                  ///< mm from one surveyed row to the next
-    std::size_t most = 1000;                             ///< cavities that are told of
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty
-    const CancelToken* cancel = nullptr;                 ///< may be null
+struct CavitySurveyOptions : PassControl {
+    double pitch = 0.1;       ///< mm from one surveyed row to the next
+    std::size_t most = 1000;  ///< cavities that are told of
 };
 
 struct CavitySurvey {

@@ -13,12 +13,8 @@
 namespace lamella {
 namespace {
 
-struct HollowRows : LayerProduct {
-    RunRows rows;
-};
-
 /// What may become cavity, layer by layer: the part shrunk by the wall, without what is too narrow.
-class HollowSurveyor : public Backend {
+class HollowSurveyor : public LayerPass {
   public:
     HollowSurveyor(const Job& job, const HollowOptions& options)
         : options_(options),
@@ -26,12 +22,12 @@ class HollowSurveyor : public Backend {
           height_(job.layer_height * options.layers_at_once),
           middle_(job.bounds.size() / 2.0),
           shrunk_(ball_lattice(band_, height_, reach(), reach()), units(reach())),
-          insides_(options.max_bytes, options.pitch) {}
+          insides_(options.max_bytes, options.pitch),
+          groups_(options.layers_at_once, common) {}
 
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override;
+    void finish() override;
 
     LayerStack& insides() { return insides_; }
     const RowBand& band() const { return band_; }
@@ -45,24 +41,23 @@ class HollowSurveyor : public Backend {
     double reach() const {
         return options_.wall + std::sqrt(options_.pitch * options_.pitch + height_ * height_);
     }
-    void finish_course();
+    void push_group();
     void take_shrunk();
     RunRows wide_enough(const RunRows& rows) const;
     RunRows chamber_walls() const;
 
     const HollowOptions& options_;
     RowBand band_;
-    double height_;  // of a course: of the layers taken at once
+    double height_;  // of a group of layers
     dvec3 middle_;   // from the lower corner of the bounds
     ErosionStream shrunk_;
     LayerStack insides_;
-    RunRows course_;  // what is solid in all of its layers so far
-    int in_course_ = 0;
+    LayerGroups groups_;  // solid in all of their layers
     double part_volume_ = 0;
 };
 
 std::unique_ptr<LayerProduct> HollowSurveyor::render(const Layer& layer) const {
-    auto product = std::make_unique<HollowRows>();
+    auto product = std::make_unique<RowsProduct>();
     Scratch scratch;
     product->rows = all_rows(layer.part(), band_, scratch);
     product->area =
@@ -71,25 +66,19 @@ std::unique_ptr<LayerProduct> HollowSurveyor::render(const Layer& layer) const {
 }
 
 void HollowSurveyor::write(const Layer& layer, LayerProduct& product) {
-    RunRows& rows = static_cast<HollowRows&>(product).rows;
+    RunRows& rows = static_cast<RowsProduct&>(product).rows;
     part_volume_ += product.area * layer.thickness();
-    if (in_course_ == 0) {
-        course_ = std::move(rows);
-    } else {
-        course_ = common(course_, rows);
-    }
-    if (++in_course_ == options_.layers_at_once) finish_course();
+    if (groups_.add(std::move(rows))) push_group();
 }
 
-void HollowSurveyor::end() {
-    if (in_course_ > 0) finish_course();
+void HollowSurveyor::finish() {
+    if (!groups_.empty()) push_group();
     shrunk_.finish();
     take_shrunk();
 }
 
-void HollowSurveyor::finish_course() {
-    shrunk_.push(course_);
-    in_course_ = 0;
+void HollowSurveyor::push_group() {
+    shrunk_.push(groups_.take());
     take_shrunk();
 }
 
@@ -189,7 +178,7 @@ void check(const Job& job, const HollowOptions& options) {
 HollowSurvey hollow_out(const Job& job, const HollowOptions& options) {
     check(job, options);
     HollowSurveyor surveyor(job, options);
-    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, surveyor, options);
     LayerStack& layers = surveyor.insides();
     const double step = surveyor.units(options.step * options.layers_at_once);
     sweep_down(layers, {step, run_unit, surveyor.units(options.bead)}, options.cancel);

@@ -10,7 +10,7 @@
 namespace lamella {
 
 /// Lengths in mm.
-struct HollowOptions {
+struct HollowOptions : PassControl {
     double wall = 2;         ///< least thickness of what is left about a cavity, to all sides
     double step = 0.225;     ///< by which a layer may stand out over the one below
     double bead = 0.45;      ///< cavities are no narrower, and no walls between them thinner
@@ -18,10 +18,7 @@ struct HollowOptions {
     double min_volume = 0;   ///< mm^3; smaller cavities are left solid
     double pitch = 0.1;      ///< from one surveyed row to the next; at most step * layers_at_once
     int layers_at_once = 1;  ///< that have the same cavity, where layers are thin against the pitch
-    std::size_t max_bytes = std::size_t{1} << 30;        ///< of memory for the plan
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty; volume is the part's so far
-    const CancelToken* cancel = nullptr;                 ///< may be null
+    std::size_t max_bytes = std::size_t{1} << 30;  ///< of memory for the plan
 };
 
 struct HollowSurvey {

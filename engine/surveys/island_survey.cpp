@@ -31,7 +31,7 @@ void find_contacts(const RunRows& part, LabelledProduct& product) {
                            product.contacts.end());
 }
 
-class IslandSurveyor : public Backend {
+class IslandSurveyor : public LayerPass {
   public:
     IslandSurveyor(const Job& job, FieldPtr body, const IslandSurveyOptions& options)
         : body_(std::move(body)),
@@ -42,10 +42,8 @@ class IslandSurveyor : public Backend {
           part_components_(growth_, options.max_runs),
           body_components_(Growth{}, 0) {}
 
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override {}
 
     IslandSurvey result();
 
@@ -180,7 +178,7 @@ void check(const Job& job, const IslandSurveyOptions& options) {
 IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options) {
     check(job, options);
     IslandSurveyor surveyor(job, body, options);
-    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, surveyor, options);
     return surveyor.result();
 }
 

@@ -29,14 +29,11 @@ struct IslandReport {
     std::vector<Island> largest;  ///< the largest few, by falling volume
 };
 
-struct IslandSurveyOptions {
+struct IslandSurveyOptions : PassControl {
     double pitch = 0.1;                           ///< mm from one surveyed row to the next
     std::size_t max_runs = std::size_t{1} << 17;  ///< grown runs of an island that can still be dropped
     std::size_t max_kept = std::size_t{1} << 24;  ///< grown runs kept in all; 16 bytes each
     std::size_t report_largest = 10;
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty; volume is the part's so far
-    const CancelToken* cancel = nullptr;                 ///< may be null
 };
 
 struct IslandSurvey {

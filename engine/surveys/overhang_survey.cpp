@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-class OverhangSurveyor : public Backend {
+class OverhangSurveyor : public LayerPass {
   public:
     OverhangSurveyor(const Job& job, const OverhangSurveyOptions& options)
         : options_(options),
@@ -22,7 +22,6 @@ class OverhangSurveyor : public Backend {
         if (options.stability) stability_.emplace(*options.stability, options.limits.spacing, z0_);
     }
 
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<HeldProduct>();
         product->layer = survey_layer(layer, by_);
@@ -34,7 +33,6 @@ class OverhangSurveyor : public Backend {
         compare(layer, *surveyed);
         below_ = std::move(surveyed);
     }
-    void end() override {}
 
     OverhangSurvey result();
 
@@ -245,7 +243,7 @@ OverhangSurvey survey_overhangs(const Job& job, const OverhangSurveyOptions& opt
     Job bare = job;
     bare.supports = nullptr;
     OverhangSurveyor surveyor(bare, options);
-    survey_layers(bare, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(bare, surveyor, options);
     return surveyor.result();
 }
 

@@ -20,15 +20,12 @@ struct OverhangLimits {
     double bridge = 10;       ///< a straight stretch up to this length, held at both ends, needs no support
 };
 
-struct OverhangSurveyOptions {
+struct OverhangSurveyOptions : PassControl {
     OverhangLimits limits;
     std::optional<StabilityLimits> stability = StabilityLimits{};  ///< empty: not looked at
     bool on_bed = true;                                            ///< whether the first layer needs no hold
     FieldPtr blocked;                                              ///< no points in it; may be null
     FieldPtr enforced;  ///< in it all that stands out over the layer below is held; may be null
-    int threads = 0;    ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty
-    const CancelToken* cancel = nullptr;                 ///< may be null
 };
 
 struct OverhangSurvey {

@@ -140,7 +140,7 @@ struct LabelledRows : LayerProduct {
 };
 
 /// What both passes have in common: rows, and the numbers of their pieces.
-class PieceSurveyor : public Backend {
+class PieceSurveyor : public LayerPass {
   public:
     PieceSurveyor(const Job& job, double pitch)
         : band_(rows_over({dvec2(job.bounds.lo), dvec2(job.bounds.hi)}, pitch)),
@@ -148,7 +148,6 @@ class PieceSurveyor : public Backend {
           height_(job.layer_height),
           components_(Growth{}, 0) {}
 
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<LabelledRows>();
         Scratch scratch;
@@ -169,7 +168,6 @@ class PieceSurveyor : public Backend {
             }
         }
     }
-    void end() override {}
 
     RunComponents& components() { return components_; }
     double plane(int layer) const { return z0_ + (layer + 0.5) * height_; }
@@ -285,7 +283,7 @@ JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options) {
     const dvec3 size = job.bounds.size();
     const double cell = std::max(std::sqrt(squared_length(size)) / cells_in_diagonal, 2 * options.pitch);
     PointSurveyor first(job, options.pitch, cell);
-    survey_layers(job, first, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, first, options);
     RunComponents& components = first.components();
     const std::vector<std::uint32_t> pieces = components.numbers();
     JoinSurvey survey;
@@ -301,7 +299,7 @@ JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options) {
         pieces, {}, [&](std::uint32_t number) { return components.component(number).extent.length; });
     std::vector<Edge> edges = spanning_tree(first.points, pieces, largest);
     EdgeSurveyor second(job, options.pitch, edges, 2 * cell, components);
-    survey_layers(job, second, options.threads, {}, options.cancel);
+    survey_layers(job, second, {options.threads, {}, options.cancel});
     for (const Edge& edge : edges) survey.joins.push_back(shortest_way(edge, second));
     return survey;
 }

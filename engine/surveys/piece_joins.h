@@ -13,12 +13,9 @@ struct PieceJoin {
     double length() const { return glm::distance(a, b); }
 };
 
-struct JoinSurveyOptions {
-    double pitch = 0.1;                                  ///< mm from one surveyed row to the next
-    std::size_t max_pieces = 10000;                      ///< that can be joined
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty
-    const CancelToken* cancel = nullptr;                 ///< may be null
+struct JoinSurveyOptions : PassControl {
+    double pitch = 0.1;              ///< mm from one surveyed row to the next
+    std::size_t max_pieces = 10000;  ///< that can be joined
 };
 
 struct JoinSurvey {

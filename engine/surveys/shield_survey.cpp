@@ -13,12 +13,8 @@
 namespace lamella {
 namespace {
 
-struct ShieldRows : LayerProduct {
-    RunRows rows;
-};
-
 /// What the shield has to hold, layer by layer.
-class ShieldSurveyor : public Backend {
+class ShieldSurveyor : public LayerPass {
   public:
     ShieldSurveyor(const Job& job, const ShieldOptions& options)
         : options_(options),
@@ -28,13 +24,13 @@ class ShieldSurveyor : public Backend {
           smooth_(units(options.bead)),
           rect_(grown(job.bounds.rect(), (reach_ + smooth_ + wall_ + 2 * run_unit) / units(1))),
           band_(rows_over(rect_, options.pitch)),
-          layers_(options.max_bytes, options.pitch) {}
+          layers_(options.max_bytes, options.pitch),
+          groups_(options.layers_at_once, united) {}
 
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override;
     void write(const Layer& layer, LayerProduct& product) override;
-    void end() override {
-        if (in_course_ > 0) finish_course();
+    void finish() override {
+        if (!groups_.empty()) layers_.push(groups_.take());
     }
 
     LayerStack& layers() { return layers_; }
@@ -44,19 +40,16 @@ class ShieldSurveyor : public Backend {
     double wall() const { return wall_; }
 
   private:
-    void finish_course();
-
     const ShieldOptions& options_;
     double wall_, reach_, smooth_;  // run units
     Rect rect_;
     RowBand band_;
     LayerStack layers_;
-    RunRows course_;  // what there is in any of its layers so far
-    int in_course_ = 0;
+    LayerGroups groups_;  // solid in any of their layers
 };
 
 std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
-    auto product = std::make_unique<ShieldRows>();
+    auto product = std::make_unique<RowsProduct>();
     Scratch scratch;
     RunRows print = all_rows(layer.part(), band_, scratch);
     if (layer.supports() != nullptr) print = united(print, all_rows(*layer.supports(), band_, scratch));
@@ -67,18 +60,7 @@ std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
 }
 
 void ShieldSurveyor::write(const Layer& /*layer*/, LayerProduct& product) {
-    const RunRows& rows = static_cast<ShieldRows&>(product).rows;
-    if (in_course_ == 0) {
-        course_ = rows;
-    } else {
-        course_ = united(course_, rows);
-    }
-    if (++in_course_ == options_.layers_at_once) finish_course();
-}
-
-void ShieldSurveyor::finish_course() {
-    layers_.push(course_);
-    in_course_ = 0;
+    if (groups_.add(std::move(static_cast<RowsProduct&>(product).rows))) layers_.push(groups_.take());
 }
 
 /// The rows with what is thinner than `least` made about as thick.
@@ -114,7 +96,7 @@ void check(const Job& job, const ShieldOptions& options) {
 ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
     check(job, options);
     ShieldSurveyor surveyor(job, options);
-    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, surveyor, options);
     LayerStack& layers = surveyor.layers();
     ShieldSurvey survey;
     const double step = surveyor.units(options.step * options.layers_at_once);

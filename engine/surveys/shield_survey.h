@@ -9,17 +9,14 @@
 namespace lamella {
 
 /// Lengths in mm.
-struct ShieldOptions {
+struct ShieldOptions : PassControl {
     double gap = 1;          ///< between the print and the shield in each layer, at least
     double wall = 0.9;       ///< thickness of the shield, at least
     double step = 0.225;     ///< by which its outline may move from layer to layer; sharp corners by 2.5
     double bead = 0.45;      ///< gaps narrower than twice this between its parts are closed
     double pitch = 0.1;      ///< from one surveyed row to the next; at most step * layers_at_once
     int layers_at_once = 1;  ///< that have the same shield, where layers are thin against the pitch
-    std::size_t max_bytes = std::size_t{1} << 30;        ///< of memory for the plan
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty
-    const CancelToken* cancel = nullptr;                 ///< may be null
+    std::size_t max_bytes = std::size_t{1} << 30;  ///< of memory for the plan
 };
 
 struct ShieldSurvey {

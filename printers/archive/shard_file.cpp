@@ -33,8 +33,8 @@ class ShardWriter : public Backend {
                 bool force)
         : renderer_(std::move(renderer)), settings_(std::move(settings)), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        renderer_->begin(job, range, false);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        renderer_->open(job, range, false);
         const JobStamp stamp{job.identity, settings_, range};
         const int next = output_.begin(stamp, resume);
         if (!output_.resumed())
@@ -51,7 +51,7 @@ class ShardWriter : public Backend {
         std::memcpy(record.data(), &head, sizeof head);
         output_.commit(record + bytes, layer.index() + 1);
     }
-    void end() override { output_.end(""); }
+    void finish() override { output_.end(""); }
 
   private:
     std::unique_ptr<Backend> renderer_;

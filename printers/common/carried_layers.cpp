@@ -9,8 +9,8 @@ class Fetching : public Backend {
     Fetching(std::unique_ptr<Backend> outputs, FetchLayer fetch)
         : outputs_(std::move(outputs)), fetch_(std::move(fetch)) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        return outputs_->begin(job, range, resume);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        return outputs_->open(job, range, resume);
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         std::optional<std::string> bytes = fetch_(layer.index());
@@ -22,7 +22,7 @@ class Fetching : public Backend {
     }
     std::unique_ptr<LayerProduct> empty_product() const override { return outputs_->empty_product(); }
     void write(const Layer& layer, LayerProduct& product) override { outputs_->write(layer, product); }
-    void end() override { outputs_->end(); }
+    void finish() override { outputs_->finish(); }
     std::vector<std::string> notes() const override { return outputs_->notes(); }
 
   private:
@@ -35,8 +35,8 @@ class Sending : public Backend {
     Sending(std::unique_ptr<Backend> renderer, LayerRange whole, SendLayer send)
         : renderer_(std::move(renderer)), whole_(whole), send_(std::move(send)) {}
 
-    int begin(const Job& job, LayerRange range, bool /*resume*/) override {
-        if (!begun_) renderer_->begin(job, whole_, false);
+    int open(const Job& job, LayerRange range, bool /*resume*/) override {
+        if (!begun_) renderer_->open(job, whole_, false);
         begun_ = true;
         return range.first;
     }
@@ -44,7 +44,7 @@ class Sending : public Backend {
         return renderer_->render(layer);
     }
     void write(const Layer& layer, LayerProduct& product) override { send_(layer.index(), pack(product)); }
-    void end() override {}
+    void finish() override {}
 
   private:
     std::unique_ptr<Backend> renderer_;

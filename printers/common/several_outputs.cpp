@@ -31,16 +31,16 @@ class SeveralOutputs : public Backend {
   public:
     explicit SeveralOutputs(std::vector<std::unique_ptr<Backend>> outputs) : outputs_(std::move(outputs)) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         next_.clear();
-        for (const auto& output : outputs_) next_.push_back(output->begin(job, range, resume));
+        for (const auto& output : outputs_) next_.push_back(output->open(job, range, resume));
         return *std::min_element(next_.begin(), next_.end());
     }
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto products = std::make_unique<Products>(outputs_);
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
-            const std::optional<RowBand> lines = outputs_[i]->lines_looked_at();
+            const std::optional<RowBand> lines = outputs_[i]->shared_lines();
             if (lines && layer.index() >= next_[i]) layer.cache_lines(*lines);
         }
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -65,8 +65,8 @@ class SeveralOutputs : public Backend {
         }
     }
 
-    void end() override {
-        for (const auto& output : outputs_) output->end();
+    void finish() override {
+        for (const auto& output : outputs_) output->finish();
     }
 
     std::vector<std::string> notes() const override {

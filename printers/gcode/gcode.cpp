@@ -62,7 +62,7 @@ class Gcode : public Backend {
     Gcode(const Gcode&) = delete;
     Gcode& operator=(const Gcode&) = delete;
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_filament_profile(profile_, job.layer_height);
         neighbours_.emplace(job, filament_.tolerance);
@@ -145,7 +145,7 @@ class Gcode : public Backend {
         output_->commit(text.text() + product.text, index + 1, state());
     }
 
-    void end() override {
+    void finish() override {
         GcodeText text(profile_);
         const double top = range_.last * height_;
         const double parked = std::min(top + 10, std::max(filament_.bed_z, top));

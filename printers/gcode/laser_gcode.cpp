@@ -134,7 +134,7 @@ class LaserGcode : public Backend {
     LaserGcode(const LaserGcode&) = delete;
     LaserGcode& operator=(const LaserGcode&) = delete;
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_laser_profile(profile_);
         check_able(job);
@@ -189,7 +189,7 @@ class LaserGcode : public Backend {
         output_->commit(text, layer.index() + 1, state());
     }
 
-    void end() override {
+    void finish() override {
         std::string text = "M5\n";
         text += expand_script(end_script(gcode_), values(range_.last - 1));
         const auto fact = [&](const char* name, const std::string& value) {

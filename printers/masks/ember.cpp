@@ -34,7 +34,7 @@ class Ember : public Backend {
     Ember(const PrinterProfile& profile, const std::string& path, bool force)
         : profile_(profile), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_resin_profile(profile_.resin);
         if (profile_.image.width != display_width || profile_.image.height != display_height) {
@@ -72,7 +72,7 @@ class Ember : public Backend {
         output_.commit({reinterpret_cast<const char*>(piece.data()), piece.size()}, layer.index() + 1);
     }
 
-    void end() override { output_.end(gzip_member(tar_end())); }
+    void finish() override { output_.end(gzip_member(tar_end())); }
 
   private:
     /// The files that come before the slices.

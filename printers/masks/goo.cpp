@@ -53,7 +53,7 @@ class Goo : public Backend {
     Goo(const Goo&) = delete;
     Goo& operator=(const Goo&) = delete;
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_resin_profile(resin_);
         layout_.emplace(profile_.image, job.bounds);
@@ -106,7 +106,7 @@ class Goo : public Backend {
         output_.commit(out.take(), layer.index() + 1, {volume_});
     }
 
-    void end() override {
+    void finish() override {
         output_.rewrite_start(header(picture_ ? picture_(large_preview) : Picture()));
         BigEndian out;
         out.zeros(3);

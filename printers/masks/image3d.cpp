@@ -68,7 +68,7 @@ class Image3d : public Backend {
     Image3d(const PrinterProfile& profile, const std::string& path, bool force)
         : profile_(profile), path_(path), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         profile_.image = grid_about(job.bounds, profile_.image);
         layout_.emplace(profile_.image, job.bounds);
@@ -107,7 +107,7 @@ class Image3d : public Backend {
         output_.commit(text, layer.index() + 1, zip_.size());
     }
 
-    void end() override {
+    void finish() override {
         std::string text = zip_.entry("3D/_rels/3dmodel.model.rels", relations());
         text += zip_.entry("3D/3dmodel.model", model());
         output_.end(text + zip_.directory());

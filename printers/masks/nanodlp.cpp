@@ -80,7 +80,7 @@ class NanoDlp : public Backend {
     NanoDlp(const NanoDlp&) = delete;
     NanoDlp& operator=(const NanoDlp&) = delete;
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_resin_profile(resin_);
         layout_.emplace(profile_.image, job.bounds);
@@ -130,7 +130,7 @@ class NanoDlp : public Backend {
         output_.commit(entry, layer.index() + 1, {volume_, zip_.size(), to_state(mask.figures)});
     }
 
-    void end() override {
+    void finish() override {
         const std::string display = to_text(this->display());
         std::string text;
         const auto add = [&](const char* name, const std::string& content) {

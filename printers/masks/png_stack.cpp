@@ -15,7 +15,7 @@ class PngStack : public Backend {
     PngStack(const PrinterProfile& profile, const std::string& path, bool force)
         : profile_(profile), output_(path, extension(profile.image.format), force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         layout_.emplace(profile_.image, job.bounds);
         description_ = describe_job(job, range, extension(profile_.image.format));
@@ -44,7 +44,7 @@ class PngStack : public Backend {
         output_.write(layer.index(), dynamic_cast<MaskFile&>(product).file, product);
     }
 
-    void end() override { output_.end(description_); }
+    void finish() override { output_.end(description_); }
 
   private:
     /// The layer through a whole page of pixels, for formats that are not written from runs.

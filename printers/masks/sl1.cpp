@@ -59,7 +59,7 @@ class Sl1 : public Backend {
         profile_.resin.first_layers = first_layers;
     }
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         layout_.emplace(profile_.image, job.bounds);
         check_resin_profile(profile_.resin);
@@ -101,7 +101,7 @@ class Sl1 : public Backend {
         output_.commit(entry, layer.index() + 1, {volume_, zip_.size()});
     }
 
-    void end() override {
+    void finish() override {
         std::string text = zip_.entry("config.ini", to_text(for_machine()));
         text += zip_.entry("prusaslicer.ini", to_text(for_programs()));
         if (picture_) {

@@ -105,7 +105,7 @@ class Cli : public Backend {
     Cli(const PrinterProfile& profile, const std::string& path, bool force)
         : vector_(profile.vector), cli_(profile.exchange), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check(job);
         const std::string settings =
@@ -136,7 +136,7 @@ class Cli : public Backend {
         output_.commit(dynamic_cast<CliProduct&>(product).commands, layer.index() + 1);
     }
 
-    void end() override { output_.end(binary() ? "" : "$$GEOMETRYEND\n"); }
+    void finish() override { output_.end(binary() ? "" : "$$GEOMETRYEND\n"); }
 
   private:
     bool binary() const { return cli_.cli_format == CliFormat::binary; }

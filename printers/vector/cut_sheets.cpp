@@ -81,7 +81,7 @@ class CutBackend : public Backend {
     std::vector<std::string> notes() const override { return notes_.texts(profile_.cutting); }
 
   protected:
-    JobStamp open(const Job& job, LayerRange range) {
+    JobStamp prepare(const Job& job, LayerRange range) {
         check_range(job, range);
         if (job.supports) {
             throw InputError(
@@ -128,7 +128,7 @@ class LayerSheets : public CutBackend {
 
   protected:
     JobStamp open_page(const Job& job, LayerRange range) {
-        JobStamp stamp = open(job, range);
+        JobStamp stamp = prepare(job, range);
         page_ = grown(job.bounds.rect(), profile().vector.margin + cut_allowance(profile().cutting));
         return stamp;
     }
@@ -151,7 +151,7 @@ class LayerSheetFolder : public LayerSheets {
                      const std::string& path, bool force)
         : LayerSheets(profile, format), output_(path, format->extension(), force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         const JobStamp stamp = open_page(job, range);
         description_ = describe(range);
         description_["width"] = page().size().x;
@@ -163,7 +163,7 @@ class LayerSheetFolder : public LayerSheets {
         const std::string text = format().file(sheet_of(layer, product));
         output_.write(layer.index(), std::as_bytes(std::span(text)), product);
     }
-    void end() override { output_.end(description_); }
+    void finish() override { output_.end(description_); }
 
   private:
     UnfinishedFolder output_;
@@ -176,7 +176,7 @@ class LayerSheetFile : public LayerSheets {
                    const std::string& path, bool force)
         : LayerSheets(profile, format), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         const int next = output_.begin(open_page(job, range), resume);
         if (!output_.resumed()) output_.commit(format().start(page().size()), next);
         return next;
@@ -184,7 +184,7 @@ class LayerSheetFile : public LayerSheets {
     void write(const Layer& layer, LayerProduct& product) override {
         output_.commit(format().content(sheet_of(layer, product)), layer.index() + 1);
     }
-    void end() override { output_.end(format().end()); }
+    void finish() override { output_.end(format().end()); }
 
   private:
     UnfinishedFile output_;
@@ -199,8 +199,8 @@ class NestedSheets : public CutBackend {
           size_(profile.cutting.sheet.front()[0], profile.cutting.sheet.front()[1]),
           shelves_(empty_sheet()) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        const JobStamp stamp = open(job, range);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        const JobStamp stamp = prepare(job, range);
         check_room(range);
         description_ = describe(range);
         description_["files"] = "sheet_%03d" + format().extension();
@@ -210,7 +210,7 @@ class NestedSheets : public CutBackend {
         nlohmann::ordered_json& done = description_["sheets"];
         begun_ = range.first;
         last_ = range.last;
-        const nlohmann::ordered_json found = output_.open(stamp, resume);
+        const nlohmann::ordered_json found = output_.begin(stamp, resume);
         if (!found.is_array()) return begun_;
         for (const auto& sheet : found) {
             if (!output_.has(sheet.value("file", std::string()))) break;
@@ -238,7 +238,7 @@ class NestedSheets : public CutBackend {
         if (layer.index() + 1 == last_ && !shelves_.empty()) finish_sheet(last_);
     }
 
-    void end() override { output_.end(description_); }
+    void finish() override { output_.end(description_); }
 
   private:
     ShelfSheet empty_sheet() const { return {size_, profile().cutting.sheet_margin}; }

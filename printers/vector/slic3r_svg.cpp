@@ -22,7 +22,7 @@ class Slic3rSvg : public Backend {
     Slic3rSvg(const PrinterProfile& profile, const std::string& path, bool force)
         : vector_(profile.vector), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         check_page(vector_);
         z0_ = job.z0();
@@ -77,7 +77,7 @@ class Slic3rSvg : public Backend {
             layer.index() + 1);
     }
 
-    void end() override { output_.end(svg_end); }
+    void finish() override { output_.end(svg_end); }
 
   private:
     VectorProfile vector_;

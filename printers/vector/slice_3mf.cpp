@@ -75,7 +75,7 @@ class Slice3mf : public Backend {
           path_(path),
           output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
+    int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         if (!(tolerance_ >= 1e-4 && tolerance_ <= 10))
             throw InputError(fmt::format("tolerance = {} mm: must be 0.0001 to 10", tolerance_));
@@ -128,7 +128,7 @@ class Slice3mf : public Backend {
         output_.commit(text, next, zip_.size());
     }
 
-    void end() override {
+    void finish() override {
         std::string text = zip_.entry("3D/_rels/3dmodel.model.rels", relations());
         text += zip_.entry("3D/3dmodel.model", model());
         output_.end(text + zip_.directory());

@@ -112,7 +112,7 @@ class Svg : public Backend {
     }
 
   protected:
-    JobStamp open(const Job& job, LayerRange range) {
+    JobStamp prepare(const Job& job, LayerRange range) {
         check_range(job, range);
         page_ = make_page(profile_.vector, job.bounds);
         return {job.identity, settings_of(profile_.vector), range};
@@ -130,8 +130,8 @@ class SvgFile : public Svg {
     SvgFile(const PrinterProfile& profile, const std::string& path, bool force)
         : Svg(profile), output_(path, force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        const int next = output_.begin(open(job, range), resume);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        const int next = output_.begin(prepare(job, range), resume);
         if (!output_.resumed()) output_.commit(svg_start({page().width, page().height}), next);
         return next;
     }
@@ -140,7 +140,7 @@ class SvgFile : public Svg {
     void write(const Layer& layer, LayerProduct& product) override {
         output_.commit(group(layer, dynamic_cast<SvgProduct&>(product), filled), layer.index() + 1);
     }
-    void end() override { output_.end(svg_end); }
+    void finish() override { output_.end(svg_end); }
 
   private:
     UnfinishedFile output_;
@@ -151,8 +151,8 @@ class SvgFolder : public Svg {
     SvgFolder(const PrinterProfile& profile, const std::string& path, bool force)
         : Svg(profile), output_(path, ".svg", force) {}
 
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        const JobStamp stamp = open(job, range);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        const JobStamp stamp = prepare(job, range);
         description_ = describe_job(job, range, ".svg");
         description_["printer"] = profile().name;
         description_["width"] = page().width;
@@ -168,7 +168,7 @@ class SvgFolder : public Svg {
                                  group(layer, dynamic_cast<SvgProduct&>(product), hairline) + svg_end;
         output_.write(layer.index(), std::as_bytes(std::span(text)), product);
     }
-    void end() override { output_.end(description_); }
+    void finish() override { output_.end(description_); }
 
   private:
     UnfinishedFolder output_;

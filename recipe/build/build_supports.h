@@ -10,11 +10,8 @@
 
 namespace lamella {
 
-struct SupportOptions {
+struct SupportOptions : PassControl {
     std::filesystem::path plans = default_plan_folder();  ///< where plans are kept; empty: nowhere
-    int threads = 0;                                      ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};   ///< of the survey; may be empty
-    const CancelToken* cancel = nullptr;                  ///< may be null
 };
 
 struct BuiltSupports {

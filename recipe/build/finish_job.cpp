@@ -18,10 +18,10 @@ SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const Finish
         survey.on_progress = progress_of("islands");
         drop_islands(recipe, built, survey);
     }
-    repair_job(recipe, built, {options.threads, progress_of("repairs"), options.cancel});
+    repair_job(recipe, built, {{options.threads, progress_of("repairs"), options.cancel}});
     SupportStructures around;
     around.supports = add_supports(recipe, built,
-                                   {options.plans, options.threads, progress_of("supports"), options.cancel});
+                                   {{options.threads, progress_of("supports"), options.cancel}, options.plans});
     around.shield = add_shield(recipe, built.job, {options.threads, options.cancel});
     return around;
 }

@@ -20,12 +20,11 @@ struct ClearProduct : LayerProduct {
 };
 
 /// What is clear in all layers so far, and which of the places asked for are not.
-class ClearSurvey : public Backend {
+class ClearSurvey : public LayerPass {
   public:
     ClearSurvey(double radius, double tolerance, std::vector<dvec2> places)
         : radius_(radius), tolerance_(tolerance), places_(std::move(places)) {}
 
-    int begin(const Job&, LayerRange range, bool) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<ClearProduct>();
         Polygons section;
@@ -51,7 +50,6 @@ class ClearSurvey : public Backend {
         first_ = false;
         if (clear_.empty()) closed_ = layer.index();
     }
-    void end() override {}
 
     const Polygons& clear() const { return clear_; }
     /// The first layer that leaves no place at all; negative where there is none.
@@ -112,9 +110,9 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
     holes.at = places_of(cutting);
     ClearSurvey survey(cutting.dowel_diameter / 2 + cutting.dowel_margin, recipe.printer.vector.tolerance,
                        holes.at);
-    StreamOptions options;
-    options.range = {0, layers};
-    stream_layers(job, survey, options);
+    Job lower = job;
+    lower.layer_count = layers;
+    survey_layers(lower, survey, {});
     if (!holes.at.empty()) return holes;
     if (survey.closed() < 0) {
         const Rect bounds = job.bounds.rect();

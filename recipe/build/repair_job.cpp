@@ -56,7 +56,7 @@ CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check chec
     checked.limits.thickness = checked.limits.gap = limit;
     checked.pitch = check_pitch(job, checked.limits);
     PrintCheck surveyor(job, checked);
-    survey_layers(job, surveyor, options.threads, options.on_progress, options.cancel);
+    survey_layers(job, surveyor, options);
     return surveyor.report().results.front();
 }
 

@@ -8,11 +8,7 @@
 
 namespace lamella {
 
-struct RepairOptions {
-    int threads = 0;                                     ///< 0: one per core
-    std::function<void(const Progress&)> on_progress{};  ///< may be empty
-    const CancelToken* cancel = nullptr;                 ///< may be null
-};
+struct RepairOptions : PassControl {};
 
 /// Joins the pieces of the job as [repair] asks, and counts what make_processed mends: the report stands in
 /// `built` then. Looks at all layers, for each of the repairs asked for. Throws InputError when there are too

@@ -47,15 +47,15 @@ class Renderer : public Backend {
         }
         outputs_ = make_outputs(moved, true);
     }
-    int begin(const Job& job, LayerRange range, bool /*resume*/) override {
-        outputs_->begin(job, whole_, false);
+    int open(const Job& job, LayerRange range, bool /*resume*/) override {
+        outputs_->open(job, whole_, false);
         return range.first;
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         return outputs_->render(layer);
     }
     void write(const Layer& /*layer*/, LayerProduct& /*product*/) override {}
-    void end() override {}
+    void finish() override {}
 
   private:
     ScratchFolder folder_;  ///< outlives what is open in it

@@ -27,7 +27,7 @@ Job support_job(std::int64_t which) {
 /// Contours of every layer to 0.025 mm, dropped.
 class Outlines : public Backend {
   public:
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+    int open(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<LayerProduct>();
         constexpr double tolerance = 0.025;
@@ -35,7 +35,7 @@ class Outlines : public Backend {
         return product;
     }
     void write(const Layer& /*layer*/, LayerProduct& /*product*/) override {}
-    void end() override {}
+    void finish() override {}
 };
 
 /// The arguments are the part and the number of threads.

@@ -36,7 +36,7 @@ TEST_CASE("every back-end can print", "[registry]") {
         CHECK(volume == Approx(3.14159265 * 4 * 0.2).epsilon(0.01));
         CHECK(std::filesystem::exists(path));
         CHECK(std::filesystem::is_directory(path) == (backend.output == OutputKind::folder));
-        CHECK_THROWS_AS(make_backend(profile, path, false)->begin(job, {0, 2}, false), InputError);
+        CHECK_THROWS_AS(make_backend(profile, path, false)->open(job, {0, 2}, false), InputError);
     }
 }
 

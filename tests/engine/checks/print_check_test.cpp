@@ -63,7 +63,7 @@ CheckReport check(const FieldPtr& part, const PrintCheckOptions& options, int th
     Job job = scenes::job_of(part, part->bounds(), layer_height);
     job.supports = supports;
     PrintCheck checks(job, options);
-    survey_layers(job, checks, threads, {}, nullptr);
+    survey_layers(job, checks, {threads});
     return checks.report();
 }
 
@@ -454,8 +454,8 @@ void check_same(const CheckReport& one, const CheckReport& other) {
 class Carried : public Backend {
   public:
     Carried(const PrintCheck& renderer, PrintCheck& check) : renderer_(renderer), check_(check) {}
-    int begin(const Job& job, LayerRange range, bool resume) override {
-        return check_.begin(job, range, resume);
+    int open(const Job& job, LayerRange range, bool resume) override {
+        return check_.open(job, range, resume);
     }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto arrived = check_.empty_product();
@@ -463,7 +463,7 @@ class Carried : public Backend {
         return arrived;
     }
     void write(const Layer& layer, LayerProduct& product) override { check_.write(layer, product); }
-    void end() override { check_.end(); }
+    void finish() override { check_.finish(); }
 
   private:
     const PrintCheck& renderer_;
@@ -486,7 +486,7 @@ TEST_CASE("a check says the same of layers that were rendered elsewhere", "[chec
         const PrintCheck renderer(job, all_checks());
         PrintCheck checks(job, all_checks());
         Carried carried(renderer, checks);
-        survey_layers(job, carried, 0, {}, nullptr);
+        survey_layers(job, carried, {});
         check_same(checks.report(), check(part, all_checks(), 0, supports));
     }
 }
@@ -587,7 +587,7 @@ TEST_CASE("limits that make no sense are refused", "[check]") {
     CHECK_THROWS_AS(check(brick(), options), InputError);
     Job job = scenes::job_of(brick(), brick()->bounds(), h);
     PrintCheck checks(job, filament());
-    CHECK_THROWS_AS(checks.begin(job, {3, 10}, false), InputError);
+    CHECK_THROWS_AS(checks.open(job, {3, 10}, false), InputError);
 }
 
 }  // namespace print_check_test

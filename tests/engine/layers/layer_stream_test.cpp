@@ -26,7 +26,7 @@ Job sphere_job(int layers) {
 
 class Recorder : public Backend {
   public:
-    int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first + skip; }
+    int open(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first + skip; }
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         const int now = ++flying;
         int seen = most;
@@ -45,7 +45,7 @@ class Recorder : public Backend {
         areas.push_back(product.area);
         if (cancel_at == layer.index()) token->cancel();
     }
-    void end() override { ended = true; }
+    void finish() override { ended = true; }
 
     int skip = 0, fail_at = -1, cancel_at = -1;
     CancelToken* token = nullptr;
@@ -80,7 +80,7 @@ TEST_CASE("layers arrive in order, and their volume is the solid's") {
 TEST_CASE("the volume of supports is counted apart") {
     class Areas : public Backend {
       public:
-        int begin(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
+        int open(const Job& /*job*/, LayerRange range, bool /*resume*/) override { return range.first; }
         std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
             auto product = std::make_unique<LayerProduct>();
             product->area = 2;
@@ -88,7 +88,7 @@ TEST_CASE("the volume of supports is counted apart") {
             return product;
         }
         void write(const Layer& /*layer*/, LayerProduct& /*product*/) override {}
-        void end() override {}
+        void finish() override {}
     };
     const Job job = sphere_job(40);  // of 0.25 mm
     Areas areas;

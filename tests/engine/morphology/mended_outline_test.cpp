@@ -61,7 +61,7 @@ CheckReport check(const FieldPtr& part, Check kind, double limit) {
     options.limits.thickness = options.limits.gap = limit;
     options.pitch = limit / 6;
     PrintCheck checks(job, options);
-    survey_layers(job, checks, 0, {}, nullptr);
+    survey_layers(job, checks, {});
     return checks.report();
 }
 

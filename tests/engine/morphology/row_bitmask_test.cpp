@@ -87,11 +87,11 @@ TEST_CASE("cells are filled or met as their runs say", "[morphology]") {
     CHECK(filled > 100);
     CHECK(partly > 100);
     // Whatever is met holds all of the rows, and what lies in the others none of it.
-    CHECK(cells.outer.of(rows, lattice.margin_lines) == rows);
+    CHECK(cells.outer.clip(rows, lattice.margin_lines) == rows);
     RowBitmask others = cells.outer;
     others.invert();
-    CHECK(others.of(rows, lattice.margin_lines).runs().empty());
-    CHECK(cells.inner.of(rows, lattice.margin_lines).total_length() == std::int64_t{filled} * cell);
+    CHECK(others.clip(rows, lattice.margin_lines).runs().empty());
+    CHECK(cells.inner.clip(rows, lattice.margin_lines).total_length() == std::int64_t{filled} * cell);
     RowBitmask none = others;
     none.subtract_dilated(others, outer_disc(run_unit, run_unit));
     CHECK(none.runs(0, lattice.lines).runs().empty());
@@ -107,7 +107,7 @@ TEST_CASE("cells grow by all that a disc about them may meet, and no further", "
                          all = LayerCells(random_rows(random, 31, 40), lattice).outer;
         const DiscWidths covered = inner_disc(radius * run_unit, run_unit),
                          met = outer_disc(radius * run_unit, run_unit);
-        for (std::size_t k = 0; k < outer.size(); ++k) {
+        for (std::size_t k = 0; k < met.size(); ++k) {
             const double reach = std::sqrt(radius * radius - double(k) * double(k)) * run_unit;
             CHECK(covered[k] * cell <= reach + 1);
             CHECK(met[k] * cell >= reach - 1);
@@ -169,7 +169,7 @@ TEST_CASE("cells grow alike where few are, where all are, and in lines of many w
     REQUIRE(lattice.words > 2 * 64);
     for (const RunRows* rows : {&few, &most}) {
         const RowBitmask cells = LayerCells(*rows, lattice).outer;
-        CHECK(cells.of(*rows, lattice.margin_lines) == *rows);
+        CHECK(cells.clip(*rows, lattice.margin_lines) == *rows);
         for (const double radius : {0.0, 1.5, 3.0, 39.0}) {
             const DiscWidths disc = outer_disc(radius * run_unit, run_unit);
             const RowBitmask grown = cells.grown(disc), beyond = cells.beyond(disc);

@@ -160,14 +160,14 @@ inline Job make_job(Box bounds, FigureSolid::Figures figures, double layer_heigh
 inline double run_layers(const Job& job, Backend& backend, LayerRange range, bool resume = false,
                          int stop = 1 << 30) {
     double volume = 0;
-    for (int i = backend.begin(job, range, resume); i < range.last; ++i) {
+    for (int i = backend.open(job, range, resume); i < range.last; ++i) {
         if (i >= stop) return volume;
         const Layer layer(job, i);
         const auto product = backend.render(layer);
         backend.write(layer, *product);
         volume += product->area * job.layer_height;
     }
-    backend.end();
+    backend.finish();
     return volume;
 }
 

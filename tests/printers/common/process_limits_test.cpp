@@ -45,7 +45,7 @@ bool takes(const PrinterProfile& profile, dvec3 size) {
     const Job job = box_job(size, 0.2);
     const auto backend = make_backend(profile, folder / "out", false);
     try {
-        backend->begin(job, {0, job.layer_count}, false);
+        backend->open(job, {0, job.layer_count}, false);
     } catch (const InputError& error) {
         UNSCOPED_INFO(error.what());
         return false;

@@ -183,7 +183,7 @@ TEST_CASE("scripts that no machine would read are refused with their line", "[gc
     PrinterProfile profile = plain();
     profile.gcode.layer_script = "M117 {no}";
     const TemporaryFolder folder;
-    CHECK_THROWS_WITH(make_gcode(profile, folder / "out", false)->begin(cones(), {0, 1}, false),
+    CHECK_THROWS_WITH(make_gcode(profile, folder / "out", false)->open(cones(), {0, 1}, false),
                       Catch::StartsWith("layer_script, line 1"));
 }
 
@@ -333,7 +333,7 @@ TEST_CASE("what slows and merges is continued byte for byte", "[gcode]") {
     PrinterProfile other = profile;
     other.gcode.layer_script = "M117 {layer}";
     run_layers(cones(), *make_gcode(profile, folder / "more", false), {0, 20}, false, stop);
-    CHECK_THROWS_WITH(make_gcode(other, folder / "more", false)->begin(cones(), {0, 20}, true),
+    CHECK_THROWS_WITH(make_gcode(other, folder / "more", false)->open(cones(), {0, 20}, true),
                       Catch::Contains("other printer settings"));
 }
 

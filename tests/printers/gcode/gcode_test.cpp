@@ -243,7 +243,7 @@ TEST_CASE("paths are not planned to their end for a layer that is not wanted any
     const TemporaryFolder folder;
     const Job job = forest();
     const auto backend = make_gcode(filament_printer(), folder / "out.gcode", false);
-    backend->begin(job, {0, job.layer_count}, false);
+    backend->open(job, {0, job.layer_count}, false);
     CancelToken token;
     CHECK_NOTHROW(backend->render(Layer(job, 3, &token)));
     token.cancel();
@@ -266,7 +266,7 @@ TEST_CASE("parts that do not fit and senseless printers are refused", "[gcode]")
     const auto begin = [&](auto change, const Job& job = puck()) {
         PrinterProfile profile = filament_printer();
         change(profile.filament);
-        make_gcode(profile, folder / "out", false)->begin(job, {0, 1}, false);
+        make_gcode(profile, folder / "out", false)->open(job, {0, 1}, false);
     };
     CHECK_THROWS_WITH(begin([](FilamentProfile& f) { f.bed_x = 27.9 + 2.1; },
                             make_job(
@@ -370,7 +370,7 @@ TEST_CASE("supports add up when a print is stopped and continued", "[gcode]") {
     PrinterProfile other = filament_printer();
     other.support.speed = 10;
     run_layers(job, *make_gcode(filament_printer(), folder / "other", false), {0, 20}, false, stop);
-    CHECK_THROWS_WITH(make_gcode(other, folder / "other", false)->begin(job, {0, 20}, true),
+    CHECK_THROWS_WITH(make_gcode(other, folder / "other", false)->open(job, {0, 20}, true),
                       Catch::Contains("other printer settings"));
 }
 
@@ -379,12 +379,12 @@ TEST_CASE("supports must fit the bed, and their speed the printer", "[gcode]") {
     PrinterProfile profile = filament_printer();
     Job wide = supported_table();
     wide.bounds.hi.x = 300;
-    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->begin(wide, {0, 1}, false),
+    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->open(wide, {0, 1}, false),
                       Catch::Contains("with its supports"));
     profile.support.speed = 0;
-    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->begin(supported_table(), {0, 1}, false),
+    CHECK_THROWS_WITH(make_gcode(profile, folder / "a", false)->open(supported_table(), {0, 1}, false),
                       Catch::Contains("speed of supports"));
-    CHECK_NOTHROW(make_gcode(profile, folder / "a", false)->begin(puck(), {0, 1}, false));
+    CHECK_NOTHROW(make_gcode(profile, folder / "a", false)->open(puck(), {0, 1}, false));
     CHECK(print_whole(puck(), filament_printer(), {0, 2}).find("upport") == std::string::npos);
 }
 

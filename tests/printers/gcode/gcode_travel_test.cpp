@@ -279,7 +279,7 @@ TEST_CASE("moves without extrusion are continued byte for byte, and not with oth
     const auto refused = [&](auto change) {
         PrinterProfile other = profile;
         change(other.gcode);
-        CHECK_THROWS_WITH(make_gcode(other, folder / "parts", false)->begin(job, {0, 5}, true),
+        CHECK_THROWS_WITH(make_gcode(other, folder / "parts", false)->open(job, {0, 5}, true),
                           Catch::Contains("other printer settings"));
     };
     refused([](GcodeProfile& g) { g.travel_inside = false; });

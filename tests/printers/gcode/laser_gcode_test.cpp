@@ -159,7 +159,7 @@ TEST_CASE("what a laser cannot do is refused", "[gcode][laser]") {
     const auto begin = [&](auto change, const Job& job) {
         PrinterProfile profile = laser();
         change(profile);
-        make_gcode(profile, folder / "out", false)->begin(job, {0, 1}, false);
+        make_gcode(profile, folder / "out", false)->open(job, {0, 1}, false);
     };
     const auto nothing = [](PrinterProfile&) {};
     CHECK_THROWS_WITH(begin(nothing, supported_table()), Catch::Contains("prints no supports"));

@@ -83,10 +83,10 @@ TEST_CASE("what an Ember cannot print is refused", "[ember]") {
     PrinterProfile profile = MachineProfiles().find("ember")->printer;
     Job job = two_cones();
     job.layer_height = 0.0333;
-    CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->begin(job, {0, 12}, false),
+    CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->open(job, {0, 12}, false),
                       Catch::Contains("whole micrometres"));
     profile.image.width = 1920;
-    CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->begin(two_cones(), {0, 12}, false),
+    CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->open(two_cones(), {0, 12}, false),
                       Catch::Contains("1280 x 800"));
     CHECK(!std::filesystem::exists(folder / "a.partial"));
 }

@@ -138,9 +138,9 @@ TEST_CASE("a package of sheets that was stopped is continued byte for byte", "[i
     run_layers(job, *make_image3d(printer(0.2), folder / "parts.3mf", false), {0, count}, false, stop);
     CHECK(!fs::exists(folder / "parts.3mf"));
     std::ofstream(folder / "parts.3mf.partial", std::ios::app) << "PK\x03\x04 torn";
-    CHECK_THROWS_AS(make_image3d(printer(0.1), folder / "parts.3mf", false)->begin(job, {0, count}, true),
+    CHECK_THROWS_AS(make_image3d(printer(0.1), folder / "parts.3mf", false)->open(job, {0, count}, true),
                     InputError);
-    CHECK(make_image3d(printer(0.2), folder / "parts.3mf", false)->begin(job, {0, count}, true) == stop);
+    CHECK(make_image3d(printer(0.2), folder / "parts.3mf", false)->open(job, {0, count}, true) == stop);
     run_layers(job, *make_image3d(printer(0.2), folder / "parts.3mf", false), {0, count}, true);
     CHECK(read_text(folder / "parts.3mf") == read_text(folder / "whole.3mf"));
 }
@@ -150,7 +150,7 @@ TEST_CASE("sheets that are too large, or whose greys are no shares, are refused"
     const Job job = cone();
     const auto refusal = [&](const PrinterProfile& profile) {
         try {
-            make_image3d(profile, folder / "a.3mf", false)->begin(job, {0, 24}, false);
+            make_image3d(profile, folder / "a.3mf", false)->open(job, {0, 24}, false);
         } catch (const InputError& error) {
             return std::string(error.what());
         }

@@ -116,11 +116,11 @@ TEST_CASE("widths that colours do not take are refused before the first layer", 
     profile.image.portrait = false;
     profile.nanodlp.pixels = PanelPixels::packed;
     profile.image.width = 301;
-    CHECK_THROWS_WITH(make_nanodlp(profile, folder / "a", false)->begin(two_cones(), {0, 12}, false),
+    CHECK_THROWS_WITH(make_nanodlp(profile, folder / "a", false)->open(two_cones(), {0, 12}, false),
                       Catch::Contains("multiple of 3"));
     profile.nanodlp.pixels = PanelPixels::rgb;
     profile.image.width = 21846;
-    CHECK_THROWS_WITH(make_nanodlp(profile, folder / "a", false)->begin(two_cones(), {0, 12}, false),
+    CHECK_THROWS_WITH(make_nanodlp(profile, folder / "a", false)->open(two_cones(), {0, 12}, false),
                       Catch::Contains("21845 is the most"));
     CHECK(!std::filesystem::exists(folder / "a.partial"));
 }

@@ -126,7 +126,7 @@ TEST_CASE("masks of discs have the area of discs", "[png_stack]") {
         }
         const auto product = [&] {
             auto backend = make_png_stack(profile, folder / "again", true);
-            backend->begin(job, {0, job.layer_count}, true);
+            backend->open(job, {0, job.layer_count}, true);
             return backend->render(Layer(job, i));
         }();
         CHECK(product->area == Approx(3.14159265358979 * radius * radius).epsilon(tolerance));
@@ -226,14 +226,14 @@ TEST_CASE("masks of one bit are those in black and white", "[png_stack]") {
         }
     }
     profile.image.antialiasing = Antialiasing::rows;
-    CHECK_THROWS_WITH(make_png_stack(profile, folder / "grey", false)->begin(cone(), {0, 12}, false),
+    CHECK_THROWS_WITH(make_png_stack(profile, folder / "grey", false)->open(cone(), {0, 12}, false),
                       Catch::Contains("antialiasing = \"off\""));
     profile.image.bits = 4;
-    CHECK_THROWS_AS(make_png_stack(profile, folder / "four", false)->begin(cone(), {0, 12}, false),
+    CHECK_THROWS_AS(make_png_stack(profile, folder / "four", false)->open(cone(), {0, 12}, false),
                     InputError);
     profile.image.bits = 16;
     profile.image.format = ImageFormat::bmp;
-    CHECK_THROWS_WITH(make_png_stack(profile, folder / "bmp", false)->begin(cone(), {0, 12}, false),
+    CHECK_THROWS_WITH(make_png_stack(profile, folder / "bmp", false)->open(cone(), {0, 12}, false),
                       Catch::Contains("bits = 8"));
 }
 
@@ -274,7 +274,7 @@ TEST_CASE("a part larger than the display is refused with both sizes", "[png_sta
     PrinterProfile profile = small_display();
     profile.image.width = 70;
     const auto backend = make_png_stack(profile, folder / "out", false);
-    CHECK_THROWS_WITH(backend->begin(asymmetric_l(), {0, 4}, false),
+    CHECK_THROWS_WITH(backend->open(asymmetric_l(), {0, 4}, false),
                       Catch::Contains("8.000 x 4.000 mm") && Catch::Contains("7.000 x 16.000 mm"));
     CHECK(!fs::exists(folder / "out.partial"));
     profile.image.width = 80;  // exactly as long as the part
@@ -288,7 +288,7 @@ TEST_CASE("senseless displays and ranges are refused", "[png_stack]") {
     const auto begin = [&](auto change, LayerRange range = {0, 4}) {
         PrinterProfile profile = small_display();
         change(profile.image);
-        make_png_stack(profile, folder / "out", false)->begin(job, range, false);
+        make_png_stack(profile, folder / "out", false)->open(job, range, false);
     };
     CHECK_THROWS_AS(begin([](ImageProfile& i) { i.width = 0; }), InputError);
     CHECK_THROWS_AS(begin([](ImageProfile& i) { i.height = 65536; }), InputError);
@@ -311,7 +311,7 @@ TEST_CASE("a stopped stack is continued and equals one made in one go", "[png_st
     // A layer that was being written when the run stopped does not count.
     write_text(folder / "parts.partial/00005.png.tmp", "half a file");
     const auto again = make_png_stack(small_display(), folder / "parts", false);
-    CHECK(again->begin(job, {0, 12}, true) == 5);
+    CHECK(again->open(job, {0, 12}, true) == 5);
     run_layers(job, *again, {0, 12}, true);
     CHECK(!fs::exists(folder / "parts.partial"));
     CHECK(names_in(folder / "parts") == names_in(folder / "whole"));
@@ -328,7 +328,7 @@ TEST_CASE("job.json has every layer's area, those of an earlier run included", "
     // Half a line was written when the machine went down: its layer is made again.
     const fs::path journal = fs::path(folder / "out.partial") / "unfinished.layers";
     write_text(journal, read_text(journal).substr(0, read_text(journal).size() - 4));
-    CHECK(make_png_stack(small_display(), folder / "out", false)->begin(job, {2, 12}, true) == 4);
+    CHECK(make_png_stack(small_display(), folder / "out", false)->open(job, {2, 12}, true) == 4);
     run_layers(job, *make_png_stack(small_display(), folder / "out", false), {2, 12}, true);
     const auto json = nlohmann::json::parse(read_text(folder / "out/job.json"));
     REQUIRE(json["areas"].size() == 10);
@@ -345,14 +345,14 @@ TEST_CASE("a folder without a stamp or a layer is begun anew", "[png_stack]") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "out.partial");
     write_text(folder / "out.partial/unfinished.json.tmp", "{");
-    CHECK(make_png_stack(small_display(), folder / "out", false)->begin(cone(), {0, 12}, true) == 0);
+    CHECK(make_png_stack(small_display(), folder / "out", false)->open(cone(), {0, 12}, true) == 0);
 }
 
 TEST_CASE("a run that died just before its folder got its name is made anew", "[png_stack]") {
     const TemporaryFolder folder;
     run_layers(cone(), *make_png_stack(small_display(), folder / "whole", false), {0, 12});
     fs::copy(folder / "whole", folder / "out.partial");
-    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "out", false)->begin(cone(), {0, 12}, false),
+    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "out", false)->open(cone(), {0, 12}, false),
                     InputError);
     run_layers(cone(), *make_png_stack(small_display(), folder / "out", false), {0, 12}, true);
     CHECK(read_text(folder / "out/job.json") == read_text(folder / "whole/job.json"));
@@ -376,7 +376,7 @@ TEST_CASE("what another job began is not continued", "[png_stack]") {
     const TemporaryFolder folder;
     Job job = cone();
     const auto begin = [&](const PrinterProfile& profile, LayerRange range, bool resume, bool force) {
-        return make_png_stack(profile, folder / "out", force)->begin(job, range, resume);
+        return make_png_stack(profile, folder / "out", force)->open(job, range, resume);
     };
     run_layers(job, *make_png_stack(small_display(), folder / "out", false), {0, 12}, false, 5);
     CHECK_THROWS_WITH(begin(small_display(), {0, 12}, false, false), Catch::Contains("--resume"));
@@ -411,12 +411,12 @@ TEST_CASE("a finished stack is replaced only when told, and only when it is ours
     CHECK(read_text(folder / "out/notes.txt") == "mine");
     fs::create_directories(folder / "photos");
     write_text(folder / "photos/00000.png", "mine");
-    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "photos", true)->begin(job, {0, 3}, false),
+    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "photos", true)->open(job, {0, 3}, false),
                     InputError);
     write_text(folder / "file", "mine");
-    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "file", true)->begin(job, {0, 3}, false),
+    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "file", true)->open(job, {0, 3}, false),
                     InputError);
-    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "file/out", true)->begin(job, {0, 3}, false),
+    CHECK_THROWS_AS(make_png_stack(small_display(), folder / "file/out", true)->open(job, {0, 3}, false),
                     Error);
 }
 
@@ -428,7 +428,7 @@ TEST_CASE("a full disk is a fault, and the layers before it stay", "[png_stack]"
     rlimit old{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
     const auto backend = make_png_stack(profile, folder / "out", false);
-    backend->begin(job, {0, 12}, false);
+    backend->open(job, {0, 12}, false);
     const Layer first(job, 0);
     backend->write(first, *backend->render(first));
     rlimit tiny = old;
@@ -438,7 +438,7 @@ TEST_CASE("a full disk is a fault, and the layers before it stay", "[png_stack]"
     CHECK_THROWS_AS(backend->write(second, *backend->render(second)), FaultError);
     REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
     signal(SIGXFSZ, SIG_DFL);
-    CHECK(make_png_stack(profile, folder / "out", false)->begin(job, {0, 12}, true) == 1);
+    CHECK(make_png_stack(profile, folder / "out", false)->open(job, {0, 12}, true) == 1);
 }
 
 TEST_CASE("supports are drawn dimmed, the part over them", "[png_stack]") {
@@ -474,7 +474,7 @@ TEST_CASE("supports are drawn dimmed, the part over them", "[png_stack]") {
     CHECK(json["support_grey"] == grey);
     CHECK(!nlohmann::json::parse(read_text(folder / "part/job.json")).contains("support_grey"));
     const auto backend = make_png_stack(profile, folder / "again", true);
-    backend->begin(job, {0, 4}, false);
+    backend->open(job, {0, 4}, false);
     const auto product = backend->render(Layer(job, 1));
     const double tolerance = antialiasing == Antialiasing::off ? 0.02 : 0.002;
     CHECK(product->area == Approx(4.03 * 6).epsilon(tolerance));
@@ -506,10 +506,9 @@ TEST_CASE("a grey that is none is refused where there are supports", "[png_stack
     const TemporaryFolder folder;
     PrinterProfile profile = small_display();
     profile.support.grey = GENERATE(-0.1, 1.1, std::nan(""));
-    CHECK_THROWS_WITH(
-        make_png_stack(profile, folder / "out", false)->begin(supported_table(), {0, 20}, false),
-        Catch::Contains("grey of supports"));
-    CHECK_NOTHROW(make_png_stack(profile, folder / "out", false)->begin(cone(), {0, 12}, false));
+    CHECK_THROWS_WITH(make_png_stack(profile, folder / "out", false)->open(supported_table(), {0, 20}, false),
+                      Catch::Contains("grey of supports"));
+    CHECK_NOTHROW(make_png_stack(profile, folder / "out", false)->open(cone(), {0, 12}, false));
 }
 
 }  // namespace png_stack_test

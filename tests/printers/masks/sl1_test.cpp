@@ -113,10 +113,10 @@ TEST_CASE("what an archive was begun with decides whether it is continued", "[sl
     run_layers(cone(), *make_sl1(small_machine(), path, false), {0, 20}, false, 5);
     PrinterProfile other = small_machine();
     other.resin.exposure = 3;
-    CHECK_THROWS_WITH(make_sl1(other, path, false)->begin(cone(), {0, 20}, true),
+    CHECK_THROWS_WITH(make_sl1(other, path, false)->open(cone(), {0, 20}, true),
                       Catch::Contains("other printer settings"));
     write_text(path + ".partial", std::string(read_text(path + ".partial").size(), 'x'));
-    CHECK_THROWS_WITH(make_sl1(small_machine(), path, false)->begin(cone(), {0, 20}, true),
+    CHECK_THROWS_WITH(make_sl1(small_machine(), path, false)->open(cone(), {0, 20}, true),
                       Catch::Contains("--force"));
 }
 
@@ -180,8 +180,7 @@ TEST_CASE("senseless exposures are refused", "[sl1]") {
     PrinterProfile profile = small_machine();
     for (const double exposure : {0.0, -1.0, 1e9, std::nan("")}) {
         profile.resin.exposure = exposure;
-        CHECK_THROWS_AS(make_sl1(profile, folder / "a.sl1", false)->begin(cone(), {0, 20}, false),
-                        InputError);
+        CHECK_THROWS_AS(make_sl1(profile, folder / "a.sl1", false)->open(cone(), {0, 20}, false), InputError);
     }
 }
 

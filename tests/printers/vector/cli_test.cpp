@@ -292,10 +292,10 @@ TEST_CASE("a CLI file that was stopped is continued byte for byte", "[cli]") {
     run_layers(job, *make_cli(profile, folder / "parts.cli", false), {0, 10}, false, stop);
     CHECK(!fs::exists(folder / "parts.cli"));
     std::ofstream(folder / "parts.cli.partial", std::ios::app) << "$$POLYLINE/1,1,4,0";
-    CHECK(make_cli(profile, folder / "parts.cli", false)->begin(job, {0, 10}, true) == stop);
+    CHECK(make_cli(profile, folder / "parts.cli", false)->open(job, {0, 10}, true) == stop);
     PrinterProfile other = profile;
     other.exchange.cli_units = 0.5;
-    CHECK_THROWS_AS(make_cli(other, folder / "parts.cli", false)->begin(job, {0, 10}, true), InputError);
+    CHECK_THROWS_AS(make_cli(other, folder / "parts.cli", false)->open(job, {0, 10}, true), InputError);
     run_layers(job, *make_cli(profile, folder / "parts.cli", false), {0, 10}, true);
     CHECK(read_text(folder / "parts.cli") == read_text(folder / "whole.cli"));
 }
@@ -311,12 +311,12 @@ TEST_CASE("names cannot break a CLI header, and units must fit the part", "[cli]
     CHECK(reader.content().layers.size() == 11);
     for (const double units : {0.0, -1.0, 1e-9, 1e5, std::nan("")}) {
         CHECK_THROWS_AS(
-            make_cli(printer(CliFormat::ascii, units), folder / "a.cli", false)->begin(job, {0, 10}, false),
+            make_cli(printer(CliFormat::ascii, units), folder / "a.cli", false)->open(job, {0, 10}, false),
             InputError);
     }
     job.bounds.hi.x = 2e4;
     CHECK_THROWS_WITH(
-        make_cli(printer(CliFormat::ascii, 1e-5), folder / "a.cli", false)->begin(job, {0, 10}, false),
+        make_cli(printer(CliFormat::ascii, 1e-5), folder / "a.cli", false)->open(job, {0, 10}, false),
         Catch::Contains("cli_units"));
 }
 

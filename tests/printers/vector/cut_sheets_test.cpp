@@ -192,13 +192,13 @@ TEST_CASE("a run that was stopped goes on to the same sheets", "[sheets]") {
     const int stop = GENERATE(0, 3, 11, 20, 24);
     CAPTURE(stop);
     const auto backend = make_backend(profile, folder / "parts", false);
-    for (int i = backend->begin(job, {0, 24}, false); i < stop; ++i) {
+    for (int i = backend->open(job, {0, 24}, false); i < stop; ++i) {
         const Layer layer(job, i);
         backend->write(layer, *backend->render(layer));
     }
     CHECK(!fs::exists(folder / "parts"));
     const auto again = make_backend(profile, folder / "parts", false);
-    CHECK(again->begin(job, {0, 24}, true) <= stop);
+    CHECK(again->open(job, {0, 24}, true) <= stop);
     run_layers(job, *make_backend(profile, folder / "parts", false), {0, 24}, true);
     check_same_folder(folder / "whole", folder / "parts");
 }
@@ -251,7 +251,7 @@ TEST_CASE("a layer that no sheet holds is refused before anything is written", "
     PrinterProfile profile = nesting("svg");
     profile.cutting.sheet = {{65, 150}};
     const auto backend = make_backend(profile, folder / "out", false);
-    CHECK_THROWS_WITH(backend->begin(cone(), {0, 24}, false),
+    CHECK_THROWS_WITH(backend->open(cone(), {0, 24}, false),
                       Catch::Contains("layer 0 is 59.2") && Catch::Contains("room for 59 x 144 mm"));
     CHECK(!fs::exists(folder / "out.partial"));
     // Where the layers asked for fit, the part's own size does not matter.
@@ -292,8 +292,7 @@ TEST_CASE("senseless cutting settings and supports are refused", "[sheets]") {
     const auto refused = [&](auto change) {
         PrinterProfile profile = cutter("svg");
         change(profile);
-        CHECK_THROWS_AS(make_backend(profile, folder / "x", false)->begin(cone(), {0, 24}, false),
-                        InputError);
+        CHECK_THROWS_AS(make_backend(profile, folder / "x", false)->open(cone(), {0, 24}, false), InputError);
     };
     refused([](PrinterProfile& p) { p.cutting.kerf = -1; });
     refused([](PrinterProfile& p) { p.cutting.kerf = std::nan(""); });
@@ -307,7 +306,7 @@ TEST_CASE("senseless cutting settings and supports are refused", "[sheets]") {
     refused([](PrinterProfile& p) { p.vector.tolerance = 0; });
     refused([](PrinterProfile& p) { p.cutting.dialect = SvgDialect::slic3r; });
     CHECK_THROWS_WITH(
-        make_backend(cutter("svg"), folder / "x", false)->begin(supported_table(), {0, 20}, false),
+        make_backend(cutter("svg"), folder / "x", false)->open(supported_table(), {0, 20}, false),
         Catch::Contains("supports are not cut"));
 }
 

@@ -201,9 +201,9 @@ TEST_CASE("a 3MF package that was stopped is continued byte for byte from its la
     run_layers(job, *make_slice_3mf(printer(3), folder / "parts.3mf", false), {0, count}, false, stop);
     CHECK(!fs::exists(folder / "parts.3mf"));
     std::ofstream(folder / "parts.3mf.partial", std::ios::app) << "PK\x03\x04 torn";
-    CHECK_THROWS_AS(make_slice_3mf(printer(4), folder / "parts.3mf", false)->begin(job, {0, count}, true),
+    CHECK_THROWS_AS(make_slice_3mf(printer(4), folder / "parts.3mf", false)->open(job, {0, count}, true),
                     InputError);
-    CHECK(make_slice_3mf(printer(3), folder / "parts.3mf", false)->begin(job, {0, count}, true) ==
+    CHECK(make_slice_3mf(printer(3), folder / "parts.3mf", false)->open(job, {0, count}, true) ==
           stop / 3 * 3);
     run_layers(job, *make_slice_3mf(printer(3), folder / "parts.3mf", false), {0, count}, true);
     CHECK(read_text(folder / "parts.3mf") == read_text(folder / "whole.3mf"));
@@ -212,11 +212,11 @@ TEST_CASE("a 3MF package that was stopped is continued byte for byte from its la
 TEST_CASE("senseless settings of a 3MF package are refused, and names cannot break it", "[3mf]") {
     const TemporaryFolder folder;
     Job job = rings();
-    CHECK_THROWS_AS(make_slice_3mf(printer(0), folder / "a.3mf", false)->begin(job, {0, 10}, false),
+    CHECK_THROWS_AS(make_slice_3mf(printer(0), folder / "a.3mf", false)->open(job, {0, 10}, false),
                     InputError);
     PrinterProfile profile = printer(5);
     profile.vector.tolerance = 0;
-    CHECK_THROWS_AS(make_slice_3mf(profile, folder / "a.3mf", false)->begin(job, {0, 10}, false), InputError);
+    CHECK_THROWS_AS(make_slice_3mf(profile, folder / "a.3mf", false)->open(job, {0, 10}, false), InputError);
     job.name = "a \"<b>\" & c\x01";
     run_layers(job, *make_slice_3mf(printer(5), folder / "out.3mf", false), {0, 10});
     CHECK(count_of(package(folder / "out.3mf").at("3D/3dmodel.model"),

@@ -187,7 +187,7 @@ TEST_CASE("an SVG that was stopped is continued byte for byte", "[svg]") {
         std::ofstream(folder / "parts.svg.partial.journal", std::ios::app) << "{\"next\":";
     }
     const auto again = make_svg(vector_printer(true), folder / "parts.svg", false);
-    CHECK(again->begin(job, {0, 10}, true) == stop);
+    CHECK(again->open(job, {0, 10}, true) == stop);
     // Continuing can itself be stopped at once.
     run_layers(job, *make_svg(vector_printer(true), folder / "parts.svg", false), {0, 10}, true);
     CHECK(read_text(folder / "parts.svg") == read_text(folder / "whole.svg"));
@@ -199,10 +199,10 @@ TEST_CASE("senseless vector settings are refused", "[svg]") {
     const TemporaryFolder folder;
     PrinterProfile profile = vector_printer(true);
     profile.vector.tolerance = 0;
-    CHECK_THROWS_AS(make_svg(profile, folder / "a.svg", false)->begin(rings(), {0, 10}, false), InputError);
+    CHECK_THROWS_AS(make_svg(profile, folder / "a.svg", false)->open(rings(), {0, 10}, false), InputError);
     profile = vector_printer(true);
     profile.vector.margin = -1;
-    CHECK_THROWS_AS(make_svg(profile, folder / "a.svg", false)->begin(rings(), {0, 10}, false), InputError);
+    CHECK_THROWS_AS(make_svg(profile, folder / "a.svg", false)->open(rings(), {0, 10}, false), InputError);
     CHECK_THROWS_AS(make_svg(vector_printer(true), folder / "", false), InputError);
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("the areas of part and supports are told apart", "[svg]") {
     const TemporaryFolder folder;
     const Job job = block_beside_support();
     const auto backend = make_svg(vector_printer(true), folder / "out.svg", false);
-    backend->begin(job, {0, 4}, false);
+    backend->open(job, {0, 4}, false);
     const auto product = backend->render(Layer(job, 1));
     CHECK(product->area == Approx(4.03 * 6).epsilon(1e-3));
     CHECK(product->support_area == Approx(3 * 2).epsilon(5e-3));

@@ -35,7 +35,7 @@ CheckResult found(const Job& job, Check check, double limit) {
     options.limits.thickness = options.limits.gap = limit;
     options.pitch = 0.06;
     PrintCheck checks(job, options);
-    survey_layers(job, checks, 0, {}, nullptr);
+    survey_layers(job, checks, {});
     return checks.report().results.front();
 }
 
