@@ -1,4 +1,4 @@
-// The table of back-ends. A new one is a file of its own and one line here.
+// The table of back-ends. A new one is a file of its own and one row here.
 #include "printers/registry.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "printers/masks/png_stack.h"
 #include "printers/masks/sl1.h"
 #include "printers/vector/cli.h"
+#include "printers/vector/cut_sheets.h"
 #include "printers/vector/dxf.h"
 #include "printers/vector/slice_3mf.h"
 #include "printers/vector/svg.h"
@@ -27,32 +28,131 @@ dvec3 display_build_volume(const PrinterProfile& profile, double /*layer_height*
     return {display_area_limits(profile.image), infinity};
 }
 
+template <Process process>
+Process always(const PrinterProfile& /*profile*/) {
+    return process;
+}
+
+/// SVG is for cutters, but as Slic3r exports it for resin machines.
+Process svg_process(const PrinterProfile& profile) {
+    return profile.cutting.dialect == SvgDialect::slic3r ? Process::resin : Process::cutting;
+}
+
+/// Under GRBL, G-code is for lasers.
+Process gcode_process(const PrinterProfile& profile) {
+    return profile.gcode.flavour == Flavour::grbl ? Process::cutting : Process::filament;
+}
+
+bool previews(const PrinterProfile& profile) { return profile.resin.preview; }
+bool has_thumbnails(const PrinterProfile& profile) { return profile.gcode.thumbnails; }
+
 constexpr std::array backend_table = {
-    BackendInfo{"png", "folder of 8-bit grey PNG masks with a job.json", "", OutputKind::folder,
-                make_png_stack, LayerContent::pixels, true, nullptr, display_build_volume},
-    BackendInfo{"sl1", "archive for SL1 and SL1S resin printers, and for converters to others", ".sl1 .sl1s",
-                OutputKind::file, make_sl1, LayerContent::pixels, true, nullptr, display_build_volume},
-    BackendInfo{"goo", "file for resin printers with 8-bit displays", ".goo", OutputKind::file, make_goo,
-                LayerContent::pixels, false, nullptr, display_build_volume},
-    BackendInfo{"nanodlp", "archive for NanoDLP, with the areas and islands of each layer", ".nanodlp",
-                OutputKind::file, make_nanodlp, LayerContent::pixels, true, nullptr, display_build_volume},
-    BackendInfo{"ember", "tar.gz for the resin printer Autodesk Ember", ".tar.gz", OutputKind::file,
-                make_ember, LayerContent::pixels, true, nullptr, display_build_volume},
-    BackendInfo{"svg", "contours in mm: one SVG with a group a layer, or one file a layer", ".svg",
-                OutputKind::file_or_folder, make_svg, LayerContent::contours, true},
-    BackendInfo{"dxf", "folder of DXF R12 files for cutters, one a layer or sheet", "", OutputKind::folder,
-                make_dxf, LayerContent::contours},
-    BackendInfo{"gcode", "G-code for filament printers, and for lasers under GRBL", ".gcode",
-                OutputKind::file, make_gcode, LayerContent::beads, true, nullptr, gcode_build_volume},
-    BackendInfo{"cli", "contours as a Common Layer Interface file, for powder-bed machines", ".cli",
-                OutputKind::file, make_cli, LayerContent::contours, true},
-    BackendInfo{"3mf", "contours as a 3MF slice stack, for powder-bed machines", ".3mf", OutputKind::file,
-                make_slice_3mf, LayerContent::contours, true,
-                "programs that do not know 3MF slices show a plain box instead of the part, most of them "
-                "without a word"},
-    BackendInfo{"image3d", "grey sheets as an image stack in a 3MF package, for programs that read volumes",
-                ".3mf", OutputKind::file, make_image3d, LayerContent::voxels, true,
-                "programs that do not know 3MF volumes refuse the file or show a plain box"},
+    BackendInfo{.name = "png",
+                .description = "folder of 8-bit grey PNG masks with a job.json",
+                .endings = "",
+                .output = OutputKind::folder,
+                .make = make_png_stack,
+                .content = LayerContent::pixels,
+                .process = always<Process::resin>,
+                .default_supports = resin_supports,
+                .build_volume = display_build_volume,
+                .streams = true},
+    BackendInfo{.name = "sl1",
+                .description = "archive for SL1 and SL1S resin printers, and for converters to others",
+                .endings = ".sl1 .sl1s",
+                .output = OutputKind::file,
+                .make = make_sl1,
+                .content = LayerContent::pixels,
+                .process = always<Process::resin>,
+                .default_supports = resin_supports,
+                .build_volume = display_build_volume,
+                .embeds_picture = previews,
+                .streams = true},
+    BackendInfo{.name = "goo",
+                .description = "file for resin printers with 8-bit displays",
+                .endings = ".goo",
+                .output = OutputKind::file,
+                .make = make_goo,
+                .content = LayerContent::pixels,
+                .process = always<Process::resin>,
+                .default_supports = resin_supports,
+                .build_volume = display_build_volume,
+                .embeds_picture = previews},
+    BackendInfo{.name = "nanodlp",
+                .description = "archive for NanoDLP, with the areas and islands of each layer",
+                .endings = ".nanodlp",
+                .output = OutputKind::file,
+                .make = make_nanodlp,
+                .content = LayerContent::pixels,
+                .process = always<Process::resin>,
+                .default_supports = resin_supports,
+                .build_volume = display_build_volume,
+                .streams = true},
+    BackendInfo{.name = "ember",
+                .description = "tar.gz for the resin printer Autodesk Ember",
+                .endings = ".tar.gz",
+                .output = OutputKind::file,
+                .make = make_ember,
+                .content = LayerContent::pixels,
+                .process = always<Process::resin>,
+                .default_supports = resin_supports,
+                .build_volume = display_build_volume,
+                .streams = true},
+    BackendInfo{.name = "svg",
+                .description = "contours in mm: one SVG with a group a layer, or one file a layer",
+                .endings = ".svg",
+                .output = OutputKind::file_or_folder,
+                .make = make_svg,
+                .content = LayerContent::contours,
+                .process = svg_process,
+                .cuts_sheets = asks_for_cutting,
+                .streams = true},
+    BackendInfo{.name = "dxf",
+                .description = "folder of DXF R12 files for cutters, one a layer or sheet",
+                .endings = "",
+                .output = OutputKind::folder,
+                .make = make_dxf,
+                .content = LayerContent::contours,
+                .process = always<Process::cutting>,
+                .cuts_sheets = [](const PrinterProfile&) { return true; }},
+    BackendInfo{.name = "gcode",
+                .description = "G-code for filament printers, and for lasers under GRBL",
+                .endings = ".gcode",
+                .output = OutputKind::file,
+                .make = make_gcode,
+                .content = LayerContent::beads,
+                .process = gcode_process,
+                .build_volume = gcode_build_volume,
+                .embeds_picture = has_thumbnails,
+                .streams = true},
+    BackendInfo{.name = "cli",
+                .description = "contours as a Common Layer Interface file, for powder-bed machines",
+                .endings = ".cli",
+                .output = OutputKind::file,
+                .make = make_cli,
+                .content = LayerContent::contours,
+                .process = always<Process::powder>,
+                .streams = true},
+    BackendInfo{.name = "3mf",
+                .description = "contours as a 3MF slice stack, for powder-bed machines",
+                .endings = ".3mf",
+                .output = OutputKind::file,
+                .make = make_slice_3mf,
+                .content = LayerContent::contours,
+                .process = always<Process::powder>,
+                .streams = true,
+                .warning = "programs that do not know 3MF slices show a plain box instead of the part, most "
+                           "of them without a word"},
+    BackendInfo{
+        .name = "image3d",
+        .description = "grey sheets as an image stack in a 3MF package, for programs that read volumes",
+        .endings = ".3mf",
+        .output = OutputKind::file,
+        .make = make_image3d,
+        .content = LayerContent::voxels,
+        .process = always<Process::powder>,
+        .streams = true,
+        .warning = "programs that do not know 3MF volumes refuse the file or show a plain box"},
 };
 
 /// Edits (insertions, deletions, replacements) that turn one word into the other (Levenshtein 1966).
@@ -74,10 +174,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::span<const BackendInfo> backends() { return backend_table; }
 
-SupportProfile default_supports(std::string_view backend) {
+SupportProfile filament_supports() { return {}; }
+
+SupportProfile resin_supports() {
     SupportProfile support;
-    constexpr std::array resin{"png", "sl1", "goo", "nanodlp", "ember"};
-    if (std::ranges::find(resin, backend) == resin.end()) return support;
     support.spacing = 4;
     support.own_bridge = 2;
     support.bridge = 8;
@@ -97,6 +197,25 @@ SupportProfile default_supports(std::string_view backend) {
 dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height) {
     const auto build_volume = find_backend(profile.backend).build_volume;
     return build_volume != nullptr ? build_volume(profile, layer_height) : dvec3(infinity);
+}
+
+Process process_of(const PrinterProfile& profile) {
+    if (profile.check.process != Process::from_backend) return profile.check.process;
+    return find_backend(profile.backend).process(profile);
+}
+
+bool cuts_sheets(const PrinterProfile& profile) {
+    const auto cuts = find_backend(profile.backend).cuts_sheets;
+    return cuts != nullptr && cuts(profile);
+}
+
+bool makes_beads(const PrinterProfile& profile) {
+    return find_backend(profile.backend).content == LayerContent::beads;
+}
+
+double printable_overhang(const PrinterProfile& profile, double layer_height) {
+    if (profile.support.overhang > 0) return profile.support.overhang;
+    return makes_beads(profile) ? profile.filament.line_width / 2 : layer_height;
 }
 
 const BackendInfo& find_backend(std::string_view name) {

@@ -1,4 +1,4 @@
-// The back-ends, by name.
+// The table of back-ends, one row each, and what follows from a profile's row.
 #pragma once
 
 #include <memory>
@@ -11,41 +11,66 @@
 
 namespace lamella {
 
+/// Default supports of filament machines.
+SupportProfile filament_supports();
+
+/// Default supports of resin machines. Resin is peeled off layer by layer and cannot span a void: more
+/// points, thick round pillars, large feet, and tips that break off.
+SupportProfile resin_supports();
+
 /// What a back-end leaves behind.
 enum class OutputKind : unsigned char { file, folder, file_or_folder };
 
-/// What a back-end makes of a layer: pixels of a display, those of a grid about the part, contours or beads.
+/// The content of a written layer: pixels of a display, those of a grid about the part, contours or beads.
 enum class LayerContent : unsigned char { pixels, voxels, contours, beads };
 
+/// A back-end: everything about it that other code needs to know. This row is the only place that names it.
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend
     const char* description;  ///< one line
-    const char* endings;  ///< of its files, with their dots, separated by spaces; the first is the usual one
+    const char* endings;  ///< of its files, with their dots, separated by spaces; the first is the default
     OutputKind output;
     std::unique_ptr<Backend> (*make)(const PrinterProfile& profile, const std::string& path, bool force);
-    LayerContent medium = LayerContent::pixels;
-    bool streams = false;           ///< writes to standard output as well
-    const char* warning = nullptr;  ///< what whoever gets such an output should know
+    LayerContent content;
+    /// The process that its machines work by, where the profile names none.
+    Process (*process)(const PrinterProfile& profile);
+    /// Supports that suit its machines where nothing else is known.
+    SupportProfile (*default_supports)() = filament_supports;
     /// Largest part that its machine takes at this layer height, mm; null where that is not known.
     dvec3 (*build_volume)(const PrinterProfile& profile, double layer_height) = nullptr;
+    /// Whether its files hold a picture of the part (Job::picture); null: never.
+    bool (*embeds_picture)(const PrinterProfile& profile) = nullptr;
+    /// Whether its output is sheets of material to be cut, which take no supports; null: never.
+    bool (*cuts_sheets)(const PrinterProfile& profile) = nullptr;
+    bool streams = false;           ///< writes to standard output as well
+    const char* warning = nullptr;  ///< what a recipient of its files should know
 };
 
-/// All back-ends.
+/// Returns all back-ends.
 std::span<const BackendInfo> backends();
 
-/// Supports as a back-end's machines need them where nothing else is known. Resin is peeled off layer by
-/// layer and cannot span a void: more points, thick round pillars, large feet, and tips that break off.
-SupportProfile default_supports(std::string_view backend);
-
-/// Width, depth and height of what a profile's machine has room for at this height of layers, as its
-/// back-end takes it, mm; infinite where that is not known.
+/// Returns the width, depth and height of the largest part that a profile's machine takes at this layer
+/// height, mm; infinite where that is not known.
 dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height);
 
-/// Throws InputError, with the nearest known name, when there is none of this name.
+/// Returns the process that a profile's machine works by: the profile's own, or else that of its back-end.
+Process process_of(const PrinterProfile& profile);
+
+/// Whether the back-end of a profile turns layers into beads.
+bool makes_beads(const PrinterProfile& profile);
+
+/// Whether the output of a profile is sheets of material to be cut.
+bool cuts_sheets(const PrinterProfile& profile);
+
+/// Returns by how much a layer may stand out over the one below, mm: as the profile's supports say, or else
+/// half the width of a bead, and a layer's height where there are no beads.
+double printable_overhang(const PrinterProfile& profile, double layer_height);
+
+/// Returns the row of this name. Throws InputError, with the nearest known name, when there is none.
 const BackendInfo& find_backend(std::string_view name);
 
-/// The back-end that a profile names, writing to `output_path`, or to standard output for "-". `force` lets
-/// it replace what lamella made there before. Throws InputError.
+/// Makes the back-end that a profile names, writing to `output_path`, or to standard output for "-". `force`
+/// lets it replace what lamella made there before. Throws InputError.
 std::unique_ptr<Backend> make_backend(const PrinterProfile& profile, const std::string& output_path,
                                       bool force);
 

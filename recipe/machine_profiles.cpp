@@ -28,8 +28,9 @@ MachineProfile plain(const std::string& backend) {
     MachineProfile profile;
     profile.printer.name = backend;
     profile.printer.backend = backend;
-    profile.printer.support = default_supports(backend);
-    profile.description = find_backend(backend).description;
+    const BackendInfo& info = find_backend(backend);
+    profile.printer.support = info.default_supports();
+    profile.description = info.description;
     profile.source = "back-end";
     return profile;
 }

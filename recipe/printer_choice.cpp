@@ -17,7 +17,7 @@ namespace {
 
 /// What can be made on the machine.
 std::string size_of(const PrinterProfile& p) {
-    switch (find_backend(p.backend).medium) {
+    switch (find_backend(p.backend).content) {
         case LayerContent::pixels:
             return fmt::format("{} x {} px, {:.6g} x {:.6g} mm{}", p.image.width, p.image.height,
                                p.image.width * p.image.pixel_x, p.image.height * p.image.pixel_y,
@@ -36,7 +36,7 @@ std::string size_of(const PrinterProfile& p) {
 }
 
 std::string pixel_of(const PrinterProfile& p) {
-    if (find_backend(p.backend).medium != LayerContent::pixels) return "";
+    if (find_backend(p.backend).content != LayerContent::pixels) return "";
     const auto um = [](double mm) { return fmt::format("{:.4g}", mm * 1000); };
     return p.image.pixel_x == p.image.pixel_y ? um(p.image.pixel_x) + " um"
                                               : um(p.image.pixel_x) + " x " + um(p.image.pixel_y) + " um";
@@ -108,7 +108,7 @@ std::vector<std::string> backend_words() {
 
 dvec2 plate_size(const PrinterProfile& printer) {
     const ImageProfile& image = printer.image;
-    switch (find_backend(printer.backend).medium) {
+    switch (find_backend(printer.backend).content) {
         case LayerContent::pixels:
             return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
         case LayerContent::beads:

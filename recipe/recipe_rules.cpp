@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "printers/gcode/gcode_script.h"
-#include "printers/vector/cut_sheets.h"
+#include "printers/registry.h"
 #include "procedural/foam/nearest_foam.h"
 #include "procedural/lattice/tpms.h"
 #include "recipe/base_material.h"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the order of the source folders: no include goes upward, and no type has one name in two headers.
+"""Checks the order of the source folders: no include goes upward, no type has one name in two headers, and no code
+asks for a back-end by its name.
 
 Usage: tests/layers.py [checkout]. A folder may include itself and those above it in the list below.
 """
@@ -44,6 +45,8 @@ for top in sorted({folder.split("/")[0] for folder in ORDER}):
             continue
         text = path.read_text(encoding="utf-8")
         for number, line in enumerate(text.splitlines(), 1):
+            if re.search(r'\bbackend\b\)? *[!=]= *"', line):
+                faults.append(f"{name}:{number}: compares a back-end's name; say it in the back-end's row (printers/registry.cpp)")
             include = re.match(r'#include "([^"]+)/[^/"]+"', line)
             if include and include[1] in level:
                 other = include[1]

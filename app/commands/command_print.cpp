@@ -12,6 +12,7 @@
 #include "app/console/text_output.h"
 #include "engine/base/error.h"
 #include "printers/gcode/gcode.h"
+#include "printers/registry.h"
 #include "printers/serial/serial_output.h"
 
 namespace lamella {
@@ -120,7 +121,7 @@ void run(PrintOptions options) {
     std::optional<PreparedJob> prepared;
     if (!file) {
         recipe = options.recipe.read();
-        if (recipe->printer.backend != "gcode") {
+        if (!makes_beads(recipe->printer)) {
             throw InputError("the recipe's printer \"" + recipe->printer.name +
                              "\" takes no G-code (its kind is " + recipe->printer.backend +
                              "); name one that does, such as --printer marlin");

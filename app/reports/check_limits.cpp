@@ -46,7 +46,7 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
 /// them serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
 void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
     constexpr double min_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
-    if (find_backend(printer.backend).medium != LayerContent::pixels) return;
+    if (find_backend(printer.backend).content != LayerContent::pixels) return;
     std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
     if (!lines) return;
     const double pitch = std::abs(lines->line_pitch());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/checks/print_check.h"
-#include "printers/common/process_limits.h"
+#include "printers/process_limits.h"
 #include "recipe/recipe.h"
 
 namespace lamella {

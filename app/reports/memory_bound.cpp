@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/reports/foam_statistics.h"
+#include "printers/registry.h"
 
 namespace lamella {
 
@@ -31,10 +32,8 @@ constexpr double bytes_per_picture_cell = 0.4;  // measured: a bit, the pyramid 
 
 /// What drawing a picture of foam for the file takes.
 std::int64_t picture_bytes(const Recipe& recipe, dvec3 size) {
-    const PrinterProfile& printer = recipe.printer;
-    const bool resin = printer.backend == "sl1" || printer.backend == "goo";
-    const bool draws = resin ? printer.resin.preview : printer.backend == "gcode" && printer.gcode.thumbnails;
-    if (!draws || !recipe.foam) return 0;
+    const auto embeds_picture = find_backend(recipe.printer.backend).embeds_picture;
+    if (embeds_picture == nullptr || !embeds_picture(recipe.printer) || !recipe.foam) return 0;
     const dvec3 cells = size * (picture_cells / std::max({size.x, size.y, size.z}));
     return static_cast<std::int64_t>(cells.x * cells.y * cells.z * bytes_per_picture_cell);
 }

@@ -54,9 +54,8 @@ nlohmann::ordered_json describe_mask(const ImageProfile& image) {
     return json;
 }
 
-std::string mask_settings(const PrinterProfile& profile, const Job& job) {
-    const bool is_stack = profile.backend == "png" && profile.image.format == ImageFormat::png;
-    if (profile.image.bits != 8 && !is_stack) {
+std::string mask_settings(const PrinterProfile& profile, const Job& job, bool takes_other_bits) {
+    if (profile.image.bits != 8 && !takes_other_bits) {
         throw InputError(
             fmt::format("bits = {}: what is written here has masks of 8 bits; accepted: bits = 8, or a "
                         "stack of PNG files",

@@ -25,8 +25,8 @@ std::unique_ptr<MaskFile> render_png_mask(const Layer& layer, const MaskLayout& 
 /// What decides a mask's pixels besides the layer: display and antialiasing.
 nlohmann::ordered_json describe_mask(const ImageProfile& image);
 
-/// The same as one line for a job's stamp, with the grey of its supports. Throws InputError for a grey that
-/// is none.
-std::string mask_settings(const PrinterProfile& profile, const Job& job);
+/// Returns the description as one line for a job's stamp, with the grey of its supports. Throws InputError
+/// for a grey that is none, and for other bits per pixel than 8 unless the back-end takes them.
+std::string mask_settings(const PrinterProfile& profile, const Job& job, bool takes_other_bits = false);
 
 }  // namespace lamella

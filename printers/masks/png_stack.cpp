@@ -26,8 +26,10 @@ class PngStack : public Backend {
         description_["placement"] = placement();
         if (job.supports) description_["support_grey"] = profile_.support.grey;
         description_.update(exposures());
-        const std::string settings = extension(profile_.image.format) +
-                                     (" " + mask_settings(profile_, job) + " " + exposures().dump());
+        const std::string settings =
+            extension(profile_.image.format) +
+            (" " + mask_settings(profile_, job, profile_.image.format == ImageFormat::png) + " " +
+             exposures().dump());
         return output_.begin({job.identity, settings, range}, resume);
     }
 

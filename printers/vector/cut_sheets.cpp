@@ -300,10 +300,6 @@ bool asks_for_cutting(const PrinterProfile& profile) {
            !c.sheet.empty();
 }
 
-bool cuts_sheets(const PrinterProfile& profile) {
-    return profile.backend == "dxf" || (profile.backend == "svg" && asks_for_cutting(profile));
-}
-
 std::unique_ptr<Backend> make_layer_sheets(const PrinterProfile& profile,
                                            const std::shared_ptr<const SheetFormat>& format,
                                            const std::string& path, bool force) {

@@ -26,8 +26,6 @@ class SheetFormat {
 
 /// Whether a profile asks for more than plain contours.
 bool asks_for_cutting(const PrinterProfile& profile);
-/// Whether a profile's output is sheets to be cut.
-bool cuts_sheets(const PrinterProfile& profile);
 
 /// One sheet a layer: a folder with PATH/00000.svg and so on, all of the part's size and a margin, or one
 /// file with a group a layer.

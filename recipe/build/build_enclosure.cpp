@@ -11,6 +11,7 @@
 #include "engine/solids/box_solid.h"
 #include "engine/solids/csg.h"
 #include "engine/surveys/hollow_survey.h"
+#include "printers/registry.h"
 
 namespace lamella {
 
@@ -28,11 +29,9 @@ struct Steps {
 
 /// `across` is the factor by which the job will be scaled in its layers' plane.
 Steps steps_of(const Recipe& recipe, double overhang, double pitch, double across) {
-    const bool filament = recipe.printer.backend == "gcode";
-    const double width = filament ? recipe.printer.filament.line_width : Steps{}.bead;
-    if (overhang == 0) overhang = recipe.printer.support.overhang;
-    if (overhang == 0) overhang = filament ? width / 2 : recipe.layer_height;
     Steps steps;
+    const double width = makes_beads(recipe.printer) ? recipe.printer.filament.line_width : steps.bead;
+    if (overhang == 0) overhang = printable_overhang(recipe.printer, recipe.layer_height);
     steps.bead = width / across;
     steps.step = overhang / across;
     steps.pitch = (pitch > 0 ? pitch : std::max(overhang / 2, finest_rows)) / across;

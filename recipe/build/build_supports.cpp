@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
+#include "printers/registry.h"
 #include "procedural/scaffold/scaffold_field.h"
 #include "procedural/scaffold/scaffold_synthesis.h"
 #include "recipe/build/build_process.h"
@@ -65,7 +66,7 @@ struct Printing {
 
 Printing printing(const Recipe& recipe, double layer_height) {
     Printing p;
-    p.filament = recipe.printer.backend == "gcode";
+    p.filament = makes_beads(recipe.printer);
     if (p.filament) p.width = recipe.printer.filament.line_width;
     p.overhang = printable_overhang(recipe.printer, layer_height);
     // Outlines are known to a part of the width; a step that is small against that says nothing.
@@ -167,11 +168,6 @@ void lift(Job& job, int layers) {
 }
 
 }  // namespace
-
-double printable_overhang(const PrinterProfile& printer, double layer_height) {
-    if (printer.support.overhang > 0) return printer.support.overhang;
-    return printer.backend == "gcode" ? printer.filament.line_width / 2 : layer_height;
-}
 
 int lifted_layers(const Recipe& recipe, const Job& job) {
     if (recipe.support == SupportKind::none) return 0;

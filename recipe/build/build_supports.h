@@ -31,10 +31,6 @@ struct BuiltSupports {
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options);
 
-/// By how much a layer of this height may stand out over the one below on the machine: what its supports say,
-/// or else half a line's width of filament, a layer's height of anything else, mm.
-double printable_overhang(const PrinterProfile& printer, double layer_height);
-
 /// The number of layers by which add_supports will raise the part: its lift, rounded up.
 int lifted_layers(const Recipe& recipe, const Job& job);
 

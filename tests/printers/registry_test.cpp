@@ -40,6 +40,35 @@ TEST_CASE("every back-end can print", "[registry]") {
     }
 }
 
+TEST_CASE("a back-end's row tells all that other code asks of it", "[registry]") {
+    for (const BackendInfo& backend : backends()) {
+        INFO(backend.name);
+        PrinterProfile profile;
+        profile.backend = backend.name;
+        CHECK(process_of(profile) == backend.process(profile));
+        CHECK(process_of(profile) != Process::from_backend);
+        CHECK(makes_beads(profile) == (backend.content == LayerContent::beads));
+        // Resin is the process whose supports differ from the plain ones.
+        const bool resin = backend.default_supports().round_pillars;
+        CHECK(resin == (process_of(profile) == Process::resin));
+        CHECK(printable_overhang(profile, 0.07) ==
+              (makes_beads(profile) ? 0.5 * profile.filament.line_width : 0.07));
+        profile.check.process = Process::powder;
+        CHECK(process_of(profile) == Process::powder);
+        profile.support.overhang = 0.3;
+        CHECK(printable_overhang(profile, 0.07) == 0.3);
+    }
+    PrinterProfile laser;
+    laser.backend = "gcode";
+    laser.gcode.flavour = Flavour::grbl;
+    CHECK(process_of(laser) == Process::cutting);
+    PrinterProfile svg;
+    svg.backend = "svg";
+    CHECK(!cuts_sheets(svg));
+    svg.cutting.kerf = 0.1;
+    CHECK(cuts_sheets(svg));
+}
+
 TEST_CASE("an unknown back-end gets the nearest one and the list", "[registry]") {
     CHECK_THROWS_WITH(find_backend("pgn"), Catch::Contains("did you mean 'png'?") && Catch::Contains("sl1"));
     CHECK_THROWS_WITH(find_backend("quite something else"), !Catch::Contains("did you mean"));

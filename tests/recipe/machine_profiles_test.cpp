@@ -88,9 +88,9 @@ TEST_CASE("every shipped profile can be used, and its display is as large as it 
         CHECK(profile->source == "built in");
         CHECK(profile->description.size() > 5);
         CHECK(profile->description.size() < 80);
-        const LayerContent medium = find_backend(profile->printer.backend).medium;
+        const LayerContent content = find_backend(profile->printer.backend).content;
         const auto display = stated_display(std::string(shipped.text));
-        CHECK(display.has_value() == (medium == LayerContent::pixels));
+        CHECK(display.has_value() == (content == LayerContent::pixels));
         if (!display) continue;
         const ImageProfile& image = profile->printer.image;
         CHECK(image.width * image.pixel_x == Approx(display->x).epsilon(1e-4));

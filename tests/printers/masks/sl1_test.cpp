@@ -37,7 +37,7 @@ PrinterProfile small_machine() {
     profile.image.pixel_x = profile.image.pixel_y = 0.05;
     profile.image.portrait = true;
     profile.resin.machine = "SL1S";
-    profile.support = default_supports("sl1");
+    profile.support = resin_supports();
     profile.image.width = 300;
     profile.image.height = 280;
     return profile;

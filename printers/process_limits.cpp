@@ -5,11 +5,12 @@
 // [4] Neway, design guidelines for binder jetting (neway3dp.com/services/binder-jetting)
 // [5] Rigid Prints, design guide for filament, wall thickness (rigidprints.co.uk/design-guide/wall-thickness)
 // [6] Cut Laser Cut, "What is laser kerf" (cutlasercut.com/resources/tips-and-advice/what-is-laser-kerf)
-#include "printers/common/process_limits.h"
+#include "printers/process_limits.h"
 
 #include <algorithm>
 #include <initializer_list>
-#include <string_view>
+
+#include "printers/registry.h"
 
 namespace lamella {
 namespace {
@@ -60,7 +61,7 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
                    {Check::gaps, warn},
                    {Check::cups, warn}});
     const double pixel = std::max(profile.image.pixel_x, profile.image.pixel_y);
-    const bool has_pixels = profile.backend != "svg";
+    const bool has_pixels = find_backend(profile.backend).content == LayerContent::pixels;
     limits.thickness = std::max(0.4, has_pixels ? 2 * pixel : 0);  // [1] walls held at two sides
     limits.gap = std::max(0.5, has_pixels ? 2 * pixel : 0);        // [1] holes and clearances
     limits.neck = 0.6;                                             // [1] walls held at one side
@@ -124,18 +125,6 @@ Severity chosen(SeverityOverride given, Severity usual) {
 }
 
 }  // namespace
-
-Process process_of(const PrinterProfile& profile) {
-    if (profile.check.process != Process::from_backend) return profile.check.process;
-    const std::string_view backend = profile.backend;
-    if (backend == "gcode") {
-        return profile.gcode.flavour == Flavour::grbl ? Process::cutting : Process::filament;
-    }
-    if (backend == "cli" || backend == "3mf" || backend == "image3d") return Process::powder;
-    const bool slices = backend == "svg" && profile.cutting.dialect == SvgDialect::slic3r;
-    if (backend == "dxf" || (backend == "svg" && !slices)) return Process::cutting;
-    return Process::resin;
-}
 
 PrintLimits default_limits(Process process, const PrinterProfile& profile) {
     switch (process) {

@@ -1,5 +1,5 @@
 // What machines can make: verdicts by process, sizes by machine, and room as the back-ends have it.
-#include "printers/common/process_limits.h"
+#include "printers/process_limits.h"
 
 #include <catch2/catch.hpp>
 #include <string>

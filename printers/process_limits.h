@@ -5,11 +5,6 @@
 
 namespace lamella {
 
-/// The process of a profile: what it says, or else what its back-end and settings are for. Masks are for
-/// resin, G-code for filament or, under grbl, for cutting, CLI and 3MF slices for powder, SVG and DXF for
-/// cutting, but SVG as Slic3r exports it for resin.
-Process process_of(const PrinterProfile& profile);
-
 /// Least sizes and verdicts of a process where nothing else is known, after the table of manufacturing
 /// constraints by process in J. Dumas, "Controllable Shape Synthesis for Digital Fabrication", 2017 (table
 /// 2.1). Sizes that depend on the machine (lines, pixels, kerf) are the profile's.
