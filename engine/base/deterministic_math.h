@@ -13,7 +13,7 @@ struct SineCosine {
 
 /// Sine and cosine of an angle in radians; absolute error below 2e-15 for |x| < 1e5, NaN beyond 1e15.
 SineCosine sine_cosine(double x);
-/// Those of many angles at once, by SIMD; the same bits.
+/// Computes sine and cosine of many angles by SIMD, with the same bits as sine_cosine.
 void sines_cosines(std::span<const double> angles, std::span<SineCosine> out);
 double sine(double x);
 double cosine(double x);

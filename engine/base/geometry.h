@@ -1,4 +1,4 @@
-// Points, boxes and intervals: the vocabulary that every other header speaks. Lengths are millimetres.
+// Points, boxes and intervals: the types that all other headers share. Lengths are millimetres.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// No target's vectors are used beyond this many doubles.
+/// Vectors hold at most this many doubles, on any target.
 using Doubles = hn::CappedTag<double, max_lanes>;
 using Words = hn::RebindToUnsigned<Doubles>;
 using Lanes = hn::Vec<Doubles>;

@@ -1,4 +1,4 @@
-// Which SIMD target the kernels run on. Only tests need to know: every target gives the same bits.
+// The SIMD target that the kernels run on. Only tests need to know: every target gives the same bits.
 #pragma once
 
 #include <string>

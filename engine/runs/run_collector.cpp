@@ -1,4 +1,4 @@
-// A scatter to lines, a sort within each line, then one joining pass.
+// Scatters the runs to their lines, sorts each line, then joins overlaps in one pass.
 #include "engine/runs/run_collector.h"
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 namespace lamella {
 namespace {
 
-/// Sorts runs by their begin. They mostly come nearly sorted, which insertion makes the best of; when it has
-/// to move too much (several sorted sequences one after the other), the general sort takes over.
+/// Sorts runs by their begin. Insertion sort, because they mostly come nearly sorted; when it has to move too
+/// much (several sorted sequences in a row), std::sort takes over.
 void sort_by_begin(Run* first, Run* last) {
     std::ptrdiff_t moves_left = 8 * (last - first);
     for (Run* r = first; r != last; ++r) {
@@ -24,9 +24,9 @@ void sort_by_begin(Run* first, Run* last) {
     }
 }
 
-/// Joins sorted runs that overlap or touch, in place, and clips them to [lo, hi). Where they overlap is hard
-/// to foretell, so no branch depends on it: a run grows while they do, and is written each time, though that
-/// counts only when the next one begins behind it.
+/// Joins sorted runs that overlap or touch, in place, and clips them to [lo, hi). Overlaps are hard to
+/// predict, so no branch depends on them: the current run is written at every step, and kept only when the
+/// next one begins behind it.
 std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::int32_t hi) {
     if (runs.empty()) return {};
     const auto clipped = [&](const Run& run) {
@@ -42,14 +42,14 @@ std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::in
         joined = {apart ? begin : joined.begin, std::max(joined.end, end)};
     }
     *next++ = joined;
-    // What lies outside has become empty, at one end or the other.
+    // Runs outside [lo, hi) have become one empty run at either end.
     const Run *first = runs.data(), *last = next;
     if (first->begin == first->end) ++first;
     if (first < last && last[-1].begin == last[-1].end) --last;
     return {first, last};
 }
 
-/// What stands before the runs of each line, so that the first of them finds a last one, too.
+/// Sentinel before the runs of each line: no run joins it.
 constexpr Run joins_nothing{std::numeric_limits<std::int32_t>::max(),
                             std::numeric_limits<std::int32_t>::min()};
 
