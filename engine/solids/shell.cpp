@@ -150,8 +150,9 @@ class GradedOuterShell : public Field {
     double greatest_;
 };
 
-/// Encloses the thickness in reach of a body: what is solid lies within the greatest thickness of the box,
-/// which bounds the places where the thickness is asked for, and so the greatest thickness.
+/// Returns the range of the thickness within reach of a body. The shell reaches as far from the body's box as
+/// the greatest thickness; this bounds the places where the thickness is read, and so the greatest thickness
+/// again.
 Interval thickness_about(const Box& body, const Grading& thickness, Interval limits) {
     constexpr int rounds = 8;
     Interval asked = limits;
