@@ -62,7 +62,8 @@ std::string shown(std::string_view name) {
 
 class Parser {
   public:
-    /// Looks up a name: returns its input, or nothing for a constant. Throws InputError for an unknown name.
+    /// Returns the input of a name, or nothing if the name means a constant. Throws InputError for an unknown
+    /// name.
     using Lookup = std::function<std::optional<int>(std::string_view name, std::size_t column)>;
 
     Parser(std::string_view text, Lookup lookup) : text_(text), lookup_(std::move(lookup)) {}
