@@ -6,7 +6,7 @@
 namespace lamella {
 
 /// Appends `value` rounded to `decimals` places (0 to 9), halves away from zero, without trailing zeros:
-/// "-0.5", "12", "0". The largest magnitude is 1e9. Throws FaultError for what is larger or not finite.
+/// "-0.5", "12", "0". The largest magnitude is 1e9. Throws FaultError for greater or non-finite values.
 void append_number(std::string& out, double value, int decimals);
 
 /// Returns the text that append_number appends.

@@ -20,7 +20,7 @@ struct SlopeBound {
     bool one_way(double distance) const { return noise < std::max(slope.lo, -slope.hi) * distance; }
 };
 
-/// A solid in a plane that is told which tile the walk is in, so that it can specialise on it.
+/// A solid in a plane that learns which tile the walk is in, so that it can specialise on it.
 class TileSampledSolid : public SampledSolid {
   public:
     /// Enters a tile, which lies in the one entered before; returns an interval that encloses every value

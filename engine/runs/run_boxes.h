@@ -30,7 +30,7 @@ class RunBoxes {
 
     const SurveyGrid& grid() const { return grid_; }
     bool empty() const { return runs_.empty(); }
-    /// All runs, by layer, row and begin; disjoint, not touching within a row.
+    /// Returns all runs, by layer, row and begin; disjoint, not touching within a row.
     std::span<const PlacedRun> runs() const { return runs_; }
     /// Returns the runs of the layer that holds height z.
     std::span<const PlacedRun> at(double z) const;
@@ -38,7 +38,7 @@ class RunBoxes {
     const PlacedRun* find(dvec3 p) const;
     /// Returns the distance from the point to the nearest box, at most `limit`, mm.
     double distance_within(dvec3 p, double limit) const;
-    /// Encloses all boxes, mm; empty when there are none.
+    /// Returns the bounding box of all boxes, mm; empty when there are none.
     const Box& bounds() const { return bounds_; }
     /// Returns true if any of the boxes meets this one.
     bool meets(const Box& box) const;

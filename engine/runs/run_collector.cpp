@@ -74,9 +74,9 @@ RunCollector::Segment RunCollector::add(int first, int count) {
 void RunCollector::merge(const RowBand& band, RunRows& out) {
     const auto lines = static_cast<std::size_t>(band.lines());
     make_room(lines);
-    // Scatter the runs to their lines. Things that follow each other are mostly neighbours whose runs
-    // overlap, and join right here; whether they do is hard to foretell, so no branch depends on it. Misses
-    // are written too, and overwritten by the next run.
+    // Scatter the runs to their lines. Objects in sequence are mostly neighbours whose runs overlap; these
+    // are joined right here. Whether they overlap is hard to predict, so no branch depends on it. Misses are
+    // written too, and overwritten by the next run.
     std::size_t k = 0;
     for (const Piece& piece : pieces_) {
         std::uint32_t* const next = next_.data() + piece.first;
@@ -99,10 +99,11 @@ void RunCollector::merge(const RowBand& band, RunRows& out) {
     }
 }
 
-/// Gives each line as much room in runs_ as pieces touch it, behind a run that nothing joins, and one run of
-/// slack at the end of all.
+/// Allocates runs_: each line gets a sentinel and then as many runs as pieces cover it, with one spare run at
+/// the very end.
 void RunCollector::make_room(std::size_t lines) {
-    // The pieces that open minus those that close at each line, then their sum, then the sum of the sums.
+    // The number of pieces that begin minus those that end at each line, then its prefix sum, then the sum of
+    // that.
     starts_.assign(lines + 1, 0);
     for (const Piece& piece : pieces_) {
         const auto first = static_cast<std::size_t>(piece.first),

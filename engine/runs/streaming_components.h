@@ -33,8 +33,7 @@ struct StreamingComponent {
     ComponentExtent extent;
     std::uint32_t flags = 0;             ///< union of the flags of its parts, set by the caller
     std::vector<std::uint32_t> marks{};  ///< union of the marks of its parts, sorted
-    LayerPatch largest;                  ///< its largest layer, of equals the lowest, among the parts that
-                                         ///< it was joined from
+    LayerPatch largest;  ///< its largest layer; ties go to the lowest. Compared whenever parts are joined
 
     void include(StreamingComponent other);
 };
@@ -70,7 +69,7 @@ class StreamingComponents {
     }
 
   private:
-    /// Whether a row of the last layer has runs of the main component, and of others.
+    /// Kinds of components with runs in a row of the last layer: the main one, others.
     struct RowOfLast {
         bool has_main = false, has_others = false;
     };
