@@ -1,4 +1,4 @@
-// Bytes in, bytes out.
+// Bounds-checked copies between values and bytes.
 #include "engine/base/archive.h"
 
 #include <algorithm>

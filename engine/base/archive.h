@@ -13,26 +13,27 @@
 
 namespace lamella {
 
-/// Packs or unpacks, so that one list of members serves for both. Bytes are those of this machine's numbers:
-/// parcels are for machines of one kind.
+/// Packs values into bytes or unpacks them, so that one list of members serves both directions. Numbers keep
+/// this machine's byte order and size: exchange archives only between machines of one kind.
 class Archive {
   public:
-    /// An empty one, to pack into.
+    /// Makes an empty archive, to pack into.
     Archive() = default;
-    /// One that was packed, to unpack.
+    /// Makes an archive that unpacks these bytes.
     explicit Archive(std::string bytes) : bytes_(std::move(bytes)), unpacks_(true) {}
 
     bool unpacks() const { return unpacks_; }
     const std::string& bytes() const { return bytes_; }
 
-    /// Packs the members, or sets them to what was packed, in the same order. A member is plain numbers, a
-    /// text, a list, or has a `serialize` of its own. Throws FaultError where the bytes end too early.
+    /// Packs the members, or sets them to the packed values, in the same order. A member is trivially
+    /// copyable, a string, a vector, or has a `serialize` of its own. Throws FaultError when the bytes end
+    /// too early.
     template <typename... Members>
     void operator()(Members&... members) {
         (member(members), ...);
     }
 
-    /// Whether all was unpacked. Throws FaultError where something is left.
+    /// Checks that all bytes were unpacked. Throws FaultError otherwise.
     void finish() const {
         if (at_ != bytes_.size()) throw FaultError("a layer's parcel has more in it than was packed");
     }
@@ -53,7 +54,7 @@ class Archive {
         if constexpr (std::is_trivially_copyable_v<T>) {
             sequence(list);
         } else {
-            // Each takes at least a byte, which bounds what a damaged count can ask for.
+            // Each item takes at least one byte, which bounds what a damaged count can allocate.
             resize(list, 1);
             for (T& item : list) item.serialize(*this);
         }
@@ -80,11 +81,11 @@ class Archive {
     bool unpacks_ = false;
 };
 
-/// Throws FaultError unless `starts` tells where rows of so many items begin: from 0, never falling, to their
-/// number.
+/// Checks that `starts` says where rows of `items` items begin: from 0, never falling, ending with `items`.
+/// Throws FaultError otherwise.
 void check_row_starts(std::span<const std::uint32_t> starts, std::size_t items);
 
-/// Returns the bytes of a message, any type that a parcel takes.
+/// Returns the bytes of a message of any type that Archive can pack.
 template <typename Message>
 std::string packed(Message message) {
     Archive parcel;
@@ -92,7 +93,7 @@ std::string packed(Message message) {
     return parcel.bytes();
 }
 
-/// Returns the message of these bytes. Throws FaultError where they are not of such a message.
+/// Returns the message that these bytes hold. Throws FaultError when they do not hold exactly one.
 template <typename Message>
 Message unpacked(std::string bytes) {
     Archive parcel(std::move(bytes));

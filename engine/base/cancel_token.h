@@ -17,8 +17,8 @@ class CancelToken {
     std::atomic<bool> flag_{false};
 };
 
-/// Throws Interrupted when asked to stop; a null token never asks. For work that takes longer than somebody
-/// waits, every few milliseconds.
+/// Throws Interrupted when the token is cancelled; a null token never is. Long work calls this every few
+/// milliseconds.
 inline void stop_if_cancelled(const CancelToken* cancel) {
     if (cancel != nullptr && cancel->cancelled()) throw Interrupted("stopped");
 }

@@ -1,4 +1,4 @@
-// DisjointSets: which of many things belong together (union-find).
+// DisjointSets: union-find with path halving.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// Things numbered from 0 on, each in a set of its own until sets are joined. A set goes by its lowest
-/// number, so that numbers tell what came first.
+/// Elements are numbered from 0; each is a set of its own until sets are joined. The lowest number in a set
+/// represents it, so that representatives are in order of first appearance.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count = 0) : parents_(count) {
@@ -17,12 +17,12 @@ class DisjointSets {
     }
 
     std::size_t size() const { return parents_.size(); }
-    /// One thing more; returns its number.
+    /// Adds an element; returns its number.
     std::uint32_t add() {
         parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
         return parents_.back();
     }
-    /// The number of the set that holds a thing. Shortens the way to it.
+    /// Returns the representative of the element's set. Halves the path to it.
     std::uint32_t find(std::uint32_t i) {
         while (parents_[i] != i) {
             parents_[i] = parents_[parents_[i]];
@@ -30,7 +30,7 @@ class DisjointSets {
         }
         return i;
     }
-    /// Joins the sets of two things; false where they are one already.
+    /// Joins the sets of two elements; returns false if they were one set already.
     bool join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
         b = find(b);

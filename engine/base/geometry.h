@@ -1,4 +1,4 @@
-// Points, boxes and intervals: the vocabulary that every other header speaks. Lengths are millimetres.
+// Points, boxes and intervals: the types that all other headers share. Lengths are millimetres.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ inline constexpr double pi = 3.14159265358979323846;
 
 inline double dot(dvec2 a, dvec2 b) { return a.x * b.x + a.y * b.y; }
 inline double dot(dvec3 a, dvec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-/// The third component of the cross product: positive where b lies counter-clockwise of a.
+/// Returns the third component of the cross product: positive where b lies counter-clockwise of a.
 inline double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
 inline double squared_length(dvec2 v) { return dot(v, v); }
 inline double squared_length(dvec3 v) { return dot(v, v); }
 inline double length(dvec2 v) { return std::sqrt(dot(v, v)); }
 inline double length(dvec3 v) { return std::sqrt(dot(v, v)); }
-/// The vector turned by a right angle counter-clockwise.
+/// Returns the vector rotated by a right angle counter-clockwise.
 inline dvec2 left_of(dvec2 v) { return {-v.y, v.x}; }
 inline bool is_finite(dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -64,7 +64,7 @@ struct Box {
     }
 };
 
-/// The smallest interval that holds both.
+/// Return the smallest interval, rectangle or box that holds both.
 inline Interval unite(const Interval& a, const Interval& b) {
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
@@ -75,16 +75,16 @@ inline Box intersect(const Box& a, const Box& b) { return {glm::max(a.lo, b.lo),
 inline Box grown(const Box& b, double by) { return {b.lo - by, b.hi + by}; }
 inline Rect grown(const Rect& r, double by) { return {r.lo - by, r.hi + by}; }
 
-/// Distance between two boxes, 0 where they touch.
+/// Returns the distance between two boxes, 0 where they touch.
 inline double distance(const Box& a, const Box& b) {
     const dvec3 d = glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), dvec3(0.0));
     return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-/// Distance from a point to a box, 0 inside.
+/// Returns the distance from a point to a box, 0 inside.
 inline double distance(const Box& b, dvec3 p) { return distance(b, Box{p, p}); }
 
-/// Distance between opposite corners.
+/// Returns the distance between opposite corners.
 inline double diagonal(const Box& b) {
     const dvec3 size = b.size();
     return std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);

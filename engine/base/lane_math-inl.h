@@ -1,9 +1,10 @@
-// The vocabulary of transcendental-inl.h for SIMD lanes, and its functions. Included between Highway's
-// HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE inside HWY_NAMESPACE, once per target: no include guard.
+// SIMD versions of the primitives that transcendental-inl.h needs, and its functions. Included between
+// Highway's HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE inside HWY_NAMESPACE, once per target: no include
+// guard.
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// No target's vectors are used beyond this many doubles.
+/// Vectors hold at most this many doubles, on any target.
 using Doubles = hn::CappedTag<double, max_lanes>;
 using Words = hn::RebindToUnsigned<Doubles>;
 using Lanes = hn::Vec<Doubles>;
@@ -28,7 +29,7 @@ HWY_INLINE V Constant(double c) {
     return hn::Set(hn::DFromV<V>(), c);
 }
 
-/// Targets without an instruction for it lose the sign of zero.
+/// Keep the sign of zero, which targets without an instruction for rounding lose.
 HWY_INLINE Lanes RoundDown(Lanes a) { return hn::CopySign(hn::Floor(a), a); }
 HWY_INLINE Lanes RoundUp(Lanes a) { return hn::CopySign(hn::Ceil(a), a); }
 

@@ -1,4 +1,4 @@
-// Finding and loading modules.
+// Finds and loads modules with dlopen.
 #include "engine/base/module_file.h"
 
 #include <dlfcn.h>

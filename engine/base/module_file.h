@@ -1,17 +1,17 @@
-// Modules: parts of the program that stand in libraries of their own, loaded when they are needed.
+// Modules: parts of the program in shared libraries of their own, loaded on demand.
 #pragma once
 
 #include <string>
 
 namespace lamella {
 
-/// Who else sees what a module's library exports and brings along.
+/// Visibility of the symbols of a module and of its dependencies: to the module alone, or to all libraries.
 enum class ModuleScope { own, shared };
 
-/// A function that a module exports. `file`: its library's name, looked for where the program's own run path
-/// says, then where it was installed to; it is loaded once and never unloaded. Throws FaultError where it has
-/// no such function, and where there is no such library: then the message is what is `lacking`, the loader's
-/// reason, and the `advice`.
+/// Returns a function that a module exports. `file` is the name of its library, searched along the program's
+/// run path, then in the installation folder. A module is loaded once and never unloaded. Throws FaultError
+/// when the library has no such function, or when there is no such library; the latter message consists of
+/// `lacking`, the loader's reason and `advice`.
 void* module_function(const std::string& file, const char* function, ModuleScope scope,
                       const std::string& lacking, const std::string& advice);
 

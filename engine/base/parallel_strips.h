@@ -1,4 +1,4 @@
-// Strips of a layer worked on at once.
+// Parallel loop over the strips of a layer.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
@@ -8,12 +8,12 @@
 
 namespace lamella {
 
-/// Calls work(i) for each i of [0, count), several at once. Within a stream that is being stopped it still
-/// does them all, so that nobody comes upon half of a layer.
+/// Calls work(i) for each i in [0, count), in parallel. Runs all of them even when the enclosing stream is
+/// being cancelled, so that no layer is left half done.
 template <typename Work>
 void for_all_strips(std::size_t count, const Work& work) {
     oneapi::tbb::task_group_context own(oneapi::tbb::task_group_context::isolated);
-    // Race detectors do not see how TBB's library hands work over; they see this.
+    // Race detectors do not see the synchronisation inside TBB's library; they see this.
     std::atomic<std::size_t> handed_over{0};
     const auto watched = [&](std::size_t i) {
         handed_over.load(std::memory_order_acquire);

@@ -1,4 +1,4 @@
-// A picture in colour.
+// A colour image in memory.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace lamella {
 
-/// Rows from the top, three bytes a pixel: red, green, blue.
+/// Rows from top to bottom, three bytes a pixel: red, green, blue.
 struct Picture {
     int width = 0;   ///< px
     int height = 0;  ///< px

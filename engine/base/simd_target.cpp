@@ -1,4 +1,4 @@
-// The run-time choice of Highway, made visible.
+// Lists and overrides the target that Highway dispatches to.
 #include "engine/base/simd_target.h"
 
 #include <hwy/highway.h>

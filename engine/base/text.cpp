@@ -43,7 +43,7 @@ std::optional<double> parse_double(std::string_view token) {
         return tiny ? 0.0 : (token.front() == '-' ? -infinity : infinity);
     }
     if (status == std::errc() && stop == end) return value;
-    // The Microsoft C library of old wrote 1.#INF, -1.#IND and 1.#QNAN.
+    // Old versions of the Microsoft C library wrote 1.#INF, -1.#IND and 1.#QNAN.
     if (token.find(".#") != token.npos) return std::numeric_limits<double>::quiet_NaN();
     return std::nullopt;
 }

@@ -17,17 +17,18 @@ constexpr bool is_space(char c) {
 std::string_view trimmed(std::string_view text);
 
 std::string grouped(std::size_t n);  ///< "1,360"
-/// "1 triangle", "1,360 triangles".
+/// Returns a count with its noun: "1 triangle", "1,360 triangles".
 std::string counted(std::size_t n, std::string_view noun);
 
-/// Returns a piece of a file for a message, in quotes: shortened, with unprintable bytes replaced.
+/// Returns a quoted excerpt of a file for a message: shortened, with unprintable bytes replaced.
 std::string excerpt(std::string_view text);
 
-/// Reads a decimal number in the C locale, perhaps among spaces; accepts a plus sign, NaN and infinity in
-/// their usual spellings. Overflow gives infinity, underflow zero. Nothing when the token is no number.
+/// Parses a decimal number in the C locale, white space around it allowed; accepts a plus sign, NaN and
+/// infinity in their usual spellings. Overflow gives infinity, underflow zero. Returns nothing when the token
+/// is no number.
 std::optional<double> parse_double(std::string_view token);
 
-/// Reads a whole number that fits 64 bits; nothing otherwise.
+/// Parses an integer that fits 64 bits; returns nothing otherwise.
 std::optional<std::int64_t> parse_integer(std::string_view token);
 
 }  // namespace lamella

@@ -1,6 +1,6 @@
-// The transcendental functions, written once for one number and for SIMD lanes. Included inside a namespace
-// that defines the vocabulary (Constant, Add, Mul, ..., PowerOfTwo, Exponent, Significand) for the type V:
-// double in deterministic_math.cpp, a vector of doubles in lane_math-inl.h. Both give the same bits,
+// The transcendental functions, written once for a single number and for SIMD lanes. Included inside a
+// namespace that defines the primitives (Constant, Add, Mul, ..., PowerOfTwo, Exponent, Significand) for the
+// type V: double in deterministic_math.cpp, a vector of doubles in lane_math-inl.h. Both give the same bits,
 // because both do the same IEEE operations in the same order. No include guard: it is included once per
 // target.
 
@@ -14,7 +14,7 @@ V Polynomial(V s, double c0, Rest... rest) {
     return Add(Mul(Polynomial(s, rest...), s), Constant<V>(c0));
 }
 
-/// An angle as a quarter turn (0 to 3) and what is left of it, with sine and cosine of the rest: Cody and
+/// An angle as a quarter turn (0 to 3) and a remainder, with sine and cosine of the remainder: Cody and
 /// Waite's reduction by pi / 2 in three parts, then Taylor polynomials on [-pi / 4, pi / 4].
 template <class V>
 struct ReducedAngle {
@@ -43,7 +43,7 @@ ReducedAngle<V> ReduceAngle(V x) {
     return {quarter, sine, cosine};
 }
 
-/// The value where |x| is small enough for the reduction to mean anything, else NaN.
+/// Returns the value if |x| is small enough for a meaningful reduction, else NaN.
 template <class V>
 V WithinReduction(V x, V value) {
     return IfThenElse(Lt(Abs(x), Constant<V>(1e15)), value, Constant<V>(quiet_nan));
@@ -125,8 +125,8 @@ V Logarithm(V x) {
     return IfThenElse(Eq(x, Constant<V>(infinite)), x, finite);
 }
 
-/// atan: |x| > 1 by pi / 2 - atan(1 / x), then atan(c) + atan((x - c) / (1 + c x)) with c = 0, 1/2 or 1,
-/// which leaves at most 1/4, where the Taylor polynomial serves.
+/// atan: |x| > 1 by pi / 2 - atan(1 / x), then atan(c) + atan((x - c) / (1 + c x)) with c = 0, 1/2 or 1. The
+/// remaining argument is at most 1/4, where the Taylor polynomial is accurate.
 template <class V>
 V Arctangent(V x) {
     constexpr double atan_half = 0x1.dac670561bb4fp-2, atan_half_low = 0x1.a2b7f222f65e2p-56;

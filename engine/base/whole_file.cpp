@@ -1,4 +1,4 @@
-// Files through the C library, block by block.
+// Reads a file through the C library, block by block.
 #include "engine/base/whole_file.h"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Reading a file whole.
+// Reads a file into memory.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-/// The bytes of a file. Throws InputError when it is a folder (`expected` says what it should be: "a mesh
-/// file") or cannot be opened, FaultError when reading fails.
+/// Returns the bytes of a file. Throws InputError when it is a folder (`expected` names what it should be: "a
+/// mesh file") or cannot be opened, FaultError when reading fails.
 std::string whole_file(const std::string& path, std::string_view expected);
 
 }  // namespace lamella

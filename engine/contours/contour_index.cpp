@@ -1,4 +1,4 @@
-// Pieces of the border, counted and then filed into the cells that their boxes meet.
+// Cuts the border into pieces, counts them, and files each into the cells that its box meets.
 #include "engine/contours/contour_index.h"
 
 namespace lamella {
@@ -74,7 +74,7 @@ void ContourIndex::visit(const Rect& r, const Visit& visit) const {
 }
 
 std::optional<double> ContourIndex::distance(dvec2 p, double limit) const {
-    // At a corner both pieces are equally near; the one whose line is further away tells the side.
+    // At a corner both pieces are equally near; the one whose line is farther away determines the sign.
     constexpr double equal = 1e-9;
     double nearest = limit * limit, side = 0;
     bool found = false;
@@ -101,7 +101,7 @@ double ContourIndex::way_through(dvec2 p, dvec2 direction, double limit) const {
     visit({glm::min(p, end), glm::max(p, end)}, [&](const Piece& piece) {
         const dvec2 along = piece.to - piece.from, from = piece.from - p;
         const double turn = cross(direction, along);
-        // The way leads out of the solid only where it crosses the border from left to right.
+        // The ray leaves the solid only where it crosses the border from left to right.
         if (!(turn > 0)) return;
         const double share = cross(from, direction) / turn, length = cross(from, along) / turn;
         if (share >= 0 && share <= 1 && length > 0) way = std::min(way, length);

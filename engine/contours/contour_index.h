@@ -1,4 +1,4 @@
-// ContourIndex: a layer's border in square cells, to ask how far it is.
+// ContourIndex: a layer's border in square cells, for distance queries.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,18 @@
 
 namespace lamella {
 
-/// Answers questions about the border of a layer near a point. Immutable once made; any thread may ask it.
+/// Answers distance queries about the border of a layer. Immutable once made; any thread may query it.
 class ContourIndex {
   public:
     ContourIndex() = default;
-    /// `cell` > 0, mm: about the distance that will be asked for, or more.
+    /// `cell` > 0, mm: at least about the distance of the queries.
     ContourIndex(const std::vector<Contour>& contours, double cell);
 
-    /// Signed distance from the border, negative inside, mm; empty where no border lies within `limit`.
+    /// Returns the signed distance to the border, negative inside, mm; nothing when no border lies within
+    /// `limit`.
     std::optional<double> distance(dvec2 p, double limit) const;
-    /// How far a point of the border may go along a unit direction into the solid before it comes to the
-    /// border again, at most `limit`, mm.
+    /// Returns how far a ray from a point of the border, along a unit direction into the solid, runs before
+    /// it meets the border again; at most `limit`, mm.
     double way_through(dvec2 p, dvec2 direction, double limit) const;
 
   private:
@@ -42,7 +43,7 @@ class ContourIndex {
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
     std::vector<Piece> pieces_;          ///< at most a cell long
-    std::vector<std::uint32_t> starts_;  ///< of each cell, one more than there are
+    std::vector<std::uint32_t> starts_;  ///< of each cell, plus the end of the last
     std::vector<std::uint32_t> items_;
 };
 

@@ -1,5 +1,5 @@
-// Tracing: a chord through every lattice cell, linked to polygons, then straightened without leaving its
-// gates.
+// Draws a chord through every lattice cell, links the chords into polygons, and straightens these within
+// their gates.
 #include "engine/contours/contours.h"
 
 #include "engine/base/error.h"
@@ -9,14 +9,14 @@
 namespace lamella {
 namespace {
 
-/// Straightening moves a border by at most this share of the lattice pitch, which leaves the rest of the
-/// tolerance to corners that a chord cuts off (at most 0.71 pitches at a right angle).
+/// Straightening moves a border by at most this share of the lattice pitch. The rest of the tolerance is left
+/// for corners that a chord cuts off (at most 0.71 pitches at a right angle).
 constexpr double straightening_share = 0.1;
-/// Two borders that cross the same lattice edge keep at least a tenth of their gap.
+/// Two borders that cross the same lattice edge keep at least a tenth of the gap between them.
 constexpr double gap_share = 0.45;
 constexpr std::uint32_t no_loop = 0xffffffffU;
 
-/// A crossing and how far a straightened border may pass from it along its lattice edge; run units.
+/// A crossing, and the range along its lattice edge through which a straightened border may pass; run units.
 struct Gate {
     dvec2 point;
     dvec2 low;
@@ -72,7 +72,8 @@ class Tracer {
                 ++length;
                 c = next_[c];
             } while (c != first);
-            // There and back along one lattice edge: a speck that only one line has seen encloses nothing.
+            // A loop there and back along one lattice edge: a speck that only one line has seen, without
+            // area.
             if (length < 3) {
                 c = first;
                 do {
@@ -85,7 +86,7 @@ class Tracer {
         }
     }
 
-    /// The contour that encloses a loop, read off the crossing before its first one.
+    /// Returns the contour that directly encloses a loop, from the crossing before the loop's first one.
     int parent(std::size_t l) const {
         std::int64_t before = previous(loops_[l].first);
         while (before >= 0 && loop_[static_cast<std::size_t>(before)] == dropped) {
@@ -98,8 +99,8 @@ class Tracer {
                    : parents_[other];
     }
 
-    /// The crossing next to this one with no other border in between: before it on its line, or before the
-    /// node below.
+    /// Returns the crossing next to this one with no other border in between: the one before it on its line,
+    /// or the one before the node below.
     std::int64_t previous(std::uint32_t c) const {
         const std::int64_t before = static_cast<std::int64_t>(c) - 1;
         const Crossing& p = crossings_[c];
@@ -107,7 +108,7 @@ class Tracer {
         return same_edge(c, before) ? before : lattice_.before_node(p.x / run_unit, p.y / run_unit);
     }
 
-    /// Whether the solid begins at a crossing, going along its line.
+    /// Returns true if the solid begins at a crossing, going along its line.
     bool enters_solid(std::uint32_t c) const {
         const Crossing& p = crossings_[c];
         if (is_row(c)) return (c - lattice_.row_start(p.y / run_unit)) % 2 == 0;
@@ -185,7 +186,7 @@ class Tracer {
 
     static double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-    /// Narrows the window of directions to those that pass through the gate; false when none is left.
+    /// Narrows the window of directions to those that pass through the gate; returns false when none is left.
     static bool narrow(const Gate& gate, dvec2 from, bool& open, dvec2& right, dvec2& left) {
         dvec2 a = gate.low - from, b = gate.high - from;
         const double turn = cross(a, b);
@@ -230,8 +231,8 @@ std::vector<Contour> trace_contours(const SliceField& slice, double tolerance, S
     const Rect bounds = slice.bounds();
     if (bounds.empty()) return {};
     const double pitch = contour_pitch(tolerance);
-    // The lattice stands on multiples of the pitch less an odd fraction: a part's neighbours do not move its
-    // contours, and faces at round coordinates do not fall on lattice lines.
+    // Lattice lines lie at multiples of the pitch less an odd fraction: contours of a part do not depend on
+    // its neighbours, and faces at round coordinates do not coincide with lattice lines.
     constexpr double fraction = 0.382;
     const dvec2 from = glm::floor(bounds.lo / pitch) - 1.0 - fraction,
                 to = glm::ceil(bounds.hi / pitch) + 2.0 - fraction;

@@ -14,15 +14,15 @@ struct Contour {
     bool hole = false;  ///< true for a clockwise contour that bounds a void
 };
 
-/// The contours of a slice: closed, simple, never crossing each other, oriented and nested, within
-/// `tolerance` mm of the solid's border. The lattice pitch follows from the tolerance; what lies wholly
-/// inside one lattice cell (see contour_pitch) is not seen.
+/// Traces the contours of a slice: closed, simple, never crossing each other, oriented and nested, within
+/// `tolerance` mm of the solid's border. The tolerance determines the lattice pitch (see contour_pitch); a
+/// feature that lies entirely inside one lattice cell is missed.
 std::vector<Contour> trace_contours(const SliceField& slice, double tolerance, Scratch& scratch);
 
-/// The lattice pitch that a tolerance leads to, mm.
+/// Returns the lattice pitch for a tolerance, mm.
 double contour_pitch(double tolerance);
 
-/// Signed area of a polygon, mm^2; positive when counter-clockwise.
+/// Returns the signed area of a polygon, mm^2; positive when counter-clockwise.
 double signed_area(const std::vector<dvec2>& points);
 
 }  // namespace lamella

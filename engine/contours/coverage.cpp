@@ -1,4 +1,4 @@
-// Coverage by run ends (rows), by pixel centres (off), and by contour chords (exact).
+// Coverage from run ends (rows), pixel centres (threshold), and contour chords (exact).
 #include "engine/contours/coverage.h"
 
 #include <bit>
@@ -32,8 +32,9 @@ class RowWriter {
 };
 
 /// Sparse changes of coverage along a pixel row. A run that begins at part m / 256 of pixel p adds 256 - m
-/// there and m to the next pixel; so each pixel keeps, in one word, how many more runs begin than end in it
-/// (upper half) and the sum of their m (lower half, signed). A bit for each pixel tells which words are set.
+/// there and m to the next pixel. Each pixel therefore stores, in one word, how many more runs begin than end
+/// in it (upper half) and the signed sum of their m (lower half). A bit per pixel marks the words that are
+/// set.
 class CoverageRow {
   public:
     explicit CoverageRow(int width)
@@ -48,13 +49,13 @@ class CoverageRow {
         turn<-1>(static_cast<std::uint32_t>(run.end - origin));
     }
 
-    /// Writes the row as grey runs, `value_of` maps coverage (0 to 256 times the lines) to grey, and clears
-    /// it.
+    /// Appends the row as grey runs, and clears it. `value_of` maps coverage (0 to 256 times the lines) to
+    /// grey.
     void flush(const std::vector<std::uint16_t>& value_of, std::vector<GreyRun>& out) {
         const std::uint32_t* const end = list_changes();
         const GreyRun* const last = write_runs(end, value_of.data());
         turns_[width_] = 0;
-        // A row that is not black from its first pixel on begins with a run of no pixels.
+        // If the first pixel is not black, the first run has length zero.
         const GreyRun* const first = runs_.data() + (runs_.front().length == 0 ? 1 : 0);
         out.insert(out.end(), first, last);
     }
@@ -70,8 +71,8 @@ class CoverageRow {
         touched_[pixel / 64] |= std::uint64_t{1} << pixel % 64;
     }
 
-    // Where a row changes is hard to foretell. Both passes over a row therefore avoid branches that depend on
-    // it: they write more than is wanted, and move on by as much as was.
+    // Changes along a row are hard to predict. Both passes over a row therefore avoid branches that depend on
+    // them: they write more than needed, and advance by the part that counts.
 
     /// Lists the pixels whose coverage may differ from their left neighbour's, and clears their bits.
     [[gnu::noinline]] const std::uint32_t* list_changes() {
@@ -86,11 +87,12 @@ class CoverageRow {
                 const std::uint64_t touched = touched_[w];
                 touched_[w] = 0;
                 const auto first = static_cast<std::uint32_t>(w * 64);
-                std::uint64_t bits = touched | touched << 1;  // a pixel's turns reach into the next one
+                std::uint64_t bits = touched | touched << 1;  // a change affects the next pixel, too
                 do {
                     std::uint32_t count = 0;
                     for (std::uint32_t i = 0; i < at_once; ++i) {
-                        constexpr std::uint64_t any = std::uint64_t{1} << 63;  // what is written for no bit
+                        constexpr std::uint64_t any = std::uint64_t{1}
+                                                      << 63;  // placeholder when no bit is left
                         next[i] = first + static_cast<std::uint32_t>(std::countr_zero(bits | any));
                         count += bits != 0;
                         bits &= bits - 1;
@@ -105,11 +107,11 @@ class CoverageRow {
         return next;
     }
 
-    /// The runs between the changes up to `end`.
+    /// Converts the changes up to `end` into runs of grey values.
     [[gnu::noinline]] const GreyRun* write_runs(const std::uint32_t* end, const std::uint16_t* value_of) {
         GreyRun* next = runs_.data();
         std::int64_t* const turns = turns_.data();
-        std::int64_t cover = 0, spill = 0;  // spill: what the last pixel passes on to the next one
+        std::int64_t cover = 0, spill = 0;  // spill: what the last pixel adds to the next one
         std::uint32_t from = 0;
         std::uint16_t value = 0;
         for (const std::uint32_t* change = changes_.data(); change != end; ++change) {
@@ -117,7 +119,7 @@ class CoverageRow {
             const std::int64_t turned = turns[pixel];
             turns[pixel] = 0;
             const std::int64_t moment = static_cast<std::int32_t>(turned);
-            cover += ((turned - moment) >> 24) - moment + spill;  // 256 for each turn
+            cover += ((turned - moment) >> 24) - moment + spill;  // 256 for each run end
             spill = moment;
             *next = {pixel - from, value};
             const std::uint16_t here = value_of[cover];
@@ -137,7 +139,7 @@ class CoverageRow {
     std::vector<GreyRun> runs_;
 };
 
-/// Grey of each coverage, 0 to 256 times the lines: rounded to the nearest, halves upward.
+/// Returns the grey value of each coverage, 0 to 256 times the lines: rounded to the nearest, halves upward.
 std::vector<std::uint16_t> grey_table(int sub, int white) {
     const int full = run_unit * sub, whole = white / full, part = white % full;
     std::vector<std::uint16_t> table(static_cast<std::size_t>(full) + 1);
@@ -155,10 +157,11 @@ std::vector<std::uint16_t> grey_table(int sub, int white) {
     return table;
 }
 
-/// Twice the area of a whole cell, in run units squared.
+/// Twice the area of a full cell, in square run units.
 constexpr std::int64_t full_cell = std::int64_t{2} * run_unit * run_unit;
 
-/// Twice the area of the solid part of a cell, in run units squared, by its border arcs and chords.
+/// Returns twice the area of the solid part of a cell, in square run units, bounded by its border arcs and
+/// chords.
 std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> crossings) {
     const std::int64_t x0 = std::int64_t{cell.i} * run_unit, y0 = std::int64_t{cell.j} * run_unit;
     const std::int64_t corner_x[4] = {run_unit, run_unit, 0, 0}, corner_y[4] = {0, run_unit, run_unit, 0};
@@ -177,7 +180,7 @@ std::int64_t solid_area(const Lattice::Cell& cell, std::span<const Crossing> cro
             edge(point(k), point(cell.chord_end(k)));
             continue;
         }
-        // A solid arc along the border, round the corners between this crossing and the next.
+        // A solid arc along the cell's border, around the corners between this crossing and the next.
         Point at = point(k);
         const std::size_t next = (k + 1) % n;
         const int turns = (cell.side[next] - cell.side[k] + 4) % 4;
@@ -227,8 +230,8 @@ void threshold(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& 
 void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch, std::vector<GreyRun>& out,
                     int white) {
     // A pixel is 2 x 2 lattice cells, so that a chord's deviation from a curve stays small against the pixel.
-    // A ring of pixels round the band keeps the grid's void border away. A mirrored band is a lattice of
-    // negative pitch.
+    // A ring of pixels around the band keeps the grid's empty border outside of it. A mirrored band is a
+    // lattice of negative pitch.
     constexpr int split = 2;
     const bool rows = band.axis == Axis::x;
     const int width = band.hi - band.lo + 2, height = band.count + 2;

@@ -8,29 +8,29 @@
 
 namespace lamella {
 
-/// Grey of a pixel that is covered wholly, in images of 8 bits a pixel and of 16.
+/// Grey value of a fully covered pixel, in images of 8 and of 16 bits per pixel.
 inline constexpr int white_of_8_bits = 255, white_of_16_bits = 65535;
 
-/// `length` consecutive pixels of one grey value: 0 empty, and full as it was asked for.
+/// `length` consecutive pixels of one grey value: 0 when empty, `white` of the call when full.
 struct GreyRun {
     std::uint32_t length;
     std::uint16_t value;
     friend bool operator==(const GreyRun&, const GreyRun&) = default;
 };
 
-/// Antialiased coverage of the band's pixel rows from the runs of its sub-lines: exact along the lines, the
-/// mean of `band.sub` lines across. The rows follow each other without a break; each sums to band.hi -
-/// band.lo pixels, and a run never spans two rows. Appends to `out`. `white` is the value of full pixels.
+/// Computes the antialiased coverage of the band's pixel rows from the runs of its sub-lines: exact along the
+/// lines, the mean of `band.sub` lines across. Appends to `out`, row after row; each row sums to band.hi -
+/// band.lo pixels, and a run never spans two rows. `white` is the value of full pixels.
 void coverage(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out,
               int white = white_of_8_bits);
 
-/// Black and white: a pixel is white when its centre lies in a run of the row's only line (band.sub must be
-/// 1).
+/// Computes black and white pixels: a pixel is white if its centre lies in a run of the row's only line
+/// (band.sub must be 1). Appends to `out` like `coverage`.
 void threshold(const RowBand& band, const RunRows& spans, std::vector<GreyRun>& out,
                int white = white_of_8_bits);
 
-/// Antialiased coverage as the area under the contour's chords, pixel by pixel: exact in both directions up
-/// to the curvature within one pixel. band.sub is not used. Appends to `out` like `coverage`.
+/// Computes the antialiased coverage as the area under the contour's chords, pixel by pixel: exact in both
+/// directions up to the curvature within one pixel. Ignores band.sub. Appends to `out` like `coverage`.
 void coverage_exact(const SliceField& slice, const RowBand& band, Scratch& scratch, std::vector<GreyRun>& out,
                     int white = white_of_8_bits);
 

@@ -1,4 +1,4 @@
-// Building the lattice: rows rule, columns follow.
+// Builds the lattice: rows decide, columns are adapted.
 #include "engine/contours/lattice.h"
 
 #include <cmath>
@@ -9,12 +9,11 @@ namespace lamella {
 namespace {
 
 constexpr int lines_per_band = 64;
-/// A column crossing this near to a node (a quarter pitch) is moved over it; farther ones are left and a pair
-/// is put in.
+/// A column crossing closer than this to a wrong node (a quarter pitch) is moved over it; a farther one is
+/// kept and a pair is inserted.
 constexpr std::int32_t near_node = run_unit / 4;
 
-/// Turns runs into crossings that avoid nodes and the grid's outside. Crossings that fall together vanish in
-/// pairs.
+/// Converts runs to crossings that avoid nodes and the grid's outside. Coinciding crossings cancel in pairs.
 void push_crossings(std::span<const Run> runs, std::int32_t end, std::vector<std::int32_t>& out) {
     const std::size_t first = out.size();
     const auto push = [&](std::int32_t u) {
@@ -32,7 +31,7 @@ void push_crossings(std::span<const Run> runs, std::int32_t end, std::vector<std
     }
 }
 
-/// Adds a crossing to a sorted list, or takes it away when it is there.
+/// Inserts a crossing into a sorted list, or removes it if it is there.
 void toggle(std::vector<std::int32_t>& list, std::int32_t u) {
     const auto place = std::lower_bound(list.begin(), list.end(), u);
     if (place != list.end() && *place == u) {
@@ -42,8 +41,8 @@ void toggle(std::vector<std::int32_t>& list, std::int32_t u) {
     }
 }
 
-/// Turns nodes first .. last of a column over. A crossing near an end of the stretch moves over the node
-/// there; elsewhere one is put beside it.
+/// Inverts nodes first .. last of a column. A crossing near an end of the stretch moves over the node there;
+/// otherwise a new crossing is inserted beside the node.
 void turn_over(std::vector<std::int32_t>& column, int first, int last) {
     const std::int32_t low = first * run_unit, high = last * run_unit;
     const auto below = std::lower_bound(column.begin(), column.end(), low);
@@ -126,10 +125,10 @@ void Lattice::bucket_columns(const std::vector<std::vector<std::int32_t>>& colum
 }
 
 bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) const {
-    // In each cell row, a column edge must have an odd number of crossings iff its two nodes differ. Where
-    // the nodes of two neighbouring rows differ is itself read off as runs: the symmetric difference of two
-    // sorted lists.
-    // A wrong edge has one wrong node, so the nodes between two wrong edges of a column are all wrong.
+    // In each cell row, a column edge must have an odd number of crossings if and only if its two nodes
+    // differ. The columns where two neighbouring rows differ are computed as runs, too: the symmetric
+    // difference of two sorted lists. A wrong edge has exactly one wrong node, so all nodes between two wrong
+    // edges of a column are wrong.
     std::vector<std::pair<int, int>> wrong_edges;
     std::vector<std::int32_t> flips;
     for (int j = 0; j < grid_.rows; ++j) {
@@ -138,7 +137,7 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
                 row_starts_[static_cast<std::size_t>(k)],
                 row_starts_[static_cast<std::size_t>(k) + 1] - row_starts_[static_cast<std::size_t>(k)]);
         };
-        // First node behind each crossing, where the status of the row turns.
+        // First node behind each crossing, where the row changes between solid and void.
         flips.clear();
         for (const Crossing& c : row(j)) flips.push_back((c.x >> 8) + 1);
         const auto middle = static_cast<std::ptrdiff_t>(flips.size());
@@ -155,7 +154,7 @@ bool Lattice::mend_columns(std::vector<std::vector<std::int32_t>>& columns) cons
         for (std::size_t f = 0; f + 1 <= flips.size(); ++f) {
             const bool differ = f % 2 == 0;
             const int from = flips[f], to = f + 1 < flips.size() ? flips[f + 1] : from;
-            // Between differing stretches, only columns that have crossings need a look.
+            // Between differing stretches, only columns with crossings need a check.
             while (k < end && crossings_[k].x < from * run_unit) check(crossings_[k].x >> 8, false);
             if (!differ) continue;
             for (int i = from; i < to; ++i) check(i, true);
@@ -206,7 +205,7 @@ void Lattice::Walker::add_side(std::uint32_t from, std::uint32_t to, std::uint8_
 
 bool Lattice::Walker::next() {
     const auto& c = lattice_.crossings_;
-    // The next cell with a crossing: one on its bottom, top or left, or else on its right side.
+    // Find the next cell with a crossing: on its bottom, top or left, or else on its right side.
     std::int32_t i = lattice_.grid_.columns;
     if (bottom_ < bottom_end_) i = std::min(i, c[bottom_].x >> 8);
     if (top_ < top_end_) i = std::min(i, c[top_].x >> 8);
@@ -242,7 +241,8 @@ bool Lattice::Walker::next() {
 
 bool Lattice::Walker::joins() const {
     const std::size_t n = border_.size();
-    // An arc between two crossings of one side is a thin strut (solid) or a thin gap (void) passing there.
+    // An arc between two crossings on one side is a thin strut (solid) or a thin gap (void) that passes
+    // there.
     bool thin_solid = false, thin_void = false, one_side = true;
     for (std::size_t k = 0; k + 1 < n; ++k) {
         if (side_[k] != side_[k + 1]) {
@@ -253,7 +253,7 @@ bool Lattice::Walker::joins() const {
             thin_solid = true;
         }
     }
-    if (one_side) return cell_.solid;  // never a chord round the other three sides
+    if (one_side) return cell_.solid;  // never a chord around the other three sides
     if (thin_solid != thin_void) return thin_solid;
     const auto chord = [&](std::size_t a, std::size_t b) {
         const Crossing &p = lattice_.crossings_[border_[a]], &q = lattice_.crossings_[border_[b]];

@@ -1,5 +1,5 @@
-// The lattice of a layer: where row runs and column runs cross the edges of a square grid, made to agree at
-// its nodes.
+// Lattice: crossings of row runs and column runs with the edges of a square grid, made consistent at its
+// nodes.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,28 @@ struct Grid {
     int rows = 0;     ///< cells
 };
 
-/// A crossing of the solid's border with a lattice edge; 1/256 of the pitch from node (0, 0). Crossings never
-/// lie on nodes.
+/// A crossing of the solid's border with a lattice edge, in 1/256 of the pitch from node (0, 0). Crossings
+/// never lie on nodes.
 struct Crossing {
     std::int32_t x;
     std::int32_t y;
 };
 
-/// The crossings of a slice with the edges of a grid. A node is solid iff its row run says so; column runs
-/// that disagree are mended at the node, so round every cell the number of crossings is even. Outside the
-/// grid all is void.
+/// The crossings of a slice with the edges of a grid. Row runs decide whether a node is solid; column runs
+/// that disagree are changed near the node, so that every cell has an even number of crossings on its border.
+/// Everything outside the grid is void.
 class Lattice {
   public:
     Lattice(const SliceField& slice, const Grid& grid, Scratch& scratch);
 
     const Grid& grid() const { return grid_; }
     std::span<const Crossing> crossings() const { return crossings_; }
-    /// Crossings below this number lie on rows (row by row, by x), the others on columns (cell row by cell
-    /// row, by column, by y).
+    /// Returns how many crossings lie on rows. These come first (row by row, by x); the others lie on columns
+    /// (cell row by cell row, by column, by y).
     std::uint32_t row_crossings() const { return row_starts_.back(); }
-    /// First crossing of lattice row j.
+    /// Returns the first crossing of lattice row j.
     std::uint32_t row_start(int j) const { return row_starts_[static_cast<std::size_t>(j)]; }
-    /// Number of the last row crossing before node (i, j) on its row, or -1.
+    /// Returns the last row crossing before node (i, j) on its row, or -1.
     std::int64_t before_node(int i, int j) const;
     bool solid(int i, int j) const;
 
@@ -48,15 +48,15 @@ class Lattice {
     struct Cell {
         int i;
         int j;
-        bool solid;                             ///< status of the lower left node
+        bool solid;                             ///< whether the lower left node is solid
         std::span<const std::uint32_t> border;  ///< crossing numbers
-        std::span<const std::uint8_t> side;     ///< of each: 0 bottom, 1 right, 2 top, 3 left
-        bool connect;  ///< solid arcs belong together (else each is cut off by a chord of its own)
+        std::span<const std::uint8_t> side;     ///< of each crossing: 0 bottom, 1 right, 2 top, 3 left
+        bool connect;                           ///< solid arcs are connected (else a chord cuts each off)
 
-        /// Whether the border turns from solid to void at its k-th crossing.
+        /// Returns true if the border goes from solid to void at its k-th crossing (counter-clockwise).
         bool leaves_solid(std::size_t k) const { return (k % 2 == 0) == solid; }
-        /// Where the chord that leaves the k-th crossing (one that leaves the solid) ends; the solid is on
-        /// its left.
+        /// Returns the end of the chord that starts at the k-th crossing, one that leaves the solid; the
+        /// solid is on the chord's left.
         std::size_t chord_end(std::size_t k) const {
             return connect ? (k + 1) % border.size() : (k + border.size() - 1) % border.size();
         }

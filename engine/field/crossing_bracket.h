@@ -1,4 +1,4 @@
-// The cells of a line among which the tile walk looks for a crossing.
+// Bracket: the cells of a line among which the tile walk looks for a crossing.
 #pragma once
 
 #include <algorithm>
@@ -8,19 +8,20 @@
 
 namespace lamella {
 
-/// How the cell of a crossing is looked for.
+/// Search strategy for the cell that holds a crossing.
 enum class Search : std::uint8_t {
-    chord,   ///< where a straight line through the values at the ends crosses
+    chord,   ///< where a straight line through the values at both ends crosses zero
     halves,  ///< halfway
-    signs    ///< at quarters: which of several crossings is found hangs on no values but on their signs
+    signs    ///< at quarters; depends on signs only, so values do not decide which of several crossings is
+             ///< found
 };
 
-/// Cells lo to hi of a pair, between which the surface passes, and the values there.
+/// Cells lo to hi between two samples, with the surface between them, and the values at both ends.
 struct Bracket {
     int lo, hi;
     double v_lo, v_hi;
 
-    /// Borders to try next; as many for every bracket.
+    /// Cell borders to sample next; the same number for every bracket.
     struct Borders {
         std::array<int, 3> at;
         std::size_t count;
@@ -35,8 +36,8 @@ struct Bracket {
         return {{std::max(middle - spread(), lo + 1), std::min(middle + spread() + 1, hi - 1)}, 2};
     }
 
-    /// How far to either side of a border on the chord the crossing may well lie: what a curve bends away
-    /// from its chord grows with the square of the length.
+    /// Returns how far (in cells) the crossing may lie from the chord's border, on either side: a curve
+    /// deviates from its chord by an amount that grows with the square of the length.
     int spread() const {
         constexpr std::int64_t straight = 1 << 21;
         const std::int64_t width = hi - lo;

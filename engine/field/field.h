@@ -1,5 +1,4 @@
-// Field, a 3D implicit solid, and SliceField, the same solid in one plane: the seam that every shape
-// implements.
+// Field, a 3D implicit solid, and SliceField, the same solid in one plane. Every shape implements both.
 #pragma once
 
 #include <memory>
@@ -16,14 +15,14 @@ class Field;
 class Grading;
 using FieldPtr = std::shared_ptr<const Field>;
 
-/// What a field's value says about the distance to its surface.
+/// Relation of a field's value to the distance from its surface.
 enum class Metric : std::uint8_t {
     exact,  ///< the signed Euclidean distance, mm
     bound,  ///< the value changes by at most 1 per mm, so its magnitude never exceeds the distance
-    sign    ///< only the sign holds
+    sign    ///< only the sign is meaningful
 };
 
-/// A regular lattice of sample points in a layer's plane: point (i, j) lies at origin + (i * step.x, j *
+/// A regular grid of sample points in a layer's plane: point (i, j) lies at origin + (i * step.x, j *
 /// step.y).
 struct Tile {
     dvec2 origin{0};
@@ -32,57 +31,71 @@ struct Tile {
     int ny = 0;
 };
 
-/// A solid in one plane. Immutable once made; any thread may ask it.
+/// A solid in one plane. Immutable once made; any thread may query it.
 class SliceField {
   public:
     virtual ~SliceField() = default;
-    /// The solid runs of every line of the band, clipped to it, appended to a cleared `out`.
+    /// Replaces `out` by the solid runs of every line of the band, clipped to the band.
     virtual void runs(const RowBand& band, Scratch& scratch, RunRows& out) const = 0;
-    /// Encloses every value over the rectangle.
+    /// Returns an interval that encloses every value over the rectangle.
     virtual Interval range(const Rect& r) const = 0;
-    /// The field's value at every point of the tile, row by row: out[j * nx + i].
+    /// Samples the field at every point of the tile, row by row: out[j * nx + i].
     virtual void sample(const Tile& tile, std::span<float> out) const = 0;
-    /// Encloses the solid part of the plane, mm; empty when there is none.
+    /// Returns a rectangle that encloses the solid part of the plane, mm; empty when there is none.
     virtual Rect bounds() const = 0;
 };
 
 /// A 3D implicit solid: negative inside, positive outside. Immutable and thread-safe.
+///
+///     const FieldPtr ball = make_sphere({0, 0, 0}, 5);  // solids/primitives.h
+///     const double outside = ball->value({6, 0, 0});    // 1 mm
+///     const FieldPtr larger = ball->offset(0.5);        // a ball of radius 5.5 mm
+///     SliceContext context;                             // slice_context.h
+///     const SliceField& slice = context.slice(*ball, 0.025);
+///     Scratch scratch;
+///     RunRows rows;  // 200 lines of 200 pixels of 0.05 mm
+///     const RowBand band{.along_pitch = 0.05, .across_pitch = 0.05, .first = -100, .count = 200,
+///                        .lo = -100, .hi = 100};
+///     slice.runs(band, scratch, rows);
 class Field : public std::enable_shared_from_this<Field> {
   public:
     virtual ~Field() = default;
-    /// The field at one point, mm. NaN counts as outside.
+    /// Returns the value at a point, mm. NaN counts as outside.
     virtual double value(dvec3 p) const = 0;
-    /// The value where its magnitude is below `limit` (> 0); elsewhere any number of the same sign and at
-    /// least that magnitude. For fields that find out sooner that a surface is far than how far.
+    /// Returns the value where its magnitude is below `limit` (> 0); elsewhere any number with the same sign
+    /// and a magnitude of at least `limit`. Fields override this when a far surface can be ruled out early.
     virtual double value_within(dvec3 p, double /*limit*/) const { return value(p); }
-    /// Whether no point of the surface is nearer to p than `distance` (> 0); false where that is not known.
-    /// For fields that find something near sooner than the nearest.
+    /// Returns true only if no point of the surface is nearer to p than `distance` (> 0). Conservative: may
+    /// return false when this is unknown. Fields override this when any near point is found sooner than the
+    /// nearest.
     virtual bool clear_of_surface(dvec3 p, double distance) const;
-    /// Encloses every value over the box. The default derives it from the centre's value and the metric.
+    /// Returns an interval that encloses every value over the box. The default derives it from the value at
+    /// the centre and the metric.
     virtual Interval range(const Box& box) const;
     virtual Metric metric() const { return Metric::bound; }
-    /// The values at many points, those of `value`, and the ranges over many boxes, those of `range`.
+    /// Compute the results of `value` at many points, and of `range` over many boxes.
     virtual void values(std::span<const dvec3> points, std::span<double> out) const;
     virtual void ranges(std::span<const Box> boxes, std::span<Interval> out) const;
-    /// Whether `values` and `ranges` take much less time than as many calls one by one. The default slice
-    /// uses them then.
+    /// Returns true if `values` and `ranges` are much faster than one call per item. The default slice uses
+    /// them then.
     virtual bool takes_many() const { return false; }
-    /// The solid grown (d > 0) or shrunk (d < 0) by d mm in true 3D distance; null where there is no closed
-    /// form.
+    /// Returns the solid dilated (d > 0) or eroded (d < 0) by |d| mm in true 3D distance; null when there is
+    /// no closed form.
     virtual FieldPtr offset(double d) const;
-    /// A field that, inside this solid, is solid exactly within `thickness` mm of the surface (outside it may
-    /// be anything); null where there is no closed form. The default takes the solid less its inward offset.
+    /// Returns a field that, inside this solid, is solid exactly within `thickness` mm of the surface
+    /// (outside this solid it may be anything); null when there is no closed form. The default subtracts the
+    /// inward offset.
     virtual FieldPtr shell(double thickness) const;
-    /// The same with a thickness that varies (mm, >= 0, its range finite); null where there is no closed
+    /// Returns a shell whose thickness varies (mm, >= 0, with a finite range); null when there is no closed
     /// form, as by default.
     virtual FieldPtr graded_shell(const Grading& thickness) const;
-    /// The other side of it: a field that, outside this solid, is solid exactly within a thickness that
-    /// varies over the surface (inside it may be anything).
+    /// Returns the outer counterpart: a field that, outside this solid, is solid exactly within a thickness
+    /// that varies over the surface (inside it may be anything).
     virtual FieldPtr graded_outer_shell(const Grading& thickness) const;
-    /// The solid in the plane at height z, owned by the context. The default samples `value`.
-    /// Callers use SliceContext::slice, which works each pair (field, z) out once.
+    /// Returns the solid in the plane at height z, owned by the context. The default samples `value`. Call
+    /// SliceContext::slice instead, which computes each pair (field, z) only once.
     virtual const SliceField& slice(SliceContext& context, double z) const;
-    /// Encloses the solid, mm; sides may be infinite.
+    /// Returns a box that encloses the solid, mm; sides may be infinite.
     virtual Box bounds() const = 0;
 };
 

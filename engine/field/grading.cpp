@@ -1,4 +1,4 @@
-// Constants, depths and limits; narrow ranges by best-first division; surveys over a lattice.
+// Constant, depth and clamped gradings; tight ranges by branch and bound; surveys over a lattice.
 #include "engine/field/grading.h"
 
 #include <fmt/format.h>
@@ -81,8 +81,8 @@ struct Open {
 
 using Halves = std::array<Open, 2>;
 
-/// The two halves of the box along the axis that lowers their bounds most. Of axes that serve alike, the one
-/// along the longest side.
+/// Halves the box along the axis that lowers the sum of both bounds most. Ties go to the axis of the longest
+/// side.
 template <typename Bound>
 Halves divide(const Open& open, const Bound& bound) {
     const dvec3 size = open.box.size();
@@ -102,7 +102,7 @@ Halves divide(const Open& open, const Bound& bound) {
     return best;
 }
 
-/// An upper bound of sign * grading over the box, close to the least one.
+/// Returns an upper bound of sign * grading over the box, close to the supremum.
 double upper_bound(const Grading& grading, const Box& box, double sign) {
     const auto bound = [&](const Box& b) {
         const Interval r = grading.range(b);
@@ -162,7 +162,7 @@ std::vector<dvec3> points_inside(const Field& body, int per_side) {
     const dvec3 size = box.size();
     const double step = std::max({size.x, size.y, size.z}) / per_side;
     if (!(step > 0) || !std::isfinite(step)) return points;
-    // At least one point along every side: flat bodies are bodies.
+    // At least one point along every side, so that flat bodies are sampled too.
     const glm::ivec3 n(glm::max(glm::ceil(size / step - 1e-9), dvec3(1)));
     for (int k = 0; k < n.z; ++k) {
         for (int j = 0; j < n.y; ++j) {

@@ -1,4 +1,4 @@
-// What one layer in flight owns: its slices, worked out once each, and reusable row buffers.
+// State of one layer in flight: its slices, each computed once, and reusable row buffers.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace lamella {
 /// Reusable row buffers of one worker. Not thread-safe.
 class Scratch {
   public:
-    /// A buffer on loan; it goes back to the scratch when the lease ends.
+    /// A borrowed buffer; its destructor returns it to the scratch.
     class Lease {
       public:
         Lease(Scratch& owner, std::unique_ptr<RunRows> rows) : owner_(&owner), rows_(std::move(rows)) {}
@@ -33,7 +33,7 @@ class Scratch {
         std::unique_ptr<RunRows> rows_;
     };
 
-    /// A cleared row buffer.
+    /// Returns a cleared row buffer.
     Lease rows() {
         if (free_.empty()) return {*this, std::make_unique<RunRows>()};
         auto rows = std::move(free_.back());
@@ -42,18 +42,18 @@ class Scratch {
         return {*this, std::move(rows)};
     }
 
-    /// For kernels that make the runs of many convex things; contents are undefined between calls.
+    /// For kernels that make the runs of many convex objects; contents are undefined between calls.
     RunCollector collector;
 
   private:
     std::vector<std::unique_ptr<RunRows>> free_;
 };
 
-/// Owns the slices of one layer. Slices of a shared field are worked out once. Not thread-safe while slicing;
-/// the finished slices are.
+/// Owns the slices of one layer. The slice of a shared field is computed once. Not thread-safe while slices
+/// are being made; the finished slices are.
 class SliceContext {
   public:
-    /// The field's slice at height z, mm; made on first use.
+    /// Returns the field's slice at height z, mm; computes it on first use.
     const SliceField& slice(const Field& field, double z) {
         const auto key = std::make_pair(&field, z);
         if (const auto found = memo_.find(key); found != memo_.end()) return *found->second;

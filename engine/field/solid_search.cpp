@@ -1,4 +1,4 @@
-// Best-first division of a box, each time followed down to a point.
+// Best-first division of a box; each part is followed down to a point.
 #include "engine/field/solid_search.h"
 
 #include <queue>
@@ -8,13 +8,13 @@ namespace lamella {
 namespace {
 
 constexpr int max_parts = 20'000;
-constexpr double smallest = 1e-9;  // of the box's diagonal
+constexpr double smallest = 1e-9;  // relative to the box's diagonal
 
 struct Part {
     Box box;
-    double value;  ///< at the centre; infinite where it is NaN
-    double bound;  ///< what the value could be in the part if it changed by at most 1 per mm
-    int number;    ///< in the order of making, so that the search is the same everywhere
+    double value;  ///< at the centre; infinite where the field is NaN
+    double bound;  ///< lower bound of the values in the part if they change by at most 1 per mm
+    int number;    ///< order of creation; breaks ties, so that the search is deterministic
 };
 
 struct ByBound {
@@ -40,7 +40,7 @@ class HalvingSearch {
     }
 
   private:
-    /// A part that may hold some of the solid.
+    /// Samples a part; returns it if it may hold some of the solid.
     std::optional<Part> add(const Box& box) {
         const double value = solid_.value(box.center()), size = diagonal(box);
         ++made_;
@@ -50,7 +50,7 @@ class HalvingSearch {
                     made_};
     }
 
-    /// The half whose centre is nearer to the solid; the other one waits.
+    /// Halves the part and returns the half with the lower value; queues the other one.
     std::optional<Part> descend(const Part& part) {
         const dvec3 size = part.box.size();
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

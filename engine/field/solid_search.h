@@ -1,4 +1,4 @@
-// Questions about where a solid is, answered by dividing boxes.
+// Search for a point inside a solid by dividing boxes.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,11 @@
 
 namespace lamella {
 
-/// A point of the box (finite) that is in the solid; nothing where none is found. The box is divided where
-/// the value at the centre, less half the diagonal, is least, and each division is followed down to a point,
-/// towards lesser values; parts whose range proves them empty are left out. The search gives up after 20,000
-/// parts: a solid that is small against the box, and whose values do not lead to it, may then be missed.
+/// Returns a point of the box (finite) that is in the solid; nothing when none is found. Best-first search:
+/// of the parts that wait, the one with the least value at its centre less half its diagonal is halved next,
+/// and each is followed down to a point towards lower values. Parts whose range proves them empty are pruned.
+/// The search gives up after 20,000 parts: it may then miss a solid that is small against the box and whose
+/// values do not lead to it.
 std::optional<dvec3> find_solid_point(const Field& solid, const Box& box);
 
 }  // namespace lamella

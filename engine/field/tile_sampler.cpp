@@ -1,5 +1,4 @@
-// Samples of tiles: neighbours are compared, pairs that may hold a surface halved, crossings narrowed to
-// cells.
+// Compares neighbouring samples, halves pairs that may enclose a surface, narrows crossings to cells.
 #include "engine/field/tile_sampler.h"
 
 #include <cstring>
@@ -8,9 +7,9 @@ namespace lamella {
 namespace {
 
 constexpr int quarter = run_unit / 4;
-constexpr int cells_per_unit = 16;  // a crossing is found to 1/16 of a run unit
-constexpr int guesses = 3;          // rounds of interpolation before plain halving
-constexpr int guesses_of_one = 6;   // where there is one crossing only
+constexpr int cells_per_unit = 16;  // resolution of a crossing: 1/16 of a run unit
+constexpr int guesses = 3;          // rounds of interpolation before bisection
+constexpr int guesses_of_one = 6;   // the same when a line has one crossing at most
 
 }  // namespace
 
@@ -73,7 +72,7 @@ void TileSampler::sample_ends(const BandTile& tile) {
 }
 
 void TileSampler::sample(std::span<const BandTile> tiles) {
-    // Where values prove nothing, all quarters are wanted at once.
+    // Signs prove nothing between samples, so all quarter pitches are sampled at once.
     const int step = metric_ == Metric::sign ? quarter : run_unit;
     ask_samples(tiles, step);
     read_samples(tiles, step);
@@ -82,8 +81,8 @@ void TileSampler::sample(std::span<const BandTile> tiles) {
     turn();
 }
 
-/// The values at the samples of all tiles. One tile's are asked for as a lattice, for which a formula has
-/// less to compute.
+/// Computes the values at the samples of all tiles. A single tile is sampled as a lattice, which is cheaper
+/// for a formula.
 void TileSampler::ask_samples(std::span<const BandTile> tiles, int step) {
     along_.clear();
     across_.clear();
@@ -105,7 +104,7 @@ void TileSampler::ask_samples(std::span<const BandTile> tiles, int step) {
     if (!samples_.empty()) solid_.values(points, samples_);
 }
 
-/// The stretches of all tiles, and the pairs of samples that may have a surface between them.
+/// Lists the stretches of all tiles, and the pairs of samples that may have a surface between them.
 void TileSampler::read_samples(std::span<const BandTile> tiles, int step) {
     stretches_.clear();
     pairs_.clear();
@@ -131,7 +130,7 @@ void TileSampler::read_samples(std::span<const BandTile> tiles, int step) {
     }
 }
 
-/// Calls `turn(i)` for every i whose value lies on another side than the next one.
+/// Calls `turn(i)` for every i where value i and value i + 1 lie on different sides of the surface.
 template <class Turn>
 void TileSampler::turns_of(std::span<const double> values, const Turn& turn) {
     constexpr std::size_t word = sizeof(std::uint64_t);
@@ -151,7 +150,7 @@ void TileSampler::turns_of(std::span<const double> values, const Turn& turn) {
     }
 }
 
-/// Keeps a pair that may have a surface between its samples.
+/// Keeps a pair if a surface may lie between its samples.
 void TileSampler::consider(const Pair& pair, std::vector<Pair>& out) const {
     const double width = pair.u1 - pair.u0;
     if (!pair.crosses()) {
@@ -162,7 +161,7 @@ void TileSampler::consider(const Pair& pair, std::vector<Pair>& out) const {
     out.push_back(pair);
 }
 
-/// The values halfway between the samples of all pairs.
+/// Computes the values halfway between the samples of all pairs.
 void TileSampler::sample_middles() {
     along_.clear();
     across_.clear();
@@ -174,7 +173,7 @@ void TileSampler::sample_middles() {
     if (!pairs_.empty()) solid_.values({band_.axis, along_, across_, false}, middles_);
 }
 
-/// Halves all pairs.
+/// Halves all pairs and keeps the halves that may hold a surface.
 void TileSampler::split() {
     sample_middles();
     halves_.clear();
@@ -187,8 +186,8 @@ void TileSampler::split() {
     pairs_.swap(halves_);
 }
 
-/// Narrows all pairs, each of which has a crossing, to the cell where it lies. `one_way`: every line has one
-/// crossing at most.
+/// Narrows each pair, all of which have a crossing, to the cell that holds it. `one_way`: every line has at
+/// most one crossing.
 void TileSampler::find_crossings(bool one_way) {
     brackets_.clear();
     for (const Pair& pair : pairs_) {
@@ -213,7 +212,7 @@ void TileSampler::find_crossings(bool one_way) {
     }
 }
 
-/// Lists cell borders of every pair whose cell is not found yet; tells whether there are any.
+/// Lists cell borders to sample for every pair whose cell is not found yet; returns false if there are none.
 bool TileSampler::ask_borders(Search search) {
     along_.clear();
     across_.clear();
@@ -234,7 +233,7 @@ bool TileSampler::ask_borders(Search search) {
     return !borders_.empty();
 }
 
-/// Turns the crossings of all stretches into runs.
+/// Converts the crossings of all stretches into runs.
 void TileSampler::turn() {
     std::size_t k = 0;
     for (std::size_t s = 0; s < stretches_.size(); ++s) {

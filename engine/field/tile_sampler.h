@@ -1,4 +1,4 @@
-// Runs of tiles of a band, read off samples of a solid that has no closed form.
+// TileSampler: runs of the tiles of a band, from samples of a solid without a closed form.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace lamella {
 
-/// Points at which values are asked for, on lines of a band. A lattice has a point for every pair of
-/// positions; otherwise along[i] and across[i] belong together.
+/// Sample points on lines of a band. A lattice has a point for every pair of positions; otherwise along[i]
+/// and across[i] form a point.
 struct WalkPoints {
     Axis axis = Axis::x;
     std::span<const double> along;   ///< mm
@@ -20,9 +20,9 @@ struct WalkPoints {
     bool lattice = true;
 
     std::size_t count() const { return lattice ? along.size() * across.size() : along.size(); }
-    /// The point of the plane at these positions.
+    /// Returns the point of the plane at these positions.
     dvec2 at(double a, double c) const { return axis == Axis::x ? dvec2(a, c) : dvec2(c, a); }
-    /// Calls visit(point of the plane) for every point, a lattice's line by line.
+    /// Calls visit(point of the plane) for every point, a lattice line by line.
     template <typename Visit>
     void each(const Visit& visit) const {
         if (lattice) {
@@ -35,42 +35,43 @@ struct WalkPoints {
     }
 };
 
-/// What a solid in a plane tells when it is sampled.
+/// A solid in a plane that can be sampled.
 class SampledSolid {
   public:
     virtual ~SampledSolid() = default;
-    /// The values at the points; a lattice's line by line: out[line * along.size() + i].
+    /// Computes the values at the points, a lattice line by line: out[line * along.size() + i].
     virtual void values(const WalkPoints& points, std::span<double> out) = 0;
-    /// Only the signs of values are the same whatever the tile.
+    /// Returns true if values depend on the tile and only their signs do not.
     virtual bool signs_only() const { return false; }
 };
 
 /// Pixels [lo, lo + width) of lines [first, first + height) of a band, as far as the band has them.
 struct BandTile {
     int lo, width, first, height;
-    bool full = false;  ///< known to be solid all over
+    bool full = false;  ///< known to be solid everywhere
 };
 
-/// Samples tiles of a band, narrows the crossings of their lines, and collects the runs of each line. Tiles
-/// of one line have to come from left to right.
+/// Samples the tiles of a band, narrows down the crossings on their lines, and collects the runs of each
+/// line. Tiles of one line have to come from left to right.
 class TileSampler {
   public:
     TileSampler(SampledSolid& solid, Metric metric, const RowBand& band);
 
-    /// The part of the plane that holds the tile's samples.
+    /// Returns the rectangle of the plane that holds the tile's samples, mm.
     Rect rect(const BandTile& tile) const;
     void fill(const BandTile& tile);
-    /// Samples several tiles in step: each round of narrowing asks for the points of all of them at once.
+    /// Samples several tiles in lockstep: each round of narrowing evaluates points of all of them in one
+    /// batch.
     void sample(std::span<const BandTile> tiles);
-    /// Samples the ends of a tile's lines, each of which has one crossing at most.
+    /// Samples both ends of a tile's lines, each of which has at most one crossing.
     void sample_ends(const BandTile& tile);
-    /// The least length that is told apart along a line, mm.
+    /// Returns the resolution along a line, mm: 1/16 of a run unit.
     double cell() const { return cell_; }
-    /// The lines' runs.
+    /// Appends the runs of all lines.
     void append_to(RunRows& out) const;
 
   private:
-    /// A tile's part of a line.
+    /// The part of a line in a tile.
     struct Stretch {
         int line;
         std::int32_t begin, end;
@@ -109,13 +110,13 @@ class TileSampler {
     const RowBand& band_;
     double cell_;  ///< mm
     std::vector<std::vector<Run>> lines_;
-    std::vector<double> positions_;  ///< of the lines, mm across
+    std::vector<double> positions_;  ///< position of each line, mm across
     std::vector<double> along_, across_, samples_, middles_;
     std::vector<Stretch> stretches_;
     std::vector<Pair> pairs_, halves_;
     std::vector<Bracket> brackets_;
     std::vector<int> borders_;
-    std::size_t tried_ = 0;  ///< borders of each bracket
+    std::size_t tried_ = 0;  ///< borders sampled per bracket
     std::vector<std::uint8_t> inside_;
 };
 

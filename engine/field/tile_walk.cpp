@@ -1,4 +1,4 @@
-// The tile walk: tiles of a band halved until the range decides or they are small, then samples.
+// Halves the tiles of a band until their range decides or they are small; samples the small ones.
 #include "engine/field/tile_walk.h"
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace {
 
 constexpr int leaf_lines = 8;
 constexpr int leaf_pixels = 8;
-constexpr int one_way_pixels = 16;  // tiles up to this size are asked whether values rise or fall all along
-// As many samples as still fit a processor's second-level cache, at 264 samples a tile where all quarters are
-// wanted at once.
+constexpr int one_way_pixels = 16;  // larger tiles are not asked for their slope
+// As many as keep their samples in a processor's second-level cache, at 264 samples a tile when all quarter
+// pitches are sampled at once.
 constexpr std::size_t tiles_at_once = 64;
 
-/// The tile that holds all of a band; of no pixels or lines where the band has none.
+/// Returns the tile that covers the whole band; empty when the band has no pixels or lines.
 BandTile whole(const RowBand& band) {
     if (band.lo >= band.hi || band.lines() <= 0) return {band.lo, 0, 0, 0};
     BandTile tile{band.lo, leaf_pixels, 0, leaf_lines};
@@ -32,11 +32,11 @@ bool meets(const BandTile& tile, const RowBand& band) {
 
 bool is_leaf(const BandTile& tile) { return tile.width == leaf_pixels && tile.height == leaf_lines; }
 
-/// Calls visit(part) for the parts into which a tile is divided, those of one line from left to right.
+/// Calls visit(part) for the parts into which a tile is divided, from left to right along each line.
 template <typename Visit>
 void divide(const BandTile& tile, const Visit& visit) {
     const int across = tile.width / leaf_pixels, down = tile.height / leaf_lines;
-    // Long tiles are halved until they have the shape of a leaf: ranges over squares are narrowest.
+    // Long tiles are halved until they have the shape of a leaf: ranges are tightest over squares.
     const bool wide = across >= down, high = down >= across;
     const int width = wide ? tile.width / 2 : tile.width, height = high ? tile.height / 2 : tile.height;
     for (int first = tile.first; first < tile.first + tile.height; first += height) {
@@ -44,7 +44,7 @@ void divide(const BandTile& tile, const Visit& visit) {
     }
 }
 
-/// Walks down the tiles of a band one by one, those of one line from left to right.
+/// Depth-first walk over the tiles of a band, from left to right along each line.
 class NarrowingWalk {
   public:
     NarrowingWalk(TileSampledSolid& solid, Metric metric, const RowBand& band)
@@ -69,7 +69,7 @@ class NarrowingWalk {
 
     void descend(const BandTile& tile) {
         if (metric_ == Metric::sign && std::max(tile.width, tile.height) <= one_way_pixels) {
-            // Half a cell, for positions are rounded.
+            // Half a cell, because positions are rounded.
             if (solid_.slope(band_.axis).one_way(0.5 * sampler_.cell())) return sampler_.sample_ends(tile);
         }
         if (is_leaf(tile)) return sampler_.sample({&tile, 1});
@@ -82,7 +82,7 @@ class NarrowingWalk {
     TileSampler sampler_;
 };
 
-/// Walks down the tiles of a band level by level.
+/// Breadth-first walk over the tiles of a band.
 class EvenWalk {
   public:
     EvenWalk(BatchSampledSolid& solid, Metric metric, const RowBand& band)
@@ -101,7 +101,7 @@ class EvenWalk {
     }
 
   private:
-    /// Goes from the tiles of one level to those of the next.
+    /// Bounds the tiles of one level and divides them into those of the next.
     void descend() {
         rects_.clear();
         for (const BandTile& tile : level_) rects_.push_back(sampler_.rect(tile));
@@ -127,12 +127,12 @@ class EvenWalk {
     const RowBand& band_;
     TileSampler sampler_;
     std::vector<BandTile> level_, next_;
-    std::vector<BandTile> found_;  ///< full ones, and leaves to be sampled
+    std::vector<BandTile> found_;  ///< full tiles, and leaves to be sampled
     std::vector<Rect> rects_;
     std::vector<Interval> ranges_;
 };
 
-/// A slice asked point by point.
+/// Adapter for a slice that is sampled point by point.
 class WalkedSlice : public TileSampledSolid {
   public:
     explicit WalkedSlice(const SliceField& slice) : slice_(slice) {}
@@ -153,7 +153,7 @@ class WalkedSlice : public TileSampledSolid {
     const SliceField& slice_;
 };
 
-/// A field in one plane, asked for many points and tiles at a time.
+/// Adapter for a field in one plane that is sampled in batches.
 class FieldInPlane : public BatchSampledSolid {
   public:
     FieldInPlane(const Field& field, double z) : field_(field), z_(z) {}

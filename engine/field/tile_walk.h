@@ -1,4 +1,4 @@
-// The tile walk: runs of a solid that has no closed form, read off samples where the surface may pass.
+// Tile walk: runs of a solid without a closed form, from samples where the surface may pass.
 #pragma once
 
 #include <algorithm>
@@ -7,52 +7,53 @@
 
 namespace lamella {
 
-/// How a value may change along a line: f(q) - f(p) lies within slope * (q - p) +- noise for any two points
-/// of the line. Unknown unless told.
+/// Bound on how a value changes along a line: f(q) - f(p) lies within slope * (q - p) +- noise for any two
+/// points of the line. Unknown by default.
 struct SlopeBound {
     Interval slope{-infinity, infinity};  ///< per mm
-    double noise = infinity;              ///< of the values as computed
+    double noise = infinity;              ///< rounding error of the values as computed
 
     bool known() const { return -infinity < slope.lo && slope.hi < infinity && noise < infinity; }
     bool flat() const { return slope.lo == 0 && slope.hi == 0 && noise == 0; }
-    /// The values surely rise, or surely fall, from any point to one that lies `distance` on.
+    /// Returns true if the values surely rise, or surely fall, from any point to one that lies `distance`
+    /// further on.
     bool one_way(double distance) const { return noise < std::max(slope.lo, -slope.hi) * distance; }
 };
 
-/// A solid in a plane that is told which tile the walk is in, so that it may narrow what it works with.
+/// A solid in a plane that learns which tile the walk is in, so that it can specialise on it.
 class TileSampledSolid : public SampledSolid {
   public:
-    /// The walk goes down into a tile, which lies in the one before: encloses every value over it. Values
-    /// are asked for within the innermost tile only.
+    /// Enters a tile, which lies in the one entered before; returns an interval that encloses every value
+    /// over it. Values are requested within the innermost tile only.
     virtual Interval enter(const Rect& tile) = 0;
-    /// The walk leaves the innermost tile.
+    /// Leaves the innermost tile.
     virtual void leave() = 0;
-    /// How values change along lines within the innermost tile; asked for right after `enter`.
+    /// Returns how values change along lines within the innermost tile; called right after `enter`.
     virtual SlopeBound slope(Axis /*lines*/) { return {}; }
 };
 
-/// A solid in a plane that works with the same all over it, and is quickest when asked about much at once:
-/// the walk looks at the tiles of all of the band level by level, and samples what is left many at a time.
+/// A solid in a plane that works alike everywhere and is fastest in batches: the walk bounds the tiles of the
+/// whole band level by level, and samples the remaining ones many at a time.
 class BatchSampledSolid : public SampledSolid {
   public:
-    /// Encloses every value over each of the tiles.
+    /// Computes intervals that enclose every value over each of the tiles.
     virtual void ranges(std::span<const Rect> tiles, std::span<Interval> out) = 0;
 };
 
-/// Solid runs of a band from ranges and values alone. Tiles whose range proves them empty or full are not
-/// sampled. Where the slope proves that values rise or fall all along a tile's lines, so that each has one
-/// crossing at most, their ends are. Elsewhere neighbouring samples are compared, split down to a quarter
-/// pitch unless their values prove that no surface passes between them (metric exact or bound). Crossings are
-/// narrowed to 1/16 of a run unit. A value that is NaN counts as outside. Samples lie at quarter pitches
-/// counted from the band's origin, and what is proven is what they would tell, so a line's runs do not depend
-/// on how it is cut into tiles and bands.
+/// Computes the solid runs of a band from ranges and values alone. Tiles whose range proves them empty or
+/// full are not sampled. Where the slope proves that values rise or fall all along a tile's lines, each line
+/// has one crossing at most and only its ends are sampled. Elsewhere neighbouring samples are compared, and
+/// halved down to a quarter pitch unless their values prove that no surface passes between them (metric exact
+/// or bound). Crossings are narrowed to 1/16 of a run unit. NaN counts as outside. Samples lie at quarter
+/// pitches counted from the band's origin, and a proof only replaces samples that would agree with it, so a
+/// line's runs do not depend on the division into tiles and bands.
 void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
 void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
 
-/// The same for a slice that answers from range and sample.
+/// Computes the runs of a slice from its `range` and `sample`.
 void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, RunRows& out);
 
-/// The slice of a field that answers from its values and ranges.
+/// A slice computed from the field's values and ranges.
 class SampledSlice : public SliceField {
   public:
     SampledSlice(const Field& field, double z) : field_(field), z_(z) {}

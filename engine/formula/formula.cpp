@@ -1,4 +1,4 @@
-// The point evaluator: a loop over operations on registers that are reused as soon as they are free.
+// The point evaluator: a loop over operations on registers, which are reused as soon as they are free.
 #include "engine/formula/formula.h"
 
 #include <algorithm>

@@ -10,34 +10,34 @@
 namespace lamella {
 
 /// One step of a formula in single-assignment form. Operands are numbers of earlier instructions; an `input`
-/// has its number in `a`, a `constant` its place among the constants.
+/// has its input number in `a`, a `constant` its index in the list of constants.
 struct FormulaInstruction {
     FormulaOp op = FormulaOp::constant;
     std::uint32_t a = 0, b = 0, c = 0;
 };
 
-/// A formula: made by FormulaBuilder, parse_formula or read_vm, and evaluated at a point, over intervals
-/// (`range`) or over many points at once (formula_batch.h). Inputs are numbered: x, y, z first where it is
-/// about space.
+/// A formula, made by FormulaBuilder, parse_formula or read_vm. It can be evaluated at a point, over
+/// intervals (`range`) or over many points at once (formula_batch.h). Inputs are numbered; in formulas about
+/// space, inputs 0 to 2 are x, y, z.
 class Formula {
   public:
-    /// Every operand precedes its user; the last instruction is the result. FormulaBuilder sees to both.
+    /// Every operand precedes its user; the last instruction is the result. FormulaBuilder ensures both.
     Formula(std::vector<FormulaInstruction> instructions, std::vector<double> constants);
 
-    /// One more than the highest input that the formula reads.
+    /// Returns one more than the highest input that the formula reads.
     int input_count() const { return input_count_; }
-    /// Number of operations, leaves not counted.
+    /// Returns the number of operations, not counting leaves.
     std::size_t size() const { return steps_.size(); }
-    /// The number at one point; `inputs` has at least input_count() entries.
+    /// Evaluates the formula at one point; `inputs` has at least input_count() entries.
     double at(std::span<const double> inputs) const;
-    /// Whether the result depends on input `i`.
+    /// Returns true if the result depends on input `i`.
     bool reads(int i) const;
 
     std::span<const FormulaInstruction> instructions() const { return instructions_; }
     std::span<const double> constants() const { return constants_; }
 
   private:
-    /// An operation on registers: inputs and constants come first, then the reused ones.
+    /// An operation on registers: inputs and constants have the first ones, results reuse the rest.
     struct Step {
         FormulaOp op;
         std::uint32_t out, a, b, c;
@@ -52,13 +52,14 @@ class Formula {
     int input_count_ = 0;
 };
 
-/// What is known of a number: if it is not NaN, it lies within `values` (empty: it is surely NaN).
+/// Range of a number: unless it is NaN, it lies within `values` (empty: it is surely NaN).
 struct FormulaRange {
     Interval values{-infinity, infinity};
     bool maybe_nan = true;
 };
 
-/// Encloses the formula's numbers, exactly as `at` computes them, over all inputs within the ranges.
+/// Returns a range that encloses the formula's results, exactly as `at` computes them, over all inputs in the
+/// ranges.
 FormulaRange range(const Formula& formula, std::span<const FormulaRange> inputs);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Registers by liveness, one for each leaf and each live result; then the kernel runs the steps.
+// Allocates registers by liveness, one for each leaf and each live result; then the kernel runs the steps.
 #include "engine/formula/formula_batch.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void FormulaBatch::prepare(const FormulaTape& tape) {
         const auto used = operands(i);
         const auto arguments = static_cast<std::size_t>(arity(tape.instructions[i].op));
         for (std::size_t k = 0; k < arguments; ++k) last_use_[used[k]] = static_cast<std::uint32_t>(i);
-        // Inputs are loaded before the first step runs, so they share their registers with nothing.
+        // Inputs are loaded before the first step runs, so each has a register of its own.
         if (tape.instructions[i].op == FormulaOp::input) slot_[i] = static_cast<std::uint32_t>(slots_++);
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -30,7 +30,7 @@ void FormulaBatch::prepare(const FormulaTape& tape) {
         if (arity(op) == 0) continue;
         const auto used = operands(i);
         const auto arguments = static_cast<std::size_t>(arity(op));
-        // A result may not overwrite its operand: they may be laid out differently.
+        // A result must not overwrite its operand, because their layouts may differ.
         if (free_.empty()) free_.push_back(static_cast<std::uint32_t>(slots_++));
         slot_[i] = free_.back();
         free_.pop_back();
@@ -69,7 +69,7 @@ FormulaBatch::Place FormulaBatch::Layout::place(std::uint32_t slot, int varies_h
 void FormulaBatch::lay_out(std::span<const BatchInput> inputs, std::size_t lines, std::size_t padded,
                            Layout& out) const {
     out.lines = lines;
-    // Lists of points come in many lengths.
+    // Lists of points vary in length; room for the usual size avoids a new layout each time.
     out.padded = lines == 1 ? std::max(padded, std::size_t{good_grid}) : padded;
     const std::size_t room = slots_ * out.lines * out.padded, count = tape_.instructions.size();
     if (out.registers.size() < room) out.registers.resize(room);
@@ -111,7 +111,7 @@ void FormulaBatch::lay_out(std::span<const BatchInput> inputs, std::size_t lines
     }
 }
 
-/// Brings an input into groups: padded along the line, or repeated over a group.
+/// Copies an input into groups: padded along the line, or repeated over a group.
 void FormulaBatch::Layout::load(const BatchInput& input, double* to, std::size_t points,
                                 std::size_t width) const {
     for (std::size_t l = 0; l < (input.by_line ? lines : 1); ++l) {

@@ -1,4 +1,4 @@
-// Formulas over many points at once, by SIMD: the same bits at every point as Formula::at.
+// FormulaBatch: evaluates formulas at many points by SIMD, with the same bits at every point as Formula::at.
 #pragma once
 
 #include <vector>
@@ -7,45 +7,43 @@
 
 namespace lamella {
 
-/// Numbers on a grid of lines x points. What does not vary along one of them is given once for it: an input
-/// that varies neither way is one number.
+/// An input on a grid of lines x points. A dimension along which it does not vary is left out: an input that
+/// varies along neither is a single number.
 struct BatchInput {
-    const double* numbers =
-        nullptr;  ///< numbers[line * points + point], without the factors that do not vary
+    const double* numbers = nullptr;  ///< numbers[line * points + point], without dimensions that do not vary
     bool by_line = false;
     bool by_point = false;
 };
 
-/// One step over a grid, for the kernel: numbers stand in groups of `batch_group` along a line.
+/// One step over a grid, for the kernel: numbers are stored in groups of `batch_group` along a line.
 struct BatchStep {
     struct Operand {
         const double* at;
-        std::size_t line_stride;  ///< 0 where all lines are alike
-        std::size_t point_mask;   ///< 0 where all points of a line are alike, else all ones
+        std::size_t line_stride;  ///< 0 if all lines are equal
+        std::size_t point_mask;   ///< 0 if all points of a line are equal, else all ones
     };
     FormulaOp op;
     bool by_line, by_point;
-    bool contiguous;  ///< the operands are laid out as the result is, or are single numbers
+    bool contiguous;  ///< the operands have the layout of the result, or are single numbers
     double* out;
     std::size_t out_stride;
     Operand a, b, c;
 };
 
-/// The numbers of a group fill whole vectors of every target.
+/// Group size: a multiple of the vector length of every target.
 inline constexpr std::size_t batch_group = 8;
 
-/// Evaluates programs over grids. Parts of the program that depend on the point within the line alone, or on
-/// the line alone, are worked out once for it. Keeps its registers for the next grid; not thread-safe.
+/// Evaluates programs over grids. Parts of a program that depend only on the point within the line, or only
+/// on the line, are computed once for it. Keeps its registers for the next grid; not thread-safe.
 class FormulaBatch {
   public:
-    /// Programs are fastest on grids of about this many numbers: then the registers fit the first-level
-    /// cache.
+    /// Number of grid values at which programs are fastest: the registers fit the first-level cache.
     static constexpr int good_grid = 512;
 
-    /// Takes the program to evaluate; it must outlive the calls of `run`.
+    /// Sets the program to evaluate; it must outlive the calls of `run`.
     void prepare(const FormulaTape& tape);
-    /// The numbers of the prepared program: out[line * points + point]. inputs[i] is input i; those that the
-    /// program does not read may be left out.
+    /// Computes the prepared program: out[line * points + point]. inputs[i] is input i; inputs that the
+    /// program does not read may be missing.
     void run(std::span<const BatchInput> inputs, int lines, int points, std::span<double> out);
 
   private:
@@ -54,15 +52,15 @@ class FormulaBatch {
         BatchStep::Operand operand;
         std::uint8_t varies;
     };
-    /// An input that the program reads.
+    /// An input that the program reads, and the register to copy it to.
     struct Load {
         std::uint32_t input;
         double* to;
     };
-    /// Registers and steps for grids of one layout; lists of points, whatever their length, share one.
+    /// Registers and steps for grids of one layout. Lists of points share one, whatever their length.
     struct Layout {
-        std::size_t lines = 0, padded = 0;  ///< that there is room for; none before the first run
-        std::vector<std::uint8_t> varies;   ///< of each input
+        std::size_t lines = 0, padded = 0;  ///< capacity; none before the first run
+        std::vector<std::uint8_t> varies;   ///< per input
         std::vector<Place> places;
         std::vector<Load> loads;
         std::vector<BatchStep> steps;
@@ -77,14 +75,15 @@ class FormulaBatch {
 
     FormulaTape tape_;
     std::vector<std::uint32_t> slot_;      ///< register of each instruction
-    std::vector<std::uint32_t> last_use_;  ///< scratch of `prepare`
+    std::vector<std::uint32_t> last_use_;  ///< temporary in `prepare`
     std::vector<std::uint32_t> free_;
     std::size_t slots_ = 0;
     std::vector<double> leaves_;  ///< constants, each repeated over a group
-    Layout list_, lattice_;       ///< of the last grids of one line, and of more
+    Layout list_, lattice_;       ///< of the last grids with one line, and with more
 };
 
-/// Runs the steps in order over lines x points, points a multiple of batch_group (formula_batch_kernel.cpp).
+/// Runs the steps in order over lines x points; points is a multiple of batch_group
+/// (formula_batch_kernel.cpp).
 void run_batch_steps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points);
 
 }  // namespace lamella

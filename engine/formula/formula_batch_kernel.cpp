@@ -1,5 +1,5 @@
 // The steps of a batch, compiled for every SIMD target. No fused operations and no approximations: every lane
-// does exactly what the point evaluator does.
+// computes exactly as the point evaluator does.
 #include <limits>
 
 #include "engine/formula/formula_batch.h"
@@ -16,12 +16,12 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t max_lanes = batch_group;
 #include "engine/base/lane_math-inl.h"
 
-/// The lines and points that a step covers.
+/// Number of lines and points that a step covers.
 struct Grid {
     std::size_t lines, points;
 };
 
-/// Goes along the lines of an operand, vector by vector.
+/// Iterates over the lines of an operand, vector by vector.
 class Walker {
   public:
     Walker(const BatchStep::Operand& operand, std::size_t lanes)
@@ -76,7 +76,7 @@ HWY_INLINE Lanes Modulo(Lanes a, Lanes b) {
     return IfThenElse(Lt(rest, zero), zero, IfThenElse(Lt(size, rest), size, rest));
 }
 
-/// A NaN in the first place stays; one in the second is what a false comparison leaves.
+/// A NaN in the first argument stays; with one in the second, the false comparison selects it.
 HWY_INLINE Lanes Least(Lanes a, Lanes b) { return IfThenElse(Eq(a, a), IfThenElse(Lt(a, b), a, b), a); }
 HWY_INLINE Lanes Most(Lanes a, Lanes b) { return IfThenElse(Eq(a, a), IfThenElse(Lt(b, a), a, b), a); }
 HWY_INLINE Lanes Compare(Lanes a, Lanes b) {
@@ -85,7 +85,7 @@ HWY_INLINE Lanes Compare(Lanes a, Lanes b) {
     return IfThenElse(Lt(a, b), Neg(one), IfThenElse(Lt(b, a), one, same));
 }
 
-/// Whole exponents go lane by lane: their products depend on the exponent.
+/// Whole exponents are computed lane by lane, because the multiplications depend on the exponent.
 void PowerLines(const BatchStep& step, const Grid& grid) {
     for (std::size_t l = 0; l < grid.lines; ++l) {
         for (std::size_t p = 0; p < grid.points; ++p) {
@@ -192,7 +192,7 @@ void RunStep(const BatchStep& step, const Grid& grid) {
 void RunSteps(std::span<const BatchStep> steps, std::size_t lines, std::size_t points) {
     for (const BatchStep& step : steps) {
         const Grid grid{step.by_line ? lines : 1, step.by_point ? points : batch_group};
-        // Where no line is shared or has gaps, all of them are one.
+        // If no line is shared or has gaps, all lines are processed as one.
         if (step.contiguous && step.out_stride == grid.points) {
             RunStep(step, {1, grid.lines * grid.points});
         } else {

@@ -1,4 +1,4 @@
-// Hash-consing: a node is looked up by what it is before it is made.
+// Hash-consing: each node is looked up by operation and operands before it is made.
 #include "engine/formula/formula_builder.h"
 
 #include <bit>

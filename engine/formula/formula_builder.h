@@ -1,4 +1,4 @@
-// FormulaBuilder: makes formulas from operations; equal parts are made once and constant parts worked out.
+// FormulaBuilder: makes formulas from operations, sharing equal subexpressions and folding constants.
 #pragma once
 
 #include <optional>
@@ -8,29 +8,30 @@
 
 namespace lamella {
 
-/// Grows a formula bottom up. Identities are used only where they keep every bit of the result.
+/// Builds a formula bottom up. Applies algebraic identities only where they keep every bit of the result.
 class FormulaBuilder {
   public:
-    /// A number within the formula; valid for the builder that made it.
+    /// A value within the formula; valid for the builder that made it.
     using Node = std::int32_t;
-    /// More than this many nodes, or inputs, are an InputError.
+    /// Limits: exceeding either throws InputError.
     static constexpr int max_nodes = 4'000'000;
     static constexpr int max_inputs = 1000;
 
     Node input(int number);
-    /// From now on the input is that number.
+    /// Replaces the input by a constant in everything built from now on.
     void fix_input(int number, double value) { fixed_[number] = value; }
     Node constant(double value);
     Node unary(FormulaOp op, Node a);
-    /// A `pow` with a small whole constant exponent becomes multiplications.
+    /// Appends an operation of two arguments. A `pow` with a small whole constant exponent becomes
+    /// multiplications.
     Node binary(FormulaOp op, Node a, Node b);
-    /// `yes` where the condition is not zero, else `no`.
+    /// Appends a choice: `yes` where the condition is not zero, else `no`.
     Node select(Node condition, Node yes, Node no);
-    /// The result of a formula that is part of this one; its inputs keep their numbers.
+    /// Appends a whole formula and returns its result; its inputs keep their numbers.
     Node include(const Formula& formula);
-    /// The number of a node that is constant.
+    /// Returns the number of a node that is constant.
     std::optional<double> number_of(Node node) const;
-    /// The formula whose number is `result`, less what it does not use. The builder may go on.
+    /// Returns the formula that computes `result`, without unused nodes. The builder can go on.
     Formula finish(Node result) const;
 
   private:

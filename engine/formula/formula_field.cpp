@@ -1,5 +1,5 @@
-// A formula's solid: the formula cut to its bounds, asked at points, over boxes, and by the tile walk with a
-// program that gets shorter from tile to tile.
+// The field of a formula cut to its bounds: values at points, ranges over boxes, and slices by the tile walk
+// with a program that is shortened from tile to tile.
 #include "engine/formula/formula_field.h"
 
 #include <algorithm>
@@ -14,19 +14,19 @@
 namespace lamella {
 namespace {
 
-/// NaN is outside, so that a tile is full only where there surely is none.
+/// Maps NaN to outside (+infinity), so that a tile counts as full only if it surely has no NaN.
 Interval field_range(const FormulaRange& r) {
     if (r.values.empty()) return {infinity, infinity};
     return {r.values.lo, r.maybe_nan ? infinity : r.values.hi};
 }
 
-/// What a formula is about: its gradings, and which of them it reads.
+/// The gradings of a formula, and which of them it reads.
 struct Others {
     std::vector<GradingPtr> gradings;
     std::vector<std::size_t> read;
 };
 
-/// The formula in one plane, as the tile walk sees it.
+/// The formula in one plane, for the tile walk.
 class WalkedFormula : public TileSampledSolid {
   public:
     WalkedFormula(const Formula& formula, const Others& others, double z, FormulaKeeps keeps)
@@ -53,8 +53,8 @@ class WalkedFormula : public TileSampledSolid {
         prepared_ = stack_.version();
         const std::size_t width = points.along.size();
         const std::size_t lines = points.lattice ? points.across.size() : 1;
-        // Pieces whose registers fit the first-level cache; long lists of points are cut along, lattices
-        // across.
+        // Pieces whose registers fit the first-level cache; long lists of points are cut along the line,
+        // lattices across.
         const std::size_t piece = std::min(width, static_cast<std::size_t>(FormulaBatch::good_grid));
         const std::size_t high = std::max<std::size_t>(1, FormulaBatch::good_grid / piece);
         for (std::size_t i = 0; i < width; i += piece) {
@@ -111,7 +111,7 @@ class WalkedFormula : public TileSampledSolid {
     std::vector<double> graded_, piece_;
 };
 
-/// The formula with z fixed: what depends on nothing else is worked out.
+/// Returns the formula with z fixed; subexpressions of z alone are folded.
 Formula in_plane(const Formula& formula, double z) {
     FormulaBuilder builder;
     builder.fix_input(2, z);
@@ -194,7 +194,8 @@ class FormulaField : public Field {
     Metric metric_;
 };
 
-/// The formula's solid within the box: the greater of the formula and the distance to the nearest face.
+/// Returns the formula's solid within the box: the maximum of the formula and the distance to the nearest
+/// face.
 Formula cut_to_box(const Formula& formula, const Box& box) {
     FormulaBuilder f;
     FormulaBuilder::Node faces = -1;

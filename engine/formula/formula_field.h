@@ -1,4 +1,4 @@
-// Solids that are written down as formulas.
+// Solids defined by formulas.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace lamella {
 
-/// The solid where formula(x, y, z, others...) < 0, within bounds (a finite box; outside it there is
-/// nothing). others[i] feeds input 3 + i. `metric` is what the caller vouches for. An input without a
-/// grading, or a box that is empty or not finite, is an InputError.
+/// Returns the solid where formula(x, y, z, others...) < 0, within bounds (a finite box; the solid is empty
+/// outside it). others[i] feeds input 3 + i. `metric` is a promise of the caller. Throws InputError when an
+/// input has no grading, or the box is empty or not finite.
 FieldPtr make_formula_field(const Formula& formula, std::vector<GradingPtr> others, const Box& bounds,
                             Metric metric = Metric::sign);
 
-/// A box that surely holds the solid, found by excluding by intervals from +-10,000 mm. InputError when the
-/// solid is empty, or reaches out of that cube.
+/// Returns a box that surely encloses the solid, found by interval exclusion within +-10,000 mm. Throws
+/// InputError when the solid is empty or extends beyond that cube.
 Box formula_bounds(const Formula& formula, std::span<const GradingPtr> others);
 
 }  // namespace lamella

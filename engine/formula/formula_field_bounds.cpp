@@ -1,5 +1,5 @@
-// The box around a formula's solid: cells that the range proves empty are left out, coarse cells first, then
-// again within what is left.
+// Bounding box of a formula's solid: cells whose range proves them empty are discarded, coarse cells first,
+// then finer ones within the rest.
 #include <algorithm>
 
 #include "engine/formula/formula_field.h"
@@ -10,11 +10,11 @@ namespace lamella {
 namespace {
 
 constexpr double reach = 1e4;    // mm
-constexpr int box_halvings = 5;  // of a side, from the box that is searched to a cell
+constexpr int box_halvings = 5;  // per side, from the searched box to a cell
 constexpr int max_passes = 60;   // a pass can narrow a side 32-fold
-constexpr double enough = 0.02;  // a pass that narrows every side by less is the last
+constexpr double enough = 0.02;  // the last pass is the one that narrows every side by less than this
 
-/// One pass: the box around all cells that may hold something.
+/// One pass: finds the box around all cells that may hold part of the solid.
 class CellSearch {
   public:
     CellSearch(const Formula& formula, std::span<const GradingPtr> others)

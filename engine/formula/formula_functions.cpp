@@ -1,4 +1,4 @@
-// The table of functions: each one says how it is made of operations.
+// Table of functions; each entry builds its function from operations.
 #include "engine/formula/formula_functions.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Node two(FormulaBuilder& f, Nodes a) {
     return f.binary(op, a[0], a[1]);
 }
 
-/// op over all arguments, paired as a balanced tree: a long list of min stays shallow.
+/// Applies op to all arguments, paired as a balanced tree, so that a long list of min stays shallow.
 template <FormulaOp op>
 Node all(FormulaBuilder& f, Nodes a) {
     if (a.size() == 1) return a[0];

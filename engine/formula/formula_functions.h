@@ -1,4 +1,4 @@
-// The functions and constants that a formula's text may name.
+// The functions and constants that the text of a formula can name.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct FormulaFunction {
     FormulaBuilder::Node (*make)(FormulaBuilder& builder, std::span<const FormulaBuilder::Node> arguments);
 };
 
-/// All functions, by name.
+/// Returns all functions, sorted by name.
 std::span<const FormulaFunction> formula_functions();
-/// The function of that name; null when there is none.
+/// Returns the function of that name; null when there is none.
 const FormulaFunction* find_formula_function(std::string_view name);
-/// The constant of that name: pi, e or tau.
+/// Returns the constant of that name: pi, e or tau.
 std::optional<double> formula_constant(std::string_view name);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A formula's number at a point, and its range over a box.
+// The value of a formula at a point, and its range over a box.
 #include "engine/formula/formula_grading.h"
 
 #include "engine/formula/formula_inputs.h"

@@ -1,4 +1,4 @@
-// Numbers that vary in space, written down as formulas.
+// Gradings defined by formulas.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// The number formula(x, y, z, others...): inputs 0 to 2 are the point (mm), others[i] feeds input 3 + i. An
-/// input without a grading is an InputError.
+/// Returns the grading formula(x, y, z, others...): inputs 0 to 2 are the point (mm), others[i] feeds input 3
+/// + i. Throws InputError when an input has no grading.
 GradingPtr make_formula_grading(Formula formula, std::vector<GradingPtr> others);
 
 }  // namespace lamella

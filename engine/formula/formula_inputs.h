@@ -1,4 +1,4 @@
-// The inputs of a formula about space: a point's coordinates, then gradings.
+// Inputs of a formula about space: a point's coordinates, then gradings.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ inline void require_inputs(const Formula& formula, std::span<const GradingPtr> o
     }
 }
 
-/// Which gradings the formula reads, as their places among the others.
+/// Returns the indices of the gradings that the formula reads.
 inline std::vector<std::size_t> read_others(const Formula& formula) {
     std::vector<std::size_t> read;
     for (int i = 3; i < formula.input_count(); ++i) {
@@ -36,7 +36,7 @@ inline FormulaRange grading_range(const Grading& grading, const Box& box) {
 
 inline FormulaRange known_range(double lo, double hi) { return {{lo, hi}, false}; }
 
-/// All inputs over a box; those that are not read stay unknown.
+/// Sets the ranges of all inputs over a box; inputs that are not read stay unknown.
 inline void fill_ranges(const Box& box, std::span<const GradingPtr> others, std::span<const std::size_t> read,
                         std::vector<FormulaRange>& inputs) {
     inputs.resize(3 + others.size());
@@ -44,7 +44,7 @@ inline void fill_ranges(const Box& box, std::span<const GradingPtr> others, std:
     for (const std::size_t i : read) inputs[3 + i] = grading_range(*others[i], box);
 }
 
-/// The formula's number at a point.
+/// Evaluates the formula at a point.
 inline double formula_at(const Formula& formula, std::span<const GradingPtr> others,
                          std::span<const std::size_t> read, dvec3 p) {
     if (read.empty()) {

@@ -1,5 +1,5 @@
-// Enclosures, operation by operation. Endpoints are computed with the operations that points are, and IEEE
-// rounding is monotone, so that they enclose the rounded results.
+// Enclosures, operation by operation. Endpoints are computed like points, and IEEE rounding is monotonic, so
+// they enclose the rounded results.
 #include "engine/formula/formula_interval.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr Range zero_or_one{{0, 1}, false};
 
 bool finite(const Interval& i) { return -infinity < i.lo && i.hi < infinity; }
 
-/// All that the number is true or false, as far as it is known.
+/// Return true only if the number is surely true, or surely false.
 bool surely_true(const Range& a) { return !a.values.contains(0); }
 bool surely_false(const Range& a) { return a.values.lo == 0 && a.values.hi == 0 && !a.maybe_nan; }
 
@@ -25,7 +25,7 @@ Range unite(const Range& a, const Range& b) {
             a.maybe_nan || b.maybe_nan};
 }
 
-/// Endpoints that may have come out NaN (infinity - infinity) are open.
+/// Opens endpoints that came out NaN (infinity - infinity).
 Range open_ended(double lo, double hi, bool maybe_nan) {
     return {{std::isnan(lo) ? -infinity : lo, std::isnan(hi) ? infinity : hi}, maybe_nan};
 }
@@ -34,8 +34,8 @@ Range widened(double lo, double hi, double slack, bool maybe_nan) {
     return {{lo - slack, hi + slack}, maybe_nan};
 }
 
-/// Widens finite ends by a share of their magnitude and by the smallest subnormals. Near overflow a number
-/// between the ends may still have come out finite.
+/// Widens finite endpoints by a share of their magnitude and by the smallest subnormals. A lower endpoint of
+/// +infinity becomes the largest number: near overflow, a result between the endpoints may still be finite.
 Range widened_by_share(double lo, double hi, double share, bool maybe_nan) {
     constexpr double least = 1e-322, most = std::numeric_limits<double>::max();
     const double low = lo == -infinity ? lo : std::min(lo, most);
@@ -49,7 +49,7 @@ Range add(const Interval& a, const Interval& b, bool nan) {
     return open_ended(a.lo + b.lo, a.hi + b.hi, nan || opposite);
 }
 
-/// The least and greatest of the four products (or quotients) of endpoints.
+/// Returns the least and greatest of op over the four pairs of endpoints.
 template <class Op>
 Interval corners(const Interval& a, const Interval& b, const Op& op) {
     const double p = op(a.lo, b.lo), q = op(a.lo, b.hi), r = op(a.hi, b.lo), s = op(a.hi, b.hi);
@@ -58,7 +58,7 @@ Interval corners(const Interval& a, const Interval& b, const Op& op) {
 
 Range multiply(const Interval& a, const Interval& b, bool nan) {
     if (finite(a) && finite(b)) return {corners(a, b, [](double x, double y) { return x * y; }), nan};
-    // 0 * infinity is NaN; next to it the product of a zero with finite numbers is 0.
+    // 0 * infinity is NaN; the product of zero with finite numbers near infinity is 0.
     const bool undefined = (a.contains(0) && !finite(b)) || (b.contains(0) && !finite(a));
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
     return {corners(a, b, product), nan || undefined};
@@ -77,49 +77,50 @@ Range modulo(const Interval& a, const Interval& b, bool nan) {
     const double size = std::max(std::fabs(b.lo), std::fabs(b.hi));
     nan = nan || b.contains(0) || !finite(a) || !finite(b) || (finite(a) && std::isinf(a.hi - a.lo));
     if (b.lo == b.hi && size > 0 && finite(a) && finite(b)) {
-        // Within one period the remainder rises with the number.
+        // Within one period the remainder is monotonic.
         const double period = std::floor(a.lo / size);
         if (period == std::floor(a.hi / size) && std::fabs(period) < 0x1p52)
             return {{formula_mod(a.lo, size), formula_mod(a.hi, size)}, nan};
     }
-    // A quotient that overflows leaves infinity - infinity.
+    // An overflowing quotient leads to infinity - infinity.
     const double least = std::min(std::fabs(b.lo), std::fabs(b.hi));
     const double most = std::max(std::fabs(a.lo), std::fabs(a.hi));
     return {{0, size}, nan || std::isinf(most / least)};
 }
 
-/// x^y for positive x: the greatest and least values are at corners.
+/// Range of x^y for positive x: the extremes are at corners.
 Range raise(const Range& a, const Range& b, bool nan) {
     const Interval& x = a.values;
     const Interval& y = b.values;
     if (!(x.lo > 0) || !finite(x) || !finite(y)) return anything;
     const Interval ends = corners(x, y, [](double base, double exponent) { return power(base, exponent); });
-    // Finite results have an exponent ln base of at most this magnitude.
+    // Finite results have a magnitude of exponent * ln(base) of at most this.
     constexpr double overflow = 800;
     const double steepest =
         std::min(overflow, std::max(std::fabs(logarithm(x.lo)), std::fabs(logarithm(x.hi))) *
                                std::max(std::fabs(y.lo), std::fabs(y.hi)));
-    // Twice the stated error of power; multiplied-out powers err by less than max_multiplied roundings.
+    // Twice the stated error of power(); multiplied-out powers err by less than max_multiplied roundings.
     const Range wide = widened_by_share(ends.lo, ends.hi, 1e-15 * (20 + steepest), nan);
-    // A reciprocal of a product that overflowed is 0 where the exponential is a tiny number.
+    // The reciprocal of an overflowed product is 0, where the exponential would be tiny.
     constexpr double tiny = 1e-290;
     return {{wide.values.lo < tiny ? 0 : wide.values.lo, std::max(wide.values.hi, tiny)}, nan};
 }
 
 Range angle(const Interval& y, const Interval& x, bool nan) {
     constexpr double slack = 4e-15;
-    // The cut along negative x is met unless y keeps its sign; the origin may be anywhere.
+    // The branch cut along negative x is met unless y keeps its sign; the origin may be anywhere.
     if (!finite(x) || !finite(y) || (x.lo <= 0 && y.contains(0))) return widened(-pi, pi, slack, nan);
     const Interval ends = corners(y, x, [](double v, double u) { return arctangent2(v, u); });
     return widened(ends.lo, ends.hi, slack, nan);
 }
 
-/// sin(x) for shift 1/4, cos(x) for shift 0: crests lie at (n + shift) turns, troughs half a turn later.
+/// Range of sin(x) for shift 1/4, cos(x) for shift 0: crests lie at (n + shift) turns, troughs half a turn
+/// later.
 Range wave(const Interval& x, bool nan, double shift, double (*f)(double)) {
     constexpr double turn = 6.28318530717958647693, slack = 1e-14, misplaced = 1e-9;
     const double furthest = std::max(std::fabs(x.lo), std::fabs(x.hi));
     nan = nan || furthest >= 1e15;
-    // Beyond this the reduction of the angle loses digits.
+    // Beyond this, the reduction of the angle loses digits.
     if (!(furthest < 1e5)) return {{-1 - misplaced, 1 + misplaced}, nan};
     const auto passes = [&](double offset) {
         return std::floor(x.hi / turn - offset + misplaced) > std::floor(x.lo / turn - offset - misplaced);
@@ -137,12 +138,12 @@ Range tangent_range(const Interval& x, bool nan) {
     const bool pole =
         std::floor(x.hi / half_turn + 0.5 + misplaced) > std::floor(x.lo / half_turn + 0.5 - misplaced);
     if (pole) return {{-infinity, infinity}, nan};
-    // Absolute errors of sine and cosine, over a cosine that is at least 1e-9.
+    // Absolute errors of sine and cosine, divided by a cosine of at least 1e-9.
     const double lo = tangent(x.lo), hi = tangent(x.hi);
     return {{lo - 1e-14 * (1 + lo * lo), hi + 1e-14 * (1 + hi * hi)}, nan};
 }
 
-/// A rising function of numbers within [least, most], NaN outside.
+/// Range of a monotonic function of numbers within [least, most], NaN outside.
 Range rising(const Interval& x, bool nan, double (*f)(double), Interval domain, double slack) {
     const bool outside = x.lo < domain.lo || domain.hi < x.hi;
     const double lo = std::max(x.lo, domain.lo), hi = std::min(x.hi, domain.hi);
@@ -186,7 +187,7 @@ Range equal_to(const Range& a, const Range& b) {
     return points ? Range{{1, 1}, false} : zero_or_one;
 }
 
-/// Whether a number equals itself: it is not NaN.
+/// Range of "a == a", which is 0 for NaN.
 Range is_itself(const Range& a) {
     if (a.values.empty()) return {{0, 0}, false};
     return a.maybe_nan ? zero_or_one : Range{{1, 1}, false};
@@ -226,7 +227,7 @@ FormulaRange interval_apply(FormulaOp op, const FormulaRange& a) {
         case FormulaOp::ceil:
             return {{std::ceil(x.lo), std::ceil(x.hi)}, nan};
         case FormulaOp::round:
-            // An infinity less its whole part is NaN, which is not at least 1/2.
+            // Infinity minus its whole part is NaN, which is not >= 1/2.
             return {{formula_round(x.lo), formula_round(x.hi)}, nan};
         case FormulaOp::sin:
             return wave(x, nan, 0.25, sine);
@@ -294,7 +295,7 @@ FormulaRange interval_apply(FormulaOp op, const FormulaRange& a, const FormulaRa
         case FormulaOp::atan2:
             return angle(x, y, nan);
         case FormulaOp::min:
-            // The choices are strict where a tie would give the other argument's zero.
+            // The comparison is strict where a tie would return the other argument's zero.
             if (x.hi < y.lo && !b.maybe_nan) choice = FormulaChoice::left;
             if (y.hi <= x.lo && !a.maybe_nan) choice = FormulaChoice::right;
             return {{std::min(x.lo, y.lo), std::min(x.hi, y.hi)}, nan};
@@ -318,12 +319,12 @@ FormulaRange interval_select(const FormulaRange& a, const FormulaRange& b, const
 
 namespace {
 
-/// The commonest operations on finite intervals; false where it takes the careful way.
+/// Handles the commonest operations on finite intervals; returns false when the general path is needed.
 inline bool plain_apply(FormulaOp op, const Range& a, const Range& b, Range& out, FormulaChoice& choice) {
     const Interval& x = a.values;
     const Interval& y = b.values;
     if (!(-infinity < x.lo && x.hi < infinity && -infinity < y.lo && y.hi < infinity)) return false;
-    // An empty interval is not finite, so both have numbers in them.
+    // Empty intervals are not finite, so neither is empty here.
     out.maybe_nan = a.maybe_nan || b.maybe_nan;
     switch (op) {
         case FormulaOp::add:

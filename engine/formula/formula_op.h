@@ -1,4 +1,4 @@
-// The operations that a formula is made of, and what each one computes.
+// FormulaOp: the operations of formulas, and their exact results.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// What an instruction of a formula does. A number is true when it is not zero (a NaN is true). Operations
-/// with a NaN argument give NaN, but for comparisons (false) and the logical ones, which pass on an argument.
+/// Operation of an instruction. A number is true when it is not zero (NaN is true). Operations with a NaN
+/// argument give NaN, except comparisons (false) and logical operations, which return one of their arguments.
 enum class FormulaOp : std::uint8_t {
     input,     ///< leaf
     constant,  ///< leaf
@@ -30,7 +30,7 @@ enum class FormulaOp : std::uint8_t {
     atan,
     exp,
     ln,
-    add,  ///< the first operation of two arguments
+    add,  ///< the first operation with two arguments
     sub,
     mul,
     div,
@@ -50,7 +50,7 @@ enum class FormulaOp : std::uint8_t {
 
 inline constexpr int formula_op_count = static_cast<int>(FormulaOp::select) + 1;
 
-/// Number of arguments: 0 for leaves, 1, 2 or 3.
+/// Returns the number of arguments: 0 for leaves, 1, 2 or 3.
 constexpr int arity(FormulaOp op) {
     if (op <= FormulaOp::constant) return 0;
     if (op < FormulaOp::add) return 1;
@@ -71,7 +71,7 @@ inline double formula_mod(double a, double b) {
 inline double formula_min(double a, double b) { return std::isnan(a) || a < b ? a : b; }
 inline double formula_max(double a, double b) { return std::isnan(a) || b < a ? a : b; }
 
-/// The result of an operation of one argument.
+/// Returns the result of an operation with one argument.
 inline double apply(FormulaOp op, double a) {
     switch (op) {
         case FormulaOp::neg:
@@ -111,7 +111,7 @@ inline double apply(FormulaOp op, double a) {
     }
 }
 
-/// The result of an operation of two arguments.
+/// Returns the result of an operation with two arguments.
 inline double apply(FormulaOp op, double a, double b) {
     switch (op) {
         case FormulaOp::add:

@@ -1,4 +1,4 @@
-// A recursive-descent parser: one function a level of precedence, tokens read as they are needed.
+// Recursive-descent parser: one function per level of precedence; tokens are read on demand.
 #include "engine/formula/formula_parser.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr int deepest = 200;
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The number of edits that turn one word into the other.
+/// Returns the edit distance between two words.
 std::size_t edits(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -37,7 +37,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// ", did you mean `sqrt`?" where a candidate is within two edits and not all of the word is changed.
+/// Returns ", did you mean `sqrt`?" if a candidate is within two edits and the word is not changed
+/// completely.
 template <class Words>
 std::string hint(std::string_view word, const Words& candidates) {
     constexpr std::size_t longest = 40;
@@ -61,7 +62,8 @@ std::string shown(std::string_view name) {
 
 class Parser {
   public:
-    /// What a name stands for: an input, or nothing (then `unknown` has thrown or the constant is meant).
+    /// Returns the input of a name, or nothing if the name means a constant. Throws InputError for an unknown
+    /// name.
     using Lookup = std::function<std::optional<int>(std::string_view name, std::size_t column)>;
 
     Parser(std::string_view text, Lookup lookup) : text_(text), lookup_(std::move(lookup)) {}
@@ -80,7 +82,7 @@ class Parser {
         throw InputError("column " + std::to_string(at + 1) + ": " + message);
     }
 
-    /// Guards the recursion: the text may be hostile.
+    /// Limits the recursion: the text may be hostile.
     class Level {
       public:
         explicit Level(Parser& parser) : parser_(parser) {
@@ -119,7 +121,7 @@ class Parser {
         at_ += sign.size();
         return true;
     }
-    /// The name that begins here, not taken; empty when there is none.
+    /// Returns the name at the current position without consuming it; empty when there is none.
     std::string_view name_here() {
         skip_blanks();
         std::size_t end = at_;
@@ -166,7 +168,7 @@ class Parser {
         return builder_.unary(FormulaOp::logic_not, negation());
     }
 
-    /// The comparison sign that stands here, taken; empty when there is none.
+    /// Consumes and returns the comparison sign at the current position; empty when there is none.
     std::string_view comparison_sign() {
         for (const std::string_view sign : {"<=", ">=", "==", "!=", "<", ">"}) {
             if (take(sign)) return sign;

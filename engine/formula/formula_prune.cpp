@@ -1,11 +1,11 @@
-// Marks backward what the result needs, then copies it forward, skipping decided choices and working out
-// constants.
+// Marks the instructions that the result needs, backward; then copies them forward, skipping decided choices
+// and folding constants.
 #include "engine/formula/formula_prune.h"
 
 namespace lamella {
 namespace {
 
-/// The operand that a decided instruction stands for.
+/// Returns the operand that replaces a decided instruction.
 std::uint32_t chosen(const FormulaInstruction& step, FormulaChoice choice) {
     const bool left = choice == FormulaChoice::left;
     if (step.op == FormulaOp::select) return left ? step.b : step.c;
@@ -17,8 +17,8 @@ std::uint32_t chosen(const FormulaInstruction& step, FormulaChoice choice) {
 FormulaStack::FormulaStack(const Formula& formula, FormulaKeeps keeps) : keeps_(keeps) {
     const auto instructions = formula.instructions();
     const auto constants = formula.constants();
-    // Every copy is shorter by a quarter, so that all nested ones have less than four times the length:
-    // nothing moves while a program is in use.
+    // Every copy is shorter by a quarter, so all nested copies have less than four times the length in total,
+    // and no reallocation moves a program in use.
     instructions_.reserve(4 * instructions.size());
     constants_.reserve(constants.size() + 4 * instructions.size());
     instructions_.assign(instructions.begin(), instructions.end());
@@ -44,7 +44,7 @@ FormulaRange FormulaStack::enter(std::span<const FormulaRange> inputs) {
     const bool decided = interval_run(tape.instructions, tape.constants, inputs, ranges_, choices_);
     const FormulaRange result = ranges_[count - 1];
     const bool settled = result.values.lo > 0 || (result.values.hi < 0 && !result.maybe_nan);
-    // A copy that is hardly shorter is not worth making.
+    // Copying pays only if the copy is much shorter.
     const bool shrinks = (decided || keeps_ == FormulaKeeps::signs) && !settled;
     const std::size_t kept = shrinks ? mark_live(tape.instructions) : count;
     if (kept < count - count / 4) {
@@ -102,7 +102,7 @@ std::size_t FormulaStack::mark_live(std::span<const FormulaInstruction> parent) 
     return kept;
 }
 
-/// The number that an operation of constants comes to, as a constant of the program.
+/// Folds an operation on constants into a constant of the program.
 FormulaInstruction FormulaStack::fold(const FormulaInstruction& step,
                                       std::span<const FormulaInstruction> made) {
     const double a = constants_[made[step.a].a];
@@ -138,7 +138,7 @@ void FormulaStack::shorten(const Level& parent, std::size_t kept) {
         ranges_[count] = ranges_[i];
         result = place_[i] = count++;
     }
-    // The result stands last; what follows it was made for choices that fell away.
+    // The result is the last instruction; those behind it belong to choices that were decided.
     instructions_.resize(begin + result + 1);
     levels_.push_back({begin, instructions_.size(), constants_.size(), ++versions_, true});
 }

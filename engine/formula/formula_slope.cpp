@@ -1,5 +1,5 @@
-// Slope arithmetic. For two points p and q of a line every instruction f has f(q) - f(p) within
-// slope * (q - p) +- noise, for its numbers as computed; each rule derives that from its operands'.
+// Slope arithmetic. For two points p and q of a line, every instruction f has f(q) - f(p) within slope * (q -
+// p) +- noise, for its results as computed; each rule derives this from the operands' slopes.
 #include "engine/formula/formula_slope.h"
 
 #include <cmath>
@@ -9,15 +9,15 @@ namespace {
 
 constexpr SlopeBound unknown{};
 constexpr SlopeBound flat{{0, 0}, 0};
-/// Covers the roundings of the two numbers compared, of the slope's ends and of the noise, several times
-/// over.
+/// Covers several times the rounding errors of the two results compared, of the slope's ends and of the
+/// noise.
 constexpr double rounding = 0x1p-48;
-/// Covers the errors of the transcendental functions, as the intervals do.
+/// Covers the errors of the transcendental functions, as in the intervals.
 constexpr double function_error = 2e-14;
 
 double magnitude(const Interval& i) { return std::max(std::fabs(i.lo), std::fabs(i.hi)); }
 
-/// Slope rules over a tile of one extent.
+/// Slope rules over tiles of one extent.
 class Rules {
   public:
     explicit Rules(double length) : length_(length) {}
@@ -35,13 +35,13 @@ class Rules {
                         magnitude(k) * a.noise});
     }
 
-    /// Either of two numbers, or one that changes no faster than they do.
+    /// Slope of a choice between two numbers, or of a number that changes no faster than they do.
     static SlopeBound either(const SlopeBound& a, const SlopeBound& b) {
         return {{std::min(a.slope.lo, b.slope.lo), std::max(a.slope.hi, b.slope.hi)},
                 std::max(a.noise, b.noise)};
     }
 
-    /// The operation's result is rounded: a share of its magnitude, and an absolute error.
+    /// Adds the rounding error of an operation: a share of the result's magnitude, and an absolute error.
     static SlopeBound computed(SlopeBound a, const Interval& result, double absolute = 0) {
         a.noise += magnitude(result) * rounding + absolute + 1e-300;
         return a;
@@ -56,11 +56,11 @@ class Rules {
     double length_;
 };
 
-/// Cosines of all angles of an interval.
+/// Return the range of the cosine, or sine, over an interval of angles.
 Interval cosines(const Interval& angles) { return interval_apply(FormulaOp::cos, {angles, false}).values; }
 Interval sines(const Interval& angles) { return interval_apply(FormulaOp::sin, {angles, false}).values; }
 
-/// f(a) for an operation of one argument whose range x and result r are known.
+/// Returns the slope of f(a) for an operation of one argument with range x and result range r.
 SlopeBound one_argument(const Rules& rules, FormulaOp op, const SlopeBound& a, const Interval& x,
                         const Interval& r) {
     constexpr double furthest_angle = 1e5;
@@ -105,7 +105,7 @@ SlopeBound one_argument(const Rules& rules, FormulaOp op, const SlopeBound& a, c
     }
 }
 
-/// An operation of two arguments with ranges x and y and slopes a and b.
+/// Returns the slope of an operation of two arguments with ranges x and y and slopes a and b.
 SlopeBound two_arguments(const Rules& rules, FormulaOp op, const SlopeBound& a, const SlopeBound& b,
                          const Interval& x, const Interval& y, const Interval& r) {
     switch (op) {
@@ -147,7 +147,7 @@ SlopeBound FormulaSlopes::bound(const FormulaTape& tape, std::span<const Formula
         } else if (result.values.lo == result.values.hi) {
             out = flat;
         } else if (step.op == FormulaOp::input) {
-            // Coordinates stand still on a line but for the one along it; gradings may do anything.
+            // Along a line only one coordinate changes; gradings may do anything.
             out = step.a == along ? SlopeBound{{1, 1}, 0} : step.a < 3 ? flat : unknown;
         } else if (arity(step.op) == 1) {
             const SlopeBound& a = slopes_[step.a];

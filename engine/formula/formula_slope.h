@@ -9,12 +9,12 @@
 
 namespace lamella {
 
-/// Works out slopes over tiles. Keeps its storage for the next tile; not thread-safe.
+/// Computes slopes over tiles. Keeps its storage for the next tile; not thread-safe.
 class FormulaSlopes {
   public:
-    /// The slope of the program's number along input `along`, the other inputs fixed. ranges[i] encloses
-    /// instruction i over the tile; `length` is the tile's extent along that input. The slope holds for the
-    /// numbers as they are computed: rounding is in its noise. Unknown where the program may jump, be NaN or
+    /// Returns the slope of the program's result along input `along`, with the other inputs fixed. ranges[i]
+    /// encloses instruction i over the tile; `length` is the tile's extent along that input. The slope holds
+    /// for the results as computed: rounding is in its noise. Unknown where the result may jump, be NaN or
     /// rise without bound.
     SlopeBound bound(const FormulaTape& tape, std::span<const FormulaRange> ranges, std::uint32_t along,
                      double length);

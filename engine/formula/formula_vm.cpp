@@ -1,4 +1,4 @@
-// A line at a time: label, operation, arguments; the builder does the rest.
+// Reads line by line: label, operation, arguments; FormulaBuilder does the rest.
 #include "engine/formula/formula_vm.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ constexpr std::array operations{
     Operation{"or", FormulaOp::logic_or},
 };
 
-/// A word that may be hostile, fit for a message.
+/// Quotes a possibly hostile word for a message.
 std::string printable(std::string_view word) {
     constexpr std::size_t longest = 60;
     std::string text = "`";

@@ -1,4 +1,4 @@
-// Points are mapped one by one, boxes by the formulas' ranges.
+// Maps points one by one, and boxes by the formulas' ranges.
 #include "engine/formula/mapped_grading.h"
 
 #include "engine/formula/formula_inputs.h"
@@ -30,7 +30,7 @@ class MappedGrading : public Grading {
             const FormulaRange r = lamella::range(place_[i], inputs);
             if (r.values.empty()) return {infinity, infinity};
             everywhere = everywhere && !r.maybe_nan && std::isfinite(r.values.lo + r.values.hi);
-            const double most = std::numeric_limits<double>::max() / 4;  // sums of sides stay finite
+            const double most = std::numeric_limits<double>::max() / 4;  // keeps sums of sides finite
             image.lo[static_cast<int>(i)] = std::max(r.values.lo, -most);
             image.hi[static_cast<int>(i)] = std::min(r.values.hi, most);
         }

@@ -1,4 +1,4 @@
-// A grading read somewhere else: at a place that formulas work out.
+// Grading read at a position that formulas compute.
 #pragma once
 
 #include <array>
@@ -9,8 +9,9 @@
 
 namespace lamella {
 
-/// The number of `inner` at the place (x, y, z) that the formulas give for a point; NaN where one of them is.
-/// Inputs 0 to 2 are the point, mm, others[i] feeds input 3 + i; the place is in whatever unit `inner` takes.
+/// Returns the value of `inner` at the position (x, y, z) that the formulas compute for a point; NaN where
+/// one of them is NaN. Inputs 0 to 2 are the point, mm; others[i] feeds input 3 + i. The position has the
+/// unit that `inner` expects.
 GradingPtr make_mapped_grading(GradingPtr inner, std::array<Formula, 3> place,
                                std::vector<GradingPtr> others);
 

@@ -1,4 +1,4 @@
-// Names are resolved first, then types are compared along every link, then the nodes are put in order.
+// Resolves names, compares types along every link, then sorts the nodes topologically.
 #include "engine/io/graph_check.h"
 
 #include <algorithm>
@@ -128,7 +128,7 @@ class GraphCheck {
         });
     }
 
-    /// The inputs' types, and the outputs that follow from them.
+    /// Checks the types of the inputs, and of the outputs that follow from them.
     void check_types(GraphNode& node, const NodeKind& kind) const {
         std::optional<GraphType> common;
         for (std::size_t i = 0; i < kind.inputs.size(); ++i) {
@@ -175,7 +175,7 @@ class GraphCheck {
         }
     }
 
-    /// What a port's reference means, its type compared.
+    /// Resolves a port's reference and compares its type.
     template <typename Fail>
     GraphSource source_of(const GraphPort& port, const Fail& fail) const {
         const std::size_t dot = port.from.find('.');
@@ -216,7 +216,7 @@ class GraphCheck {
         return source;
     }
 
-    /// A depth-first walk with a stack of its own: graphs may be long chains.
+    /// Depth-first search with an explicit stack, because graphs may be long chains.
     void put_in_order() {
         enum : char { fresh, open, done };
         std::vector<char> state(out_.nodes.size(), fresh);

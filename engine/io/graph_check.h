@@ -1,4 +1,4 @@
-// Checks of implicit functions' graphs: kinds, types, references and cycles.
+// Checks the graphs of implicit functions: kinds, types, references and cycles.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace lamella {
 
-/// What feeds an input: an output of a node, or an input of the function.
+/// Source of an input: an output of a node, or an input of the function.
 struct GraphSource {
     static constexpr std::uint32_t function_inputs = 0xffffffffU;
     std::uint32_t node = function_inputs;
     std::uint32_t port = 0;
 };
 
-/// A graph that can be evaluated: every node's inputs in the order of its kind (of a functioncall those
-/// beyond in the order of the file), its outputs likewise, and what feeds them.
+/// A graph that can be evaluated: every node's inputs in the order of its kind (further ones of a
+/// functioncall in the order of the file), likewise its outputs, and the sources of all inputs.
 struct CheckedGraph {
     struct Node {
         const NodeKind* kind = nullptr;
-        std::vector<GraphSource> sources;  ///< one an input
+        std::vector<GraphSource> sources;  ///< one per input
     };
     ImplicitGraph graph;
-    std::vector<Node> nodes;           ///< one a node of the graph
-    std::vector<std::uint32_t> order;  ///< nodes, each behind those that feed it
-    std::vector<GraphSource> outputs;  ///< one an output of the graph
+    std::vector<Node> nodes;           ///< one per node of the graph
+    std::vector<std::uint32_t> order;  ///< nodes in topological order, each behind its sources
+    std::vector<GraphSource> outputs;  ///< one per output of the graph
 };
 
-/// Checks a graph wholly, nodes that nothing needs included. `where` ("part.3mf: function 5") begins the
-/// message of the InputError for nodes of unknown kinds, names that are taken or missing, inputs that are
-/// missing, surplus, or of other types than what feeds them, and for cycles.
+/// Checks a whole graph, including unused nodes. Throws InputError for nodes of unknown kinds, names that are
+/// duplicate or missing, inputs that are missing, superfluous, or of another type than their source, and for
+/// cycles. `where` ("part.3mf: function 5") begins the message.
 CheckedGraph check_graph(ImplicitGraph graph, const std::string& where);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Nodes are evaluated in the order that the check found, calls by recursion.
+// Evaluates nodes in the order of the check, and calls by recursion.
 #include "engine/io/graph_lowering.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ bool has(const std::vector<GraphPort>& ports, std::string_view name) {
     return std::any_of(ports.begin(), ports.end(), [&](const GraphPort& port) { return port.name == name; });
 }
 
-/// The nodes that the wanted outputs depend on.
+/// Returns a flag per node: 1 if a wanted output depends on it.
 std::vector<char> needed(const CheckedGraph& graph, std::span<const std::string> wanted) {
     std::vector<char> need(graph.nodes.size(), 0);
     const auto mark = [&](const GraphSource& source) {
@@ -204,7 +204,7 @@ GraphLowering::Values GraphLowering::call_image(const ImageFunction& image, cons
     return out;
 }
 
-/// The node that a source's numbers at a place come in by.
+/// Returns the node that holds the samples of a source at a position.
 Node GraphLowering::sample(const std::string& name, const std::function<GradingPtr()>& make,
                            const GraphValue& place) {
     const std::array<Node, 3> parts{place.parts[0], place.parts[1], place.parts[2]};

@@ -1,4 +1,5 @@
-// Implicit functions as formulas: every call is written out, every value taken apart into numbers.
+// GraphLowering: converts implicit functions to formulas, with all calls inlined and all values split into
+// numbers.
 #pragma once
 
 #include <functional>
@@ -20,19 +21,20 @@ struct CheckedFunction {
     std::string where;   ///< for messages: "part.3mf: function 5 \"sphere\""
 };
 
-/// What functions take from outside of themselves. The gradings are asked in the coordinates of the caller:
-/// those of the model for meshes, uvw for images.
+/// External resources of functions. The gradings are evaluated in the caller's coordinates: those of the
+/// model for meshes, uvw for images.
 struct GraphResources {
-    /// The function of that number; null when there is none.
+    /// Returns the function with that number; null when there is none.
     std::function<const CheckedFunction*(std::int64_t id)> function;
-    /// The signed distance to a mesh, or the one without a sign. Throws InputError that says what is wrong.
+    /// Returns the signed or unsigned distance to a mesh. Throws InputError that says what is wrong.
     std::function<GradingPtr(std::int64_t object, bool with_sign)> mesh;
-    /// A channel, 0 to 3 for red to alpha, of the image: 0 to 1, before scale and offset. Tiles `none` clamp.
+    /// Returns a channel of the image, 0 to 3 for red to alpha: 0 to 1, before scale and offset. Tile style
+    /// `none` clamps.
     std::function<GradingPtr(const ImageFunction& image, int channel)> image;
 };
 
-/// Lowers functions into one builder. What is no formula becomes a further input of it: `others` grows by a
-/// grading that is asked at the builder's inputs 0 to 2.
+/// Lowers functions into one builder. A resource that is no formula becomes a further input of the builder: a
+/// grading is appended to `others`, to be evaluated at the builder's inputs 0 to 2.
 class GraphLowering {
   public:
     using Values = std::map<std::string, GraphValue, std::less<>>;
@@ -40,9 +42,9 @@ class GraphLowering {
     GraphLowering(FormulaBuilder& builder, std::vector<GradingPtr>& others, const GraphResources& resources)
         : builder_(builder), others_(others), resources_(resources) {}
 
-    /// The wanted outputs of a function, at most all. Throws InputError for arguments that are missing,
-    /// surplus or of the wrong type, outputs and resources that do not exist, functions that call themselves,
-    /// and for what is larger or nested deeper than is sensible.
+    /// Returns the wanted outputs of a function, at most all. Throws InputError for arguments that are
+    /// missing, superfluous or of the wrong type, outputs and resources that do not exist, functions that
+    /// call themselves, and for graphs beyond the limits on size and nesting.
     Values call(const CheckedFunction& function, const Values& arguments,
                 std::span<const std::string> wanted);
 
@@ -61,11 +63,11 @@ class GraphLowering {
     FormulaBuilder& builder_;
     std::vector<GradingPtr>& others_;
     const GraphResources& resources_;
-    std::set<std::int64_t> open_;  ///< functions that are being called
-    std::size_t evaluated_ = 0;    ///< nodes, in all calls
+    std::set<std::int64_t> open_;  ///< functions in the current call chain
+    std::size_t evaluated_ = 0;    ///< number of nodes, in all calls
     std::map<std::string, GradingPtr> sources_;
     std::map<std::pair<std::string, std::array<FormulaBuilder::Node, 3>>, FormulaBuilder::Node> samples_;
-    std::vector<int> depth_;  ///< of each of `others`: samples whose places depend on samples
+    std::vector<int> depth_;  ///< of each of `others`: how many nested samples its position depends on
 };
 
 }  // namespace lamella

@@ -1,5 +1,5 @@
-// The table of kinds. Names are those of the implicit extension 1.0; drafts called the arc functions arcsin
-// to arctan2, and some elements differ between its text and its schema.
+// Table of node kinds. Names are those of the implicit extension 1.0; drafts called the arc functions arcsin
+// to arctan2, and some elements differ between the specification's text and its schema.
 #include "engine/io/graph_nodes.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ GraphValue vector(Node x, Node y, Node z) {
     return value;
 }
 
-/// Applies op(builder, arguments) to each component of inputs that are all of one type.
+/// Applies op(builder, arguments) to each component of inputs of one type.
 template <Node (*op)(Builder&, const Node*)>
 Values each(Builder& builder, const GraphNode& /*node*/, Inputs inputs) {
     GraphValue out{inputs[0].type};
@@ -56,14 +56,14 @@ Node two(Builder& f, const Node* a) {
     return f.binary(op, a[0], a[1]);
 }
 
-/// The remainder with the dividend's sign.
+/// Remainder with the dividend's sign.
 Node fmod_of(Builder& f, const Node* a) {
     const Node rest = f.binary(Op::mod, f.unary(Op::abs, a[0]), f.unary(Op::abs, a[1]));
     return multiply(f, f.binary(Op::compare, a[0], f.constant(0)), rest);
 }
 
-/// a - b floor(a / b): has the divisor's sign. By the remainder operation where that sign is known, whose
-/// ranges are narrow.
+/// a - b floor(a / b), with the divisor's sign. Uses the remainder operation, whose ranges are tight, if that
+/// sign is known.
 Node mod_of(Builder& f, const Node* a) {
     const auto divisor = f.number_of(a[1]);
     if (divisor && *divisor > 0) return f.binary(Op::mod, a[0], a[1]);
@@ -92,7 +92,7 @@ Node half_exponentials(Builder& f, Node a, Op join) {
 }
 Node cosh_of(Builder& f, const Node* a) { return half_exponentials(f, f.unary(Op::abs, a[0]), Op::add); }
 Node sinh_of(Builder& f, const Node* a) { return half_exponentials(f, a[0], Op::sub); }
-/// 1 - 2 / (e^2a + 1), which has its limits where the exponential overflows.
+/// 1 - 2 / (e^2a + 1), which has the correct limits when the exponential overflows.
 Node tanh_of(Builder& f, const Node* a) {
     const Node growth = f.unary(Op::exp, multiply(f, f.constant(2), a[0]));
     return subtract(f, f.constant(1), f.binary(Op::div, f.constant(2), add(f, growth, f.constant(1))));
@@ -135,7 +135,8 @@ Values repeat(Builder& /*builder*/, const GraphNode& /*node*/, Inputs inputs) {
     return {vector(a, a, a)};
 }
 
-/// Four vectors as the columns of a matrix over a row 0 0 0 1, or as its rows beside a column 0 0 0 1.
+/// Makes a matrix of four vectors: as columns, with a last row 0 0 0 1, or as rows, with a last column 0 0 0
+/// 1.
 template <bool columns>
 Values matrix_of_vectors(Builder& builder, const GraphNode& /*node*/, Inputs inputs) {
     GraphValue value{GraphType::matrix};
@@ -165,7 +166,7 @@ Values cross(Builder& f, const GraphNode& /*node*/, Inputs inputs) {
     return {vector(minor(1, 2), minor(2, 0), minor(0, 1))};
 }
 
-/// A (x, y, z, 1), less its last number.
+/// A (x, y, z, 1) without its last component.
 Values transform(Builder& f, const GraphNode& /*node*/, Inputs inputs) {
     GraphValue out{GraphType::vector};
     for (std::size_t row = 0; row < 3; ++row) {
@@ -183,7 +184,7 @@ Values transpose(Builder& /*builder*/, const GraphNode& /*node*/, Inputs inputs)
     return {out};
 }
 
-/// By cofactors: each is made of the 2 x 2 determinants of the two rows or columns that it leaves out.
+/// Inverse by cofactors: each consists of the 2 x 2 determinants of the two rows or columns that it omits.
 Values inverse(Builder& f, const GraphNode& /*node*/, Inputs inputs) {
     const auto at = [&](std::size_t row, std::size_t column) { return inputs[0].parts[4 * row + column]; };
     const auto cofactor = [&](std::size_t row, std::size_t column) {
@@ -216,7 +217,7 @@ Values inverse(Builder& f, const GraphNode& /*node*/, Inputs inputs) {
 
 using Ports = std::vector<NodePort>;
 
-/// Result and inputs A, B, ... of one type.
+/// Returns a kind whose result and inputs A, B, ... have one type.
 NodeKind alike(std::string_view name, std::string_view types, Ports inputs, decltype(NodeKind::make) make) {
     for (NodePort& input : inputs) input.types = types;
     return {name, std::move(inputs), {{"result", types}}, make};

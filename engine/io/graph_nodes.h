@@ -1,4 +1,4 @@
-// The kinds of nodes that an implicit function may be made of, and what each one computes.
+// The kinds of nodes in implicit functions, and the formulas that they stand for.
 #pragma once
 
 #include <array>
@@ -13,34 +13,34 @@
 
 namespace lamella {
 
-/// A value within a formula: as many nodes as its type has components, or the number of a resource.
+/// A value within a formula: one builder node per component of its type, or the number of a resource.
 struct GraphValue {
     GraphType type = GraphType::scalar;
-    std::array<FormulaBuilder::Node, 16> parts{};  ///< of a matrix row by row
+    std::array<FormulaBuilder::Node, 16> parts{};  ///< matrices row by row
     std::int64_t resource = 0;
 };
 
-/// An input or output that a kind of node has.
+/// An input or output of a kind of node.
 struct NodePort {
     std::string_view name;
-    std::string_view types;      ///< of s, v, m, r: those it may have; several: all such ports have the same
-    std::string_view also = {};  ///< another name that earlier drafts gave it
+    std::string_view types;      ///< allowed types, of s, v, m, r; all ports with several share one
+    std::string_view also = {};  ///< another name, from earlier drafts
 };
 
 /// A kind of node.
 struct NodeKind {
     std::string_view name;
     std::vector<NodePort> inputs, outputs;
-    /// The outputs from the inputs; null where a node needs more than formulas: `functioncall`, which has
-    /// further ports, too, `mesh`, `unsignedmesh` and `constresourceid`.
+    /// Computes the outputs from the inputs. Null for kinds that need more than formulas: `functioncall`
+    /// (which also has further ports), `mesh`, `unsignedmesh` and `constresourceid`.
     std::vector<GraphValue> (*make)(FormulaBuilder& builder, const GraphNode& node,
                                     std::span<const GraphValue> inputs) = nullptr;
 };
 
-/// The kind of that name; null when there is none that is supported.
+/// Returns the kind of that name; null when it is not supported.
 const NodeKind* find_node_kind(std::string_view name);
 
-/// The letter of a type in NodePort::types.
+/// Returns the letter of a type in NodePort::types.
 char letter_of(GraphType type);
 
 }  // namespace lamella

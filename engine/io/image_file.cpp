@@ -1,4 +1,4 @@
-// The image library, loaded when it is first needed.
+// Loads the image library on first use.
 #include "engine/io/image_file.h"
 
 #include "engine/base/error.h"
@@ -16,7 +16,7 @@ const ImageLibrary& load() {
     return *library();
 }
 
-/// Loaded once and never unloaded; threads that come first together wait for each other.
+/// Loads the library once and never unloads it; threads that call concurrently wait for each other.
 const ImageLibrary& library() {
     static const ImageLibrary& loaded = load();
     return loaded;

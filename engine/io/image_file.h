@@ -1,5 +1,5 @@
-// Reading and writing images of many formats. The library that does it is large and few runs need it, so it
-// is loaded when first asked for.
+// Reads and writes images of many formats. The library behind it is large and few runs need it, so it is
+// loaded on first use.
 #pragma once
 
 #include <cstddef>
@@ -13,32 +13,31 @@
 
 namespace lamella {
 
-/// How the samples of a page are handed out: 8 and 16 bits as the file has them, other integers scaled to
-/// 0..1.
+/// Type of the samples that a reader returns: 8 and 16 bits as in the file, other integers scaled to 0..1.
 enum class SampleType : unsigned char { u8, u16, f32 };
 
 /// One image of a file.
 struct ImagePage {
     int width = 0;   ///< px
     int height = 0;  ///< px
-    int depth = 1;   ///< layers of a page that has them
+    int depth = 1;   ///< layers of a volumetric page
     int channels = 0;
     bool deep = false;  ///< several samples a pixel
     SampleType samples = SampleType::u8;
-    std::string stored_as;  ///< the sample's type in the file, for messages
+    std::string stored_as;  ///< sample type in the file, for messages
 };
 
-/// The pages of a file, front to back.
+/// Iterates over the pages of a file, from first to last.
 class ImageReader {
   public:
     virtual ~ImageReader() = default;
-    /// Goes to the next page; nothing when there is none, or the file is damaged there.
+    /// Moves to the next page; returns nothing when there is none, or the file is damaged there.
     virtual std::optional<ImagePage> next_page() = 0;
-    /// Reads a channel of the page: width * height samples of its type, the highest row first. Returns what
-    /// went wrong, or an empty text.
+    /// Reads a channel of the page: width * height samples of its type, the highest row first. Returns an
+    /// error message, empty on success.
     virtual std::string read_channel(int channel, void* samples) = 0;
-    /// Reads all channels of the page side by side, whatever their type as 8 bits: width * height * channels
-    /// samples, the highest row first. Returns what went wrong, or an empty text.
+    /// Reads all channels of the page, interleaved, converted to 8 bits: width * height * channels samples,
+    /// the highest row first. Returns an error message, empty on success.
     virtual std::string read_bytes(std::uint8_t* samples) = 0;
 };
 
@@ -48,29 +47,29 @@ struct ImageData {
     int height = 0;                        ///< px
     int channels = 1;                      ///< 1 grey, 3 red green blue, 4 with alpha
     std::span<const std::uint8_t> pixels;  ///< row by row from the top
-    double pixel_x = 0, pixel_y = 0;       ///< mm; 0 where the file need not say
-    bool linear = false;                   ///< values are amounts, not light: the file says so
-    std::string compression{};             ///< in the library's words; empty for the format's own
+    double pixel_x = 0, pixel_y = 0;       ///< mm; 0 if the file need not say
+    bool linear = false;        ///< values are linear amounts, not display values: the file says so
+    std::string compression{};  ///< name of the method in the library; empty for the format's default
 };
 
-/// The images of a file; null when it is none that can be read.
+/// Opens the images of a file; returns null when it cannot be read.
 std::unique_ptr<ImageReader> open_images(const std::string& path);
 
-/// The images of a file in memory, which must outlive the reader. It is read as what the ending of `name`
-/// says and as nothing else. Null when it cannot be; `why` then says what is wrong.
+/// Opens the images of a file in memory, which must outlive the reader. The ending of `name` alone decides
+/// the format. Returns null when the file cannot be read; `why` then says what is wrong.
 std::unique_ptr<ImageReader> open_images(const std::string& name, std::string_view bytes, std::string& why);
 
-/// The bytes of a file of that name, whose ending tells the format. Throws FaultError when that cannot be
-/// made.
+/// Returns the bytes of a file of that name, whose ending decides the format. Throws FaultError when encoding
+/// fails.
 std::vector<std::byte> encode_image(const std::string& name, const ImageData& image);
 
-/// Whether a file's ending names a format that can be written.
+/// Returns true if a file's ending names a format that can be written.
 bool is_image_name(const std::string& path);
 
-/// Writes the file. Throws FaultError.
+/// Writes the file. Throws FaultError when this fails.
 void write_image(const std::string& path, const ImageData& image);
 
-/// What the loaded library provides. Errors are texts: exceptions stay on their side.
+/// Interface of the loaded library. Errors are strings, because exceptions must not leave the module.
 class ImageLibrary {
   public:
     virtual ~ImageLibrary() = default;
@@ -83,7 +82,7 @@ class ImageLibrary {
     virtual std::string write(const std::string& path, const ImageData& image) const = 0;
 };
 
-/// The module's only symbol.
+/// The only symbol that the module exports.
 inline constexpr const char* image_library_symbol = "lamella_image_library";
 using ImageLibraryFunction = const ImageLibrary* (*)();
 

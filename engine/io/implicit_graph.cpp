@@ -1,4 +1,4 @@
-// Names and signatures.
+// Names and signatures of functions.
 #include "engine/io/implicit_graph.h"
 
 namespace lamella {

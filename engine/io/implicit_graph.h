@@ -9,38 +9,38 @@
 
 namespace lamella {
 
-/// What a port of a node carries: a number, three, the 16 of a matrix, or the number of a resource.
+/// Type of a node's port: a scalar, a vector of three, a matrix of 16 numbers, or the number of a resource.
 enum class GraphType : std::uint8_t { scalar, vector, matrix, resource };
 
-/// "scalar", "vector", "matrix", "resource id".
+/// Returns "scalar", "vector", "matrix" or "resource id".
 const char* name_of(GraphType type);
-/// Numbers that a value of the type has: 1, 3, 16 or 0.
+/// Returns how many numbers a value of the type has: 1, 3, 16 or 0.
 std::size_t components(GraphType type);
 
-/// An input or output, by its identifier.
+/// An input or output, identified by name.
 struct GraphPort {
     std::string name;
     GraphType type = GraphType::scalar;
-    std::string from;  ///< what feeds it: "node.output", or "inputs.name" for the function's own
+    std::string from;  ///< its source: "node.output", or "inputs.name" for an input of the function
 };
 
-/// A node as its element says, whether that makes sense or not.
+/// A node as its element states it, not yet checked.
 struct GraphNode {
     std::string identifier;
     std::string kind;  ///< name of the element: "addition", "functioncall"
     std::vector<GraphPort> inputs, outputs;
-    std::vector<double> numbers;  ///< of constants: 1, 3, or 16 row by row
-    std::int64_t resource = 0;    ///< of a constant resource id
+    std::vector<double> numbers;  ///< value of a constant: 1, 3, or 16 numbers row by row
+    std::int64_t resource = 0;    ///< value of a constant resource id
 };
 
 /// An <implicitfunction>.
 struct ImplicitGraph {
-    std::vector<GraphPort> inputs;   ///< fed by nothing
+    std::vector<GraphPort> inputs;   ///< without a source
     std::vector<GraphNode> nodes;    ///< in the order of the file
-    std::vector<GraphPort> outputs;  ///< each fed by a node or an input
+    std::vector<GraphPort> outputs;  ///< the source of each is a node or an input
 };
 
-/// How a coordinate outside 0 to 1 is taken. `none`: there is nothing, so the result is undefined.
+/// Treatment of a coordinate outside 0 to 1. `none`: the image ends there, so the result is undefined.
 enum class TileStyle : std::uint8_t { wrap, mirror, clamp, none };
 enum class ImageFilter : std::uint8_t { linear, nearest };
 
@@ -59,7 +59,7 @@ struct GraphFunction {
     std::variant<ImplicitGraph, ImageFunction> body;
 };
 
-/// The inputs and outputs of a function, whichever it is.
+/// Return the inputs, or outputs, of a function of either kind.
 std::vector<GraphPort> inputs_of(const GraphFunction& function);
 std::vector<GraphPort> outputs_of(const GraphFunction& function);
 

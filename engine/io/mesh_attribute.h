@@ -1,4 +1,4 @@
-// Reading a number at every vertex of a PLY mesh: a colour channel or any scalar property.
+// Reads a number at every vertex of a PLY mesh: a colour channel or any scalar property.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace lamella {
 
-/// A mesh with a number at every vertex. Corners at one place are not welded: each keeps its own number.
+/// A mesh with a number at every vertex. Coincident corners are not welded: each keeps its own number.
 struct AttributedMesh {
     TriangleMesh mesh;           ///< mm; polygons are cut into triangles
-    std::vector<double> values;  ///< one a vertex, NaN where the file says NaN or infinity
+    std::vector<double> values;  ///< one per vertex, NaN where the file says NaN or infinity
 };
 
-/// Reads a mesh and the vertex property named `attribute`: red, green, blue and alpha of an integer type as
-/// 0 to 1, everything else as given. `unit_mm` is mm per number of the file. Throws InputError (path, line
-/// or byte where known) for a file that is no whole PLY mesh, or lacks the property (it names those that
-/// are there).
+/// Reads a mesh and the vertex property named `attribute`: red, green, blue and alpha of an integer type as 0
+/// to 1, any other property unchanged. `unit_mm` is mm per number of the file. Throws InputError (path, line
+/// or byte where known) when the file is no complete PLY mesh, or lacks the property (the message lists the
+/// existing ones).
 AttributedMesh read_ply_attribute(const std::string& path, const std::string& attribute,
                                   double unit_mm = 1.0);
 
-/// The same for a file that is in memory already; `name` stands in messages.
+/// Reads them from a file in memory; `name` is used in messages.
 AttributedMesh read_ply_attribute(std::string_view name, std::span<const std::byte> bytes,
                                   const std::string& attribute, double unit_mm = 1.0);
 

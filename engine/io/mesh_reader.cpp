@@ -1,4 +1,4 @@
-// Finds out which format a mesh file is in and hands it to that format's reader.
+// Detects the format of a mesh file and calls the format's reader.
 #include "engine/io/mesh_reader.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string extension_of(std::string_view name) {
     return extension;
 }
 
-/// True when some of the first lines begin as those of an OBJ file do.
+/// Returns true if one of the first lines starts with a keyword of OBJ files.
 bool is_obj(std::string_view bytes) {
     constexpr int lines_to_look_at = 200;
     TextCursor text(bytes.substr(0, std::size_t{1} << 16U));

@@ -79,7 +79,7 @@ MeshWelder::MeshWelder(std::size_t expected_vertices) {
 
 std::uint32_t MeshWelder::vertex(dvec3 p) {
     if (!(usable(p.x) && usable(p.y) && usable(p.z))) return unusable;
-    p += 0.0;  // minus zero becomes zero, so equal means equal bits
+    p += 0.0;  // minus zero becomes zero, so that equal numbers have equal bits
     if (mesh_.vertices.size() * 2 >= slots_.size()) grow();
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash_of(p) & mask;
@@ -156,7 +156,7 @@ void PolygonWelder::polygon(std::span<const std::uint32_t> corners) {
         const std::uint32_t vertex = welded_[corner];
         if (!ring_.empty() && ring_.back() == vertex && vertex != MeshWelder::unusable) continue;
         ring_.push_back(vertex);
-        // Where a corner is unusable, its triangles are left out below whatever the cut.
+        // Triangles at an unusable corner are skipped below, whatever the cut.
         points_.push_back(vertex == MeshWelder::unusable ? dvec3(0.0) : vertices_[corner]);
     }
     while (ring_.size() > 3 && ring_.front() == ring_.back()) {

@@ -1,4 +1,5 @@
-// What the mesh readers share: the bytes of a file, a cursor over its text, and the welding of equal corners.
+// Shared code of the mesh readers: the bytes of a file, a cursor over its text, and the welding of equal
+// corners.
 #pragma once
 
 #include <array>
@@ -13,30 +14,30 @@
 
 namespace lamella {
 
-/// One file to be read, wholly in memory.
+/// A file to read, entirely in memory.
 struct MeshSource {
     std::string name;        ///< as the user knows it
     std::string_view bytes;  ///< the content
     double unit_mm = 1.0;    ///< mm per number, for formats that state no unit
 };
 
-/// The source of these bytes. Throws InputError for a unit that is not positive or absurdly large.
+/// Returns the source of these bytes. Throws InputError for a unit that is not positive or absurdly large.
 MeshSource mesh_source(std::string_view name, std::span<const std::byte> bytes, double unit_mm);
 
 /// Throws InputError("name: what").
 [[noreturn]] void reject(const MeshSource& source, const std::string& what);
 
-/// Walks through text by white-space separated tokens.
+/// Splits text into tokens separated by white space.
 class TextCursor {
   public:
     explicit TextCursor(std::string_view text, std::size_t at = 0) : text_(text), at_(at) {}
 
     std::string_view token();          ///< the next token, over line ends; empty at the end of the text
     std::string_view token_on_line();  ///< the next token on this line; empty at the end of the line
-    void skip_line();                  ///< goes behind the next line end
+    void skip_line();                  ///< moves behind the next line end
     bool at_end() const { return at_ >= text_.size(); }
     std::size_t offset() const { return at_; }
-    /// Line of an offset, from 1. Counts from the start: for messages only.
+    /// Returns the line of an offset, from 1. Counts from the start, so use it for messages only.
     std::size_t line_at(std::size_t offset) const;
     std::size_t line() const { return line_at(at_); }
 
@@ -45,19 +46,19 @@ class TextCursor {
     std::size_t at_;
 };
 
-/// Collects triangles, giving equal corners one vertex and leaving out what is no triangle.
+/// Collects triangles, giving equal corners one vertex and skipping degenerate triangles.
 class MeshWelder {
   public:
     static constexpr std::uint32_t unusable = 0xffffffffU;
 
     explicit MeshWelder(std::size_t expected_vertices = 0);
 
-    /// The vertex at p (mm), or `unusable` when a coordinate is NaN, infinite or absurdly large.
+    /// Returns the vertex at p (mm), or `unusable` when a coordinate is NaN, infinite or absurdly large.
     std::uint32_t vertex(dvec3 p);
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
     std::size_t offered() const { return offered_; }
 
-    /// The mesh and what was left out. Throws InputError when not one triangle is left.
+    /// Returns the mesh, with notes about skipped triangles. Throws InputError when no triangle is left.
     MeshFile finish(const MeshSource& source, std::vector<std::string> notes);
 
   private:
@@ -70,14 +71,14 @@ class MeshWelder {
     std::size_t degenerate_ = 0;
 };
 
-/// Gathers polygons over a list of vertices, cutting them into triangles.
+/// Collects polygons over a list of vertices, cutting them into triangles.
 class PolygonWelder {
   public:
-    /// Vertices of the file in mm, in the file's order.
+    /// The vertices of the file in mm, in file order.
     explicit PolygonWelder(std::vector<dvec3> vertices);
 
     std::size_t vertex_count() const { return vertices_.size(); }
-    /// A face by vertex indices, all below vertex_count(); 3 corners or more.
+    /// Adds a face by vertex indices, all below vertex_count(); 3 corners or more.
     void polygon(std::span<const std::uint32_t> corners);
     MeshFile finish(const MeshSource& source, std::vector<std::string> notes) {
         return welder_.finish(source, std::move(notes));

@@ -1,4 +1,4 @@
-// Parts, placements and meshes of the core specification, with the production extension's paths.
+// Parts, placements and meshes of the core specification, with the paths of the production extension.
 #include "engine/io/model_3mf.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string_view prefix(const pugi::xml_node& node) {
     return colon == name.npos ? std::string_view() : name.substr(0, colon);
 }
 
-/// The next element of that name from `node` on, `node` included, in the namespace of `like`.
+/// Returns the next element of that name from `node` on, `node` included, in the namespace of `like`.
 pugi::xml_node element(pugi::xml_node node, std::string_view name, const pugi::xml_node& like) {
     while (node && !(local_name(node) == name && prefix(node) == prefix(like))) node = node.next_sibling();
     return node;
@@ -89,7 +89,8 @@ Transform3mf Transform3mf::inverse() const {
     Transform3mf out;
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t column = 0; column < 3; ++column) {
-            // The cofactor of (column, row), its sign by the cyclic order of the remaining rows and columns.
+            // The cofactor of (column, row); cyclic order of the remaining rows and columns gives it the
+            // right sign.
             const std::size_t r1 = (column + 1) % 3, r2 = (column + 2) % 3;
             const std::size_t c1 = (row + 1) % 3, c2 = (row + 2) % 3;
             const double cofactor = m[3 * r1 + c1] * m[3 * r2 + c2] - m[3 * r1 + c2] * m[3 * r2 + c1];
@@ -182,7 +183,7 @@ const ModelPart& Model3mf::part(const std::string& name) {
     return *parts_.emplace(name, std::move(fresh)).first->second;
 }
 
-/// Some extensions do not change the shape; of the rest only those are taken that the caller reads.
+/// Throws InputError when the file requires an extension whose namespace contains none of `supported`.
 void Model3mf::require_extensions(const pugi::xml_node& model,
                                   std::span<const std::string_view> supported) const {
     TextCursor wanted(model.attribute("requiredextensions").value());
@@ -227,7 +228,7 @@ std::vector<std::string> Model3mf::left_out() const {
     return notes;
 }
 
-/// Visits what a build item or a component refers to.
+/// Visits the object that a build item or a component refers to.
 void Model3mf::place(const ModelPart& from, const pugi::xml_node& reference, const Transform3mf& outer,
                      int depth, const std::function<void(const PlacedObject&)>& visit) {
     if (depth > deepest_component) reject(source_, "components are nested more than 32 deep");

@@ -1,4 +1,4 @@
-// The XML of a 3MF file: its model parts, and the objects that its build section places.
+// Model3mf: the XML of a 3MF file, with its model parts and the objects that its build section places.
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace lamella {
 
-/// p' = p M with the last row as translation, as 3MF writes it.
+/// Affine map p' = p M with the last row as translation, as 3MF writes it.
 struct Transform3mf {
     std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
     dvec3 operator()(dvec3 p) const;
     double determinant() const;
-    /// First this, then `outer`.
+    /// Returns the composition: first this map, then `outer`.
     Transform3mf then(const Transform3mf& outer) const;
-    /// Only where the determinant is not zero.
+    /// Returns the inverse; the determinant must not be zero.
     Transform3mf inverse() const;
     friend bool operator==(const Transform3mf&, const Transform3mf&) = default;
 };
 
-/// One model part: its XML, and its objects by id.
+/// A model part: its XML, and its objects by id.
 struct ModelPart {
     std::string name;
     std::string text;  // parsed in place
@@ -37,19 +37,19 @@ struct ModelPart {
     std::map<std::string, pugi::xml_node, std::less<>> objects;
 };
 
-/// An object that the build section places, by itself or within others.
+/// An object that the build section places, directly or as a component of others.
 struct PlacedObject {
     const ModelPart& part;
     pugi::xml_node object;
     Transform3mf transform;  ///< from the object to the build platform, in the model's unit
 };
 
-/// Reads a package's model parts as they are referred to. Every mistake is an InputError that names the file,
-/// the part and the byte.
+/// Reads a package's model parts on demand. Throws InputError for every error, with the file, the part and
+/// the byte.
 class Model3mf {
   public:
-    /// A file may demand extensions; those whose namespaces hold one of `supported` ("/production/") are
-    /// read.
+    /// A file may require extensions. Throws InputError unless the namespace of each contains one of
+    /// `supported` ("/production/").
     Model3mf(const MeshSource& source, std::span<const std::string_view> supported);
 
     const MeshSource& source() const { return source_; }
@@ -60,15 +60,15 @@ class Model3mf {
 
     /// Throws InputError when the build section has no items.
     void require_items();
-    /// Calls visit for every object of the build section that is a part of what is printed, in order, and
-    /// within it for every component.
+    /// Calls visit for every printable object of the build section, in order, and after it for every
+    /// component of it.
     void for_each_placed(const std::function<void(const PlacedObject&)>& visit);
-    /// The same for one object and its components.
+    /// Calls visit for one object and its components.
     void for_each_within(const PlacedObject& object, const std::function<void(const PlacedObject&)>& visit);
-    /// What was left out by the former, for people: items that are not to be printed, supports.
+    /// Returns notes for the user about skipped objects: items that are not to be printed, supports.
     std::vector<std::string> left_out() const;
 
-    /// The transform of an attribute; none is the identity. InputError for one that flattens.
+    /// Returns the transform of an attribute; the identity without one. Throws InputError if it is singular.
     Transform3mf transform_of(const ModelPart& in, const pugi::xml_node& node) const;
     /// Throws InputError("file: part, byte: what").
     [[noreturn]] void reject_at(const ModelPart& in, const pugi::xml_node& node,
@@ -93,24 +93,25 @@ class Model3mf {
     std::size_t other_types_ = 0;
 };
 
-/// An element's name without its prefix.
+/// Returns an element's name without its prefix.
 std::string_view local_name(const pugi::xml_node& node);
-/// The first child of that name in the parent's namespace, and the next sibling of a node's own name.
+/// Return the first child of that name in the parent's namespace, and the next sibling with a node's own
+/// name.
 pugi::xml_node core_child(const pugi::xml_node& parent, std::string_view name);
 pugi::xml_node next_alike(const pugi::xml_node& node);
-/// The namespace that an element belongs to; empty where it is not declared.
+/// Returns the namespace of an element; empty when it is not declared.
 std::string_view namespace_of(const pugi::xml_node& node);
-/// The value of an attribute by its name without its prefix; empty when there is none.
+/// Returns the value of an attribute, found by its name without prefix; empty when there is none.
 std::string_view attribute_of(const pugi::xml_node& node, std::string_view name);
 
-/// The corners and triangles of a <mesh> as they stand in the file.
+/// The vertices and triangles of a <mesh> as stored in the file.
 struct ObjectMesh {
     std::vector<dvec3> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< may name vertices that do not exist
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices may be out of range
 };
 ObjectMesh read_object_mesh(const Model3mf& model, const ModelPart& in, const pugi::xml_node& mesh);
 
-/// "1 triangle is ... and was left out"; nothing for none.
+/// Appends the note "1 triangle is ... and was left out"; nothing when the count is 0.
 void note_left_out(std::vector<std::string>& notes, std::size_t count, const std::string& noun,
                    const std::string& why);
 

@@ -1,4 +1,4 @@
-// The archive through libzip, every size checked while it is unpacked.
+// Reads the archive through libzip; checks every size during unpacking.
 #include "engine/io/opc_package.h"
 
 #include <zip.h>
@@ -51,7 +51,7 @@ std::string OpcPackage::read(const std::string& part) {
                                 zip_file_strerror(file.get()) + "); the file is damaged or cut off");
         text.resize(used + static_cast<std::size_t>(got));
         if (got == 0) return text;
-        if (text.size() > unpacked_left_) reject_size();  // the stated size was a lie
+        if (text.size() > unpacked_left_) reject_size();  // the stated size was wrong
     }
 }
 

@@ -1,4 +1,4 @@
-// The ZIP archive that a 3MF file is, open for reading from memory.
+// OpcPackage: the ZIP archive of a 3MF file, in memory.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,18 @@ namespace lamella {
 /// Reads the parts of a package. The source must outlive it.
 class OpcPackage {
   public:
-    /// Most that is unpacked of one file's XML, and of any other part of it.
+    /// Limit on the unpacked size of one file's XML in total, and of any other part.
     static constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 
-    /// Throws InputError for what is no archive.
+    /// Throws InputError when the source is no ZIP archive.
     explicit OpcPackage(const MeshSource& source);
 
     bool has(const std::string& part) const;
-    /// A part's content. Its size is bounded by what `account` has left of max_bytes: a small archive can
-    /// unpack to more than any memory. Throws InputError for a part that is missing, damaged or too large.
+    /// Returns a part's content. Its size is limited to the rest of max_bytes after `account`, because a
+    /// small archive can unpack to more than the available memory. Throws InputError when the part is
+    /// missing, damaged or too large.
     std::string read(const std::string& part);
-    /// Takes bytes that are kept off what may be unpacked.
+    /// Subtracts bytes that stay in memory from the limit.
     void account(std::size_t bytes);
 
   private:
@@ -39,7 +40,7 @@ class OpcPackage {
     std::size_t unpacked_left_ = max_bytes;
 };
 
-/// The name of the part that a reference within a package means: without its leading slashes.
+/// Returns the name of the part that a reference within a package means: without leading slashes.
 std::string part_name(std::string_view target);
 
 }  // namespace lamella

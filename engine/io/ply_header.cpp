@@ -1,4 +1,4 @@
-// Lines of a PLY header.
+// Parses the lines of a PLY header.
 #include "engine/io/ply_header.h"
 
 namespace lamella::ply {
@@ -100,7 +100,7 @@ class HeaderReader {
         return *scalar;
     }
 
-    /// Binary data begins right behind the line end, whose form is that of the first line: behind a lone
+    /// Binary data begins right behind the line end. Its form is that of the first line: behind a lone
     /// carriage return, a byte 10 is data already.
     std::size_t behind_end_header() const {
         const std::string_view bytes = source_.bytes;

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements there are, and how their properties are stored.
+// Header of a PLY file: its elements, and how their properties are stored.
 #pragma once
 
 #include <algorithm>
@@ -11,29 +11,30 @@
 
 namespace lamella::ply {
 
-/// How the values behind the header are written.
+/// Encoding of the values behind the header.
 enum class Encoding { text, little_endian, big_endian };
 
-/// A type of number.
+/// Type of a number.
 struct Scalar {
     std::size_t bytes = 0;
     enum class Kind { signed_integer, unsigned_integer, real } kind = Kind::real;
 };
 
-/// A number, or a list of numbers, that every row of an element has.
+/// A number, or a list of numbers, in every row of an element.
 struct Property {
     std::string name;
     std::optional<Scalar> count;  // lists only
     Scalar value;
 };
 
-/// A table of rows: vertices, faces and whatever else a program writes.
+/// A table of rows: vertices, faces and any other data.
 struct Element {
     std::string name;
     std::size_t count = 0;
     std::vector<Property> properties;
 
-    /// False when a row takes row_bytes() bytes in every binary file, else that many at least.
+    /// Returns false if a row takes row_bytes() bytes in every binary file; true if it takes at least that
+    /// many.
     bool has_lists() const {
         return std::any_of(properties.begin(), properties.end(),
                            [](const Property& p) { return p.count.has_value(); });
@@ -43,7 +44,7 @@ struct Element {
         for (const Property& p : properties) bytes += p.count ? p.count->bytes : p.value.bytes;
         return bytes;
     }
-    /// The property's place in a row; properties.size() when there is none of this name.
+    /// Returns the property's index in a row; properties.size() when there is none of this name.
     std::size_t index_of(std::string_view property) const {
         const auto found = std::find_if(properties.begin(), properties.end(),
                                         [&](const Property& p) { return p.name == property; });
@@ -52,7 +53,7 @@ struct Element {
     bool has(std::string_view property) const { return index_of(property) < properties.size(); }
 };
 
-/// All of a header that counts.
+/// The relevant content of a header.
 struct Header {
     Encoding encoding = Encoding::text;
     std::vector<Element> elements;

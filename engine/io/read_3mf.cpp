@@ -1,4 +1,4 @@
-// 3MF: the triangles of the core specification's objects, where build items and components place them.
+// 3MF: triangles of the core specification's objects, placed by build items and components.
 #include <algorithm>
 #include <map>
 

@@ -27,7 +27,7 @@ class ObjReader {
         std::size_t at;          // offset of its line
     };
 
-    /// Tokens of a line; a backslash at its end joins the next line to it.
+    /// Returns the next token of a line; a backslash at the line's end continues it on the next one.
     std::string_view token() {
         std::string_view word = text_.token_on_line();
         while (word == "\\") {
@@ -62,7 +62,7 @@ class ObjReader {
         faces_.push_back({begin, corners_.size(), line_start_});
     }
 
-    /// Negative indices count back from the vertex read last; positive ones may point ahead.
+    /// Negative indices count back from the vertex read last; positive ones may refer to later vertices.
     std::int64_t resolved(std::int64_t index) const {
         if (index > 0) return index - 1;
         const auto known = static_cast<std::int64_t>(vertices_.size());

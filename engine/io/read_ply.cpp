@@ -15,7 +15,7 @@ namespace {
 
 using ply::Element, ply::Encoding, ply::Header, ply::Property, ply::Scalar;
 
-/// Gives the values of the body one after another; `ok` turns false at the end of the data.
+/// Returns the values of the body one after another; `ok` becomes false at the end of the data.
 class BodyCursor {
   public:
     BodyCursor(const MeshSource& source, const Header& header)
@@ -89,7 +89,7 @@ class PlyReader {
         return build();
     }
 
-    /// Strict where read() mends: a number must not end up at another corner.
+    /// Rejects what read() repairs, so that no number ends up at another corner.
     AttributedMesh read_with(const std::string& attribute) {
         choose(attribute);
         read_elements();
@@ -116,7 +116,7 @@ class PlyReader {
         }
     }
 
-    /// Finds the property to be read at each vertex, and what one stands for.
+    /// Finds the property to read at each vertex, and the full scale of its type.
     void choose(const std::string& attribute) {
         std::string names;
         for (const Element& element : header_.elements) {
@@ -142,7 +142,8 @@ class PlyReader {
         return static_cast<double>((std::uint64_t{1} << bits) - 1);
     }
 
-    /// How many rows can be there at most, so that no announced count makes us allocate.
+    /// Returns an upper bound of the number of rows in the file, so that no announced count causes a huge
+    /// allocation.
     std::size_t possible_rows(const Element& element) const {
         const std::size_t least =
             body_.encoding() == Encoding::text ? 2 * element.properties.size() : element.row_bytes();
@@ -210,7 +211,7 @@ class PlyReader {
         }
     }
 
-    /// A scalar's value, or a list whose values go to `list` (when given) as indices.
+    /// Returns a scalar's value, or reads a list and stores its values in `list` (unless null) as indices.
     double read_property(const Property& property, std::vector<std::int64_t>* list) {
         if (!property.count) return body_.value(property.value);
         const double length = body_.value(*property.count);
@@ -239,7 +240,7 @@ class PlyReader {
         return "it holds points but no faces";
     }
 
-    /// Cuts the faces into triangles over the vertices as they stand; leaves out triangles without extent.
+    /// Cuts the faces into triangles over the unchanged vertices; skips degenerate triangles.
     void cut_faces(TriangleMesh& mesh) const {
         std::vector<dvec3> loop;
         std::vector<std::array<std::uint32_t, 3>> cut;

@@ -1,4 +1,4 @@
-// STL, the binary form and the text form.
+// STL, in binary and text form.
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -33,7 +33,7 @@ bool same_word(std::string_view token, std::string_view lower) {
            });
 }
 
-/// How many whole triangles to take, with a note where the header's count and the length disagree.
+/// Returns how many complete triangles to read; adds a note when the header's count and the length disagree.
 std::size_t usable_records(const MeshSource& source, std::vector<std::string>& notes) {
     const std::size_t announced = little_u32(source.bytes.data() + 80);
     const std::size_t room = source.bytes.size() - header_bytes;
@@ -77,7 +77,7 @@ MeshFile read_binary(const MeshSource& source) {
     return welder.finish(source, std::move(notes));
 }
 
-/// The text form: a keyword decides what follows, line ends do not matter except behind a solid's name.
+/// Text form: a keyword decides what follows; line ends matter only behind a solid's name.
 class AsciiStl {
   public:
     explicit AsciiStl(const MeshSource& source) : source_(source), text_(source.bytes) {
@@ -127,7 +127,7 @@ class AsciiStl {
     }
 
     void skip_normal() {
-        // The normal is not used, and exporters write anything there; the winding says which way is out.
+        // The normal is ignored, because exporters write arbitrary ones; the winding determines the outside.
         TextCursor ahead = text_;
         if (!same_word(ahead.token(), "normal")) return;
         for (int i = 0; i < 3; ++i) ahead.token();
@@ -171,8 +171,8 @@ bool is_exact_binary_stl(std::string_view bytes) {
 bool is_ascii_stl(std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     if (is_exact_binary_stl(bytes) || !same_word(TextCursor(bytes).token(), "solid")) return false;
-    // Binary headers begin with "solid" too, but no text holds a zero byte, and no triangle is free of them
-    // for long.
+    // Binary headers may begin with "solid" too. But no text contains a zero byte, and triangles in binary
+    // soon do.
     constexpr std::size_t probe = 1024;
     return bytes.substr(0, probe).find('\0') == bytes.npos;
 }

@@ -1,4 +1,4 @@
-// Resources and functions, element by element. Prefixes are whatever the file chooses.
+// Reads resources and functions, element by element. Namespace prefixes are the file's choice.
 #include "engine/io/volumetric_3mf.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool is_implicit(const pugi::xml_node& node) {
     return namespace_of(node).find("/implicit/") != std::string_view::npos;
 }
 
-/// One part's resources in the reading.
+/// Reads the resources of one part.
 class PartReader {
   public:
     PartReader(const Model3mf& model, const ModelPart& part) : model_(model), part_(part) {}
@@ -49,7 +49,7 @@ class PartReader {
     }
 
     std::int64_t integer(const pugi::xml_node& node, std::string_view name) const {
-        constexpr std::int64_t most = 2147483647;  // numbers of resources lie below 2^31
+        constexpr std::int64_t most = 2147483647;  // resource numbers are below 2^31
         const std::string_view text = attribute_of(node, name);
         const auto number = parse_integer(text);
         if (!number || *number < 1 || *number > most) {
@@ -115,7 +115,7 @@ class PartReader {
         add(out_.functions, node, std::move(checked));
     }
 
-    /// References to images may come before the images.
+    /// Checked at the end, because references to images may come before the images.
     void check_image(const CheckedFunction& function) const {
         const auto* image = std::get_if<ImageFunction>(&function.function.body);
         if (image != nullptr && out_.images.find(image->image) == out_.images.end()) {
@@ -222,7 +222,7 @@ class PartReader {
         } else if (out.kind == "constmat") {
             out.numbers = sixteen(node);
         } else if (out.kind == "constresourceid" || out.kind == "resourceid") {
-            // The text has it as `value`, the example of a call as `resourceid`.
+            // The specification's text calls it `value`, its example of a call `resourceid`.
             out.resource = integer(node, attribute_of(node, "value").empty() ? "resourceid" : "value");
         }
         return out;

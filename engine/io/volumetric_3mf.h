@@ -1,4 +1,4 @@
-// The resources of 3MF's volumetric and implicit extensions (1.0), read from their XML and checked.
+// Resources of 3MF's volumetric and implicit extensions (1.0), read from their XML and checked.
 #pragma once
 
 #include <map>
@@ -11,50 +11,50 @@
 
 namespace lamella {
 
-/// An output of a function, asked in an object's coordinates.
+/// An output of a function, evaluated in an object's coordinates.
 struct FunctionUse {
     std::int64_t function = 0;
     std::string channel;
     Transform3mf transform;  ///< from the object's coordinates to the function's
-    double fallback = 0;     ///< where the function is undefined
+    double fallback = 0;     ///< value where the function is undefined
 };
 
 /// A <property> of a <volumedata>.
 struct VolumeProperty {
-    std::string name;  ///< as it is written, perhaps with a prefix
+    std::string name;  ///< as written in the file, perhaps with a prefix
     FunctionUse use;
 };
 
-/// A <levelset>: the object is where the function is below zero, within a mesh or its bounding box. A least
-/// size of features is a hint, and not read.
+/// A <levelset>: the object is the region where the function is negative, within a mesh or its bounding box.
+/// The minimum feature size is a hint and is not read.
 struct LevelSet {
     FunctionUse use;
     std::int64_t mesh = 0;  ///< object
     bool box_only = false;
 };
 
-/// An <image3d>, sheets lowest first.
+/// An <image3d>, sheets from the lowest up.
 struct ImageStack {
     std::int64_t rows = 0, columns = 0;
     std::vector<std::string> sheets;  ///< parts of the package
 };
 
-/// What one model part has of them, by number.
+/// The functions, images and volumedata of one model part, by number.
 struct VolumetricPart {
     std::map<std::int64_t, CheckedFunction> functions;
     std::map<std::int64_t, ImageStack> images;
     std::map<std::int64_t, std::vector<VolumeProperty>> volumes;
 };
 
-/// Most nodes of functions, and most sheets, that are read of one part.
+/// Limits on the function nodes, and on the sheets, read from one part.
 inline constexpr std::size_t max_graph_nodes = 200'000;
 inline constexpr std::size_t max_sheets = 1'000'000;
 
-/// Throws InputError that names the file and the place for whatever the extensions do not allow, or is not
-/// supported.
+/// Reads the resources of a model part. Throws InputError that names the file and the place for content that
+/// the extensions do not allow, or that is not supported.
 VolumetricPart read_volumetric_part(const Model3mf& model, const ModelPart& part);
 
-/// An object's level set, and the number of its volumedata; nothing where it has none.
+/// Return an object's level set, and the number of its volumedata; nothing when it has none.
 std::optional<LevelSet> read_level_set(const Model3mf& model, const PlacedObject& object);
 std::optional<std::int64_t> volume_of(const Model3mf& model, const PlacedObject& object);
 

@@ -1,4 +1,5 @@
-// Values that change by at most 1 a unit: over a box they differ from its centre's by its half diagonal.
+// Values that change by at most 1 per unit: over a box they differ from the centre's by at most half its
+// diagonal.
 #include "engine/mesh/distance_grading.h"
 
 #include "engine/base/error.h"
@@ -31,7 +32,8 @@ class SurfaceDistance : public Grading {
     Interval range(const Box& box) const override {
         const double half = diagonal(box) / 2;
         if (!std::isfinite(half)) return {0, infinity};
-        constexpr double rounding = 1e-12;  // of distances, relative to what they are worked out from
+        constexpr double rounding =
+            1e-12;  // error of distances, relative to the numbers they are computed from
         const double middle = tree_.distance(box.center());
         const double reach = half + rounding * (middle + half + extent_);
         return {std::max(middle - reach, 0.0), middle + reach};
@@ -40,7 +42,7 @@ class SurfaceDistance : public Grading {
   private:
     TriangleMesh mesh_;
     TriangleTree tree_;
-    double extent_ = 0;  ///< farthest that the mesh reaches from the origin
+    double extent_ = 0;  ///< greatest distance of the mesh from the origin
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Distances as numbers that vary in space: of a field, and of a surface that need not enclose anything.
+// Distances as gradings: to a solid, or to a surface that need not be closed.
 #pragma once
 
 #include "engine/field/field.h"
@@ -7,10 +7,10 @@
 
 namespace lamella {
 
-/// A field's value, in whatever unit the field is. Its metric is exact or bound.
+/// Returns a field's value as a grading, in the field's own unit. The field's metric must be exact or bound.
 GradingPtr make_value_grading(FieldPtr field);
 
-/// The distance to the nearest triangle, 0 or more. InputError for a mesh without triangles.
+/// Returns the unsigned distance to the nearest triangle. Throws InputError for a mesh without triangles.
 GradingPtr make_surface_distance_grading(TriangleMesh mesh);
 
 }  // namespace lamella

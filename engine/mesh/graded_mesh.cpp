@@ -1,4 +1,4 @@
-// Rounds of halving: every triangle that is not linear marks its long edges, and all triangles at a marked
+// Rounds of bisection: every triangle that is not linear marks its long edges, and all triangles at a marked
 // edge are divided there.
 #include "engine/mesh/graded_mesh.h"
 
@@ -9,9 +9,10 @@
 namespace lamella {
 namespace {
 
-constexpr double radius_tolerance = 0.02;     // of the largest number on the triangle
-constexpr double smallest_in_lengths = 0.25;  // edges this short need no division
-constexpr double halved_with_longest = 0.5;   // edges at least this share of the longest are halved with it
+constexpr double radius_tolerance = 0.02;     // share of the largest number on the triangle
+constexpr double smallest_in_lengths = 0.25;  // shorter edges need no division
+constexpr double halved_with_longest =
+    0.5;  // edges at least this share of the longest one are halved with it
 constexpr int edge_halvings = 10;
 constexpr int fewest_steps = 4, max_steps = 16;  // of the lattice along an edge
 constexpr std::size_t max_new_triangles = 8'000'000;
@@ -38,7 +39,7 @@ class Refinement {
     std::vector<Corners>& triangles() { return result_.mesh.triangles; }
     dvec3 place(std::uint32_t v) const { return result_.mesh.vertices[v]; }
 
-    /// Marks the edges to halve; false when there are none.
+    /// Marks the edges to halve; returns false when there are none.
     bool mark() {
         middles_.clear();
         for (std::size_t k = 0; k < triangles().size(); ++k) {
@@ -105,7 +106,7 @@ class Refinement {
                 middle[e] = found == middles_.end() ? none : found->second;
                 marked += middle[e] != none;
             }
-            // Turned so that edge 0 is marked, and with two marked ones edge 2 is not.
+            // Rotate the corners so that edge 0 is marked, and edge 2 is not if two are.
             const auto fits = [&] {
                 return marked % 3 == 0 || (middle[0] != none && (marked == 1 || middle[1] != none));
             };
@@ -115,7 +116,7 @@ class Refinement {
             }
             const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
                 triangles().push_back({a, b, c});
-                // What a neighbour has divided may have been judged too coarsely.
+                // A triangle divided for its neighbour's sake may have been sampled too coarsely.
                 open_.push_back(marked > 0);
             };
             if (marked == 0) {
@@ -136,7 +137,7 @@ class Refinement {
 
     const Grading& lengths_;
     GradedMesh result_;
-    std::vector<bool> open_;  ///< by triangle: may still have to be divided
+    std::vector<bool> open_;  ///< by triangle: may still need division
     std::unordered_map<std::uint64_t, std::uint32_t> middles_;
     std::size_t max_triangles_ = 0;
 };

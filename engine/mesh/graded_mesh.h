@@ -1,4 +1,4 @@
-// A mesh on whose surface a graded number is known: divided until the number is linear over its triangles.
+// A mesh with a graded number on its surface, divided until the number is linear over its triangles.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace lamella {
 /// Triangles with a number at each vertex.
 struct GradedMesh {
     TriangleMesh mesh;
-    std::vector<double> numbers;  ///< one a vertex
+    std::vector<double> numbers;  ///< one per vertex
 };
 
-/// Reads a grading of finite lengths >= 0 (mm) on a mesh. Triangles over which it is not linear to 2 % of its
-/// largest number there are divided, neighbours alike, so that what was closed and oriented stays so.
-/// Division ends where a triangle's edges are shorter than a quarter of the length, after 10 halvings, or at
-/// eight million new triangles. Linearity is judged on a lattice of points over the triangle, as far apart as
-/// the length or 16 to an edge. Deterministic.
+/// Samples a grading of finite lengths >= 0 (mm) on a mesh. Triangles over which it is not linear to 2 % of
+/// its largest value there are divided, together with their neighbours, so that a closed, oriented mesh stays
+/// so. Division ends where a triangle's edges are shorter than a quarter of the length, after 10 halvings, or
+/// at eight million new triangles. Linearity is tested on a lattice of points over the triangle, spaced by
+/// the length or with 16 steps per edge. Deterministic.
 GradedMesh read_on_mesh(const Grading& lengths, const TriangleMesh& mesh);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Growing: per triangle a wedge, per kept edge a beam.
+// Dilation: one wedge per triangle, one beam per kept edge.
 #include "engine/mesh/grown_mesh.h"
 
 #include "engine/field/slice_context.h"
@@ -7,14 +7,14 @@
 namespace lamella {
 namespace {
 
-/// An edge whose two wedges leave a gap thinner than this is closed by rounding anyway, mm.
+/// If the gap between an edge's two wedges is thinner than this, mm, rounding closes it.
 constexpr double min_gap = 1e-7;
-/// How far an inner wedge reaches before its face, mm: enough for runs to meet the body's whatever the
+/// How far an inner wedge extends in front of its face, mm: enough that its runs meet the body's despite
 /// rounding.
 constexpr double overlap = 0.01;
-/// By how much a detour over another point has to be shorter to count, as a share of the radius.
+/// A detour over another point counts only if it is shorter by this share of the radius.
 constexpr double clearly_shorter = 1e-6;
-/// Triangles smaller than this are judged by their corners alone.
+/// Triangles smaller than this are tested at their corners only.
 constexpr double large_in_radii = 0.25;
 
 struct HalfEdge {
@@ -46,7 +46,8 @@ std::uint32_t opposite_corner(const TriangleMesh& mesh, const HalfEdge& edge) {
     return edge.low;
 }
 
-/// Whether points inside the solid can have their nearest surface point on the edge between two neighbours.
+/// Returns true if points inside the solid can have their nearest surface point on the edge between two
+/// neighbours.
 bool is_reflex(const TriangleMesh& mesh, const std::vector<dvec3>& normals, const HalfEdge& a,
                const HalfEdge& b, double distance) {
     const dvec3 na = normals[a.triangle], nb = normals[b.triangle];
@@ -60,14 +61,14 @@ bool is_reflex(const TriangleMesh& mesh, const std::vector<dvec3>& normals, cons
            glm::dot(nb, mesh.vertices[opposite_corner(mesh, a)] - edge) > 0;
 }
 
-/// The unit normal of the inner tangent plane of a triangle with radii, seen from the solid's inside.
+/// Returns the unit normal of the inner tangent plane of a triangle with radii, seen from inside the solid.
 dvec3 inner_normal(const RoundTriangle& t) {
     const auto wedge = inner_wedge(t, 0);
     return wedge ? wedge->normals[1] : dvec3(0);
 }
 
-/// Whether some plane across the edge between two convex neighbours meets neither inner wedge where the
-/// edge's beam is. Seen along the edge, each wedge covers the angles from its face to its inner normal.
+/// Returns true if some plane across the edge between two convex neighbours meets neither inner wedge where
+/// the edge's beam is. Seen along the edge, each wedge covers the angles from its face to its inner normal.
 bool leaves_gap(const TriangleMesh& mesh, dvec3 na, dvec3 nb, const HalfEdge& a, const HalfEdge& b,
                 double radius) {
     if (na == dvec3(0) || nb == dvec3(0)) return true;
@@ -137,7 +138,7 @@ void GrownMesh::index_triangles() {
     for (const auto& t : mesh().triangles) {
         const double a = mesh().vertices[t[0]].z, b = mesh().vertices[t[1]].z, c = mesh().vertices[t[2]].z;
         const double reach = std::max(radius(t[0]), std::max(radius(t[1]), radius(t[2])));
-        // Without a radius there is nothing to grow, and an empty interval is never found.
+        // A zero radius dilates nothing; the index never finds an empty interval.
         heights.push_back(
             reach > 0 ? Interval{std::min(a, std::min(b, c)) - reach, std::max(a, std::max(b, c)) + reach}
                       : Interval{});
@@ -145,8 +146,8 @@ void GrownMesh::index_triangles() {
     triangles_by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
 }
 
-/// Marks the triangles at one of whose corners, or when they are large at whose centre, a way over another
-/// point of the surface undercuts the radius.
+/// Marks the triangles where a detour over another point of the surface undercuts the radius: at one of the
+/// corners, or at the centre of a large triangle.
 void GrownMesh::find_whole_triangles(const RoundTriangleTree& tree) {
     const auto undercut = [&](dvec3 p, double radius) {
         const double limit = radius * (1 - clearly_shorter);

@@ -1,4 +1,4 @@
-// What trees over triangles share: halving their boxes, and going down to the nearest first.
+// Shared code of triangle trees: median splits, and traversal with the nearest node first.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,9 @@ namespace lamella {
 
 inline constexpr std::uint32_t halving_leaf_size = 4;
 
-/// Sorts the items [first, last) of the order into a lower and an upper half along the longest side of the
-/// box about their centers; returns where the upper one begins. The same whatever order they came in.
+/// Partitions the items [first, last) of the order into a lower and an upper half along the longest side of
+/// the box around their centres; returns where the upper half begins. The halves do not depend on the initial
+/// order.
 inline std::uint32_t halve(std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t last,
                            const std::vector<dvec3>& centers) {
     Box spread;
@@ -29,8 +30,8 @@ inline std::uint32_t halve(std::vector<std::uint32_t>& order, std::uint32_t firs
     return middle;
 }
 
-/// Builds a tree of nodes over the items [first, last) of the order by halving them. make_node(first, last)
-/// is a leaf of these items.
+/// Builds a tree over the items [first, last) of the order by halving. make_node(first, last) makes a leaf of
+/// these items.
 template <typename Node, typename MakeNode>
 void build_by_halving(std::vector<Node>& nodes, std::vector<std::uint32_t>& order, std::uint32_t first,
                       std::uint32_t last, const std::vector<dvec3>& centers, const MakeNode& make_node) {
@@ -46,9 +47,9 @@ void build_by_halving(std::vector<Node>& nodes, std::vector<std::uint32_t>& orde
 }
 
 /// Visits the leaves of a tree, the nearer child of each node first. Node has `first` (the first item of a
-/// leaf, else the second child, where the first child follows its parent) and `count` (of a leaf's items,
-/// else 0). bound(node) is how near its items can be; matters(bound) says whether that is near enough still,
-/// and leaf(node) offers them.
+/// leaf, else the second child; the first child follows its parent) and `count` (the number of a leaf's
+/// items, else 0). bound(node) is a lower bound of the distance to its items; matters(bound) returns false to
+/// prune the node; leaf(node) processes a leaf.
 template <typename Node, typename Bound, typename Matters, typename Leaf>
 void visit_nearest_first(const std::vector<Node>& nodes, const Bound& bound, const Matters& matters,
                          const Leaf& leaf) {
@@ -57,7 +58,7 @@ void visit_nearest_first(const std::vector<Node>& nodes, const Bound& bound, con
         double bound;
     };
     if (nodes.empty()) return;
-    // Halving bounds the depth: 64 levels hold any mesh that fits in memory.
+    // Halving limits the depth: 64 levels suffice for any mesh that fits in memory.
     std::array<Entry, 64> stack;
     std::size_t top = 0;
     stack[top++] = {0, bound(nodes[0])};

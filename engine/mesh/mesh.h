@@ -1,4 +1,4 @@
-// A triangle mesh as plain data.
+// TriangleMesh: a triangle mesh as plain data.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// Coordinates beyond this are taken for damage, mm (1,000 km; also keeps squares and cubes finite).
+/// Greater coordinates count as damage, mm (1,000 km; also keeps squares and cubes finite).
 inline constexpr double max_coordinate = 1e9;
 
 /// Triangles over shared vertices, counter-clockwise seen from outside; mm.

@@ -41,7 +41,7 @@ std::vector<Placed> sorted_by_corners(const Triangles& triangles) {
     return placed;
 }
 
-/// Calls visit(same, opposite) for the triangles on each three corners, those that face one way and the
+/// Calls visit(same, opposite) for each set of three corners, with the triangles that face one way and the
 /// other.
 template <class Visit>
 void each_place(const std::vector<Placed>& placed, const Visit& visit) {
@@ -76,8 +76,8 @@ DroppedDuplicates drop_duplicates(TriangleMesh& mesh, BackToBack back_to_back) {
     each_place(placed, [&](auto one_side, auto other_side) {
         const std::size_t pairs = std::min(one_side.size(), other_side.size());
         if (pairs == 0) return;
-        // Cancelling takes the later copies, so that what is left keeps its place; keeping one takes the
-        // other side whole.
+        // Cancelling removes the latest copies, so that the remaining ones keep their places; keeping one
+        // removes the other side entirely.
         for (std::size_t i = 0; i < pairs; ++i) {
             cancelled[other_side[other_side.size() - 1 - i].triangle] = true;
             if (back_to_back == BackToBack::cancel)
@@ -113,7 +113,7 @@ CancelledCaps cancel_caps(TriangleMesh& mesh, std::size_t caps) {
     std::vector<bool> gone(mesh.triangles.size(), false);
     CancelledCaps cancelled;
     each_place(sorted_by_corners(mesh.triangles), [&](auto one_side, auto other_side) {
-        // Within a side, triangles stand in their order, so the caps are last.
+        // Triangles of one side are in mesh order, so caps come last.
         for (std::size_t i = 0; i < std::min(one_side.size(), other_side.size()); ++i) {
             const std::uint32_t a = one_side[one_side.size() - 1 - i].triangle;
             const std::uint32_t b = other_side[other_side.size() - 1 - i].triangle;

@@ -14,7 +14,8 @@ MeshEdges::MeshEdges(const Triangles& triangles, std::size_t vertex_count)
     for (std::uint32_t h = 0; h < half_count; ++h) ++start[lower(h) + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
 
-    // One word a half-edge: the far end above, its own number below, so that equal edges become neighbours.
+    // One word per half-edge: the far end in the upper half, its own number in the lower, so that sorting
+    // groups equal edges.
     std::vector<std::uint64_t> keys(half_count);
     std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
     for (std::uint32_t h = 0; h < half_count; ++h) {
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> MeshEdges::bodies(std::size_t& body_count) const {
             least = std::min(least, other);
         }
     }
-    // Roots are the lowest triangle of their body, so they get their number before the others ask for it.
+    // A root is the lowest triangle of its body, so it has its number before the other triangles need it.
     std::vector<std::uint32_t> number(triangle_count);
     body_count = 0;
     for (std::uint32_t t = 0; t < triangle_count; ++t) {

@@ -1,4 +1,4 @@
-// Which triangles meet at each edge of a mesh.
+// MeshEdges: the edges of a mesh and the triangles that meet there.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ class MeshEdges {
   public:
     struct Edge {
         std::uint32_t lo, hi;      ///< its ends, lo < hi
-        std::uint32_t begin, end;  ///< its half-edges, a range of half_edges()
+        std::uint32_t begin, end;  ///< range of its half-edges in half_edges()
         std::uint32_t forward;     ///< how many of them run from lo to hi
 
         std::uint32_t count() const { return end - begin; }
-        /// Occurrences of (lo, hi) less those of (hi, lo): zero everywhere means the chain is closed.
+        /// Returns occurrences of (lo, hi) minus those of (hi, lo): zero everywhere means the chain is
+        /// closed.
         std::int64_t net() const { return 2 * static_cast<std::int64_t>(forward) - count(); }
         bool is_matched_pair() const { return count() == 2 && forward == 1; }
     };
@@ -38,10 +39,10 @@ class MeshEdges {
     bool is_oriented_manifold()
         const;                      ///< every edge has two triangles that run along it in opposite directions
     bool is_closed() const;         ///< the net boundary is zero
-    std::size_t odd_edges() const;  ///< edges with an odd number of triangles: no turning can close those
+    std::size_t odd_edges() const;  ///< edges with an odd number of triangles: no reorientation closes them
 
-    /// A number for each triangle: equal for triangles joined through shared edges, 0, 1, ... by first
-    /// triangle.
+    /// Returns a number for each triangle: equal for triangles connected through shared edges; 0, 1, ... by
+    /// first triangle.
     std::vector<std::uint32_t> bodies(std::size_t& body_count) const;
 
   private:
@@ -50,7 +51,7 @@ class MeshEdges {
     std::vector<std::uint32_t> edge_of_;
 };
 
-/// The half-edge's start and end.
+/// Returns the half-edge's start vertex, and its end vertex.
 inline std::uint32_t from(const Triangles& triangles, std::uint32_t half) {
     return triangles[half / 3][half % 3];
 }

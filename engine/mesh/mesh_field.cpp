@@ -15,7 +15,7 @@
 namespace lamella {
 namespace {
 
-/// What a mesh's field and its offsets share.
+/// Data that a mesh's field and its offsets share.
 struct MeshData {
     explicit MeshData(SolidMesh closed)
         : solid(std::make_shared<const SolidMesh>(std::move(closed))),
@@ -57,7 +57,7 @@ class MeshSlice : public SampledSlice {
     MeshSection section_;
 };
 
-/// Everything within a distance of a mesh's surface.
+/// All points within a fixed distance of a mesh's surface.
 class GrownMeshField : public Field {
   public:
     GrownMeshField(MeshDataPtr data, double distance, bool inside_only)
@@ -76,7 +76,7 @@ class GrownMeshField : public Field {
     GrownMesh grown_;
 };
 
-/// Everything within a distance of a mesh's surface that varies over it.
+/// All points within a distance of a mesh's surface that varies over it.
 class GradedMeshShell : public Field {
   public:
     GradedMeshShell(const SolidMesh& solid, GradedMesh graded, bool inside_only)
@@ -119,7 +119,7 @@ class MeshField : public Field {
         return !data_->tree.any_within(p, distance);
     }
     Interval range(const Box& box) const override { return lipschitz_range(*this, box); }
-    // Triangles inside the solid, where shells overlap, make the distance a bound only.
+    // Only a bound, because triangles inside the solid, where shells overlap, count too.
     Metric metric() const override { return Metric::bound; }
     FieldPtr offset(double d) const override {
         if (d == 0) return shared_from_this();

@@ -1,4 +1,5 @@
-// A mesh as a field: distance by a tree of triangles, sections by winding number, offsets by grown triangles.
+// A mesh as a field: distance from a tree of triangles, sections by winding number, offsets by round
+// triangles.
 #pragma once
 
 #include "engine/field/field.h"
@@ -6,7 +7,7 @@
 
 namespace lamella {
 
-/// The solid that a closed mesh encloses: all points with a winding number other than 0.
+/// Returns the solid that a closed mesh encloses: all points with a winding number other than 0.
 FieldPtr make_mesh_field(SolidMesh mesh);
 
 }  // namespace lamella

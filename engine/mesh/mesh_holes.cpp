@@ -1,4 +1,4 @@
-// Hole filling: boundary loops, each popped off a walk as soon as it closes, and their caps.
+// Hole filling: walks the boundary, splits off each loop as soon as it closes, and caps it.
 #include "engine/mesh/mesh_holes.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t no_vertex = 0xffffffffU;
 
-/// The directed edges that the caps must have as their boundary, by start vertex.
+/// The directed edges that must become the boundary of the caps, by start vertex.
 class CapEdges {
   public:
     CapEdges(const TriangleMesh& mesh, const MeshEdges& edges)
@@ -28,8 +28,8 @@ class CapEdges {
     bool empty() const { return ends_.empty(); }
     std::uint32_t left(std::uint32_t v) const { return left_[v]; }
 
-    /// Takes the edge out of v that turns back the most, coming from `previous`: at a vertex where several
-    /// holes meet that keeps to the same hole, and a slit is left by the side it was entered from.
+    /// Takes the edge out of v with the sharpest turn back, coming from `previous`. At a vertex where several
+    /// holes meet this stays at the same hole, and it leaves a slit on the side it was entered from.
     std::uint32_t take(std::uint32_t v, std::uint32_t previous) {
         constexpr std::uint32_t max_looked_at = 64;
         std::uint32_t best = left_[v] - 1;
@@ -65,10 +65,11 @@ class CapEdges {
     std::vector<std::uint32_t> begin_, left_, ends_;
 };
 
-/// Walks along unused edges; whenever the walk meets itself, the loop it closed is taken off.
+/// Walks along unused edges; whenever the walk meets itself, calls `found` with the closed loop and removes
+/// it.
 template <class Found>
 void each_loop(CapEdges& edges, std::size_t vertex_count, const Found& found) {
-    std::vector<std::uint32_t> place(vertex_count, no_vertex);  // on the walk
+    std::vector<std::uint32_t> place(vertex_count, no_vertex);  // index on the walk
     std::vector<std::uint32_t> walk;
     for (std::uint32_t start = 0; start < vertex_count; ++start) {
         if (edges.left(start) == 0) continue;

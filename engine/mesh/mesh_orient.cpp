@@ -1,4 +1,4 @@
-// Orientation: patches that agree within, patches that agree with each other, bodies that face outwards.
+// Makes triangles agree within patches, then patches with each other; turns bodies outwards.
 #include "engine/mesh/mesh_orient.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ constexpr std::uint32_t no_body = 0xffffffffU;
 
 void turn(std::array<std::uint32_t, 3>& triangle) { std::swap(triangle[1], triangle[2]); }
 
-/// Patches of triangles joined through two-sided edges, and which triangles disagree with their patch.
+/// Patches of triangles connected through edges with two triangles, and the triangles that disagree with
+/// their patch.
 struct Patches {
     std::vector<std::uint32_t> patch;  // of each triangle
     std::vector<bool> turned;          // of each triangle
@@ -56,7 +57,7 @@ Patches patches_of(const Triangles& triangles, const MeshEdges& edges) {
     return out;
 }
 
-/// What a patch adds to the net count of an edge where three or more triangles meet.
+/// Contribution of a patch to the net count of an edge where three or more triangles meet.
 struct Share {
     std::uint32_t patch, edge;
     std::int64_t amount;
@@ -88,7 +89,7 @@ std::vector<Share> shares_of(const Triangles& triangles, const MeshEdges& edges,
     return shares;
 }
 
-/// Patches to turn, small ones first, as long as that lessens the net boundary.
+/// Returns the patches to flip: small ones first, as long as this reduces the net boundary.
 std::vector<bool> patches_to_turn(const Triangles& triangles, const MeshEdges& edges,
                                   const Patches& patches) {
     constexpr int max_rounds = 16;
@@ -149,7 +150,8 @@ BodyVolumes body_volumes(const TriangleMesh& mesh, const MeshEdges& edges) {
     out.body = edges.bodies(count);
     out.volume.assign(count, 0.0);
     out.area.assign(count, 0.0);
-    // Volumes are taken about a corner of each body: far from its body, the sum would lose its digits.
+    // Volumes are computed relative to a corner of each body: with a distant origin the sum would lose its
+    // digits.
     std::vector<std::uint32_t> origin(count, no_body);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
@@ -167,7 +169,7 @@ BodyVolumes body_volumes(const TriangleMesh& mesh, const MeshEdges& edges) {
 
 namespace {
 
-/// A point just inside each body, beneath its largest triangle.
+/// Returns a point just inside each body, beneath its largest triangle.
 std::vector<dvec3> inner_points(const TriangleMesh& mesh, const BodyVolumes& bodies) {
     std::vector<dvec3> points(bodies.volume.size(), dvec3(0.0));
     std::vector<double> largest(bodies.volume.size(), -1.0);
@@ -197,7 +199,7 @@ std::size_t turn_bodies_outwards(TriangleMesh& mesh, BodyVolumes& bodies) {
     if (volume.size() == 1) {
         turned[0] = true;
     } else {
-        // What contains a body encloses more than it does, so it has been decided before.
+        // A body that contains another one encloses a greater volume, so it was decided earlier.
         std::vector<std::uint32_t> order(volume.size());
         std::iota(order.begin(), order.end(), 0U);
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

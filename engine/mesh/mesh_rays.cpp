@@ -1,14 +1,15 @@
-// Binning and the crossing test of vertical rays.
+// Binning and the intersection test of vertical rays.
 #include "engine/mesh/mesh_rays.h"
 
 namespace lamella {
 
 namespace {
 
-/// On which side of the line through a and b the point p lies; the same sign whichever end is named first.
+/// Positive if p lies left of the line from a to b, negative right of it.
 double side(dvec3 a, dvec3 b, dvec3 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-/// How often the edge from a to b passes p on its right side, upwards +1, downwards -1; half-open in y.
+/// Returns +1 if the edge from a to b passes upwards on the right (+x) of p, -1 if downwards, else 0;
+/// half-open in y.
 int passing(dvec3 a, dvec3 b, dvec3 p) {
     const bool up = a.y <= p.y && p.y < b.y;
     const bool down = b.y <= p.y && p.y < a.y;
@@ -20,7 +21,7 @@ int passing(dvec3 a, dvec3 b, dvec3 p) {
 }  // namespace
 
 MeshRays::MeshRays(const TriangleMesh& mesh) : mesh_(mesh), box_(mesh.bounds()) {
-    // A triangle stands in every bin that its box touches, so meshes of large triangles get fewer bins.
+    // A triangle is in every bin that its box touches, so meshes of large triangles get fewer bins.
     const std::size_t max_members = 16 * mesh.triangles.size() + 1024;
     while (bins_ * bins_ < mesh.triangles.size() && bins_ < 1024) bins_ *= 2;
     const auto members = [&] {

@@ -1,4 +1,4 @@
-// Which triangles of a mesh lie straight above a point.
+// MeshRays: finds the triangles of a mesh straight above a point.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace lamella {
 
-/// Counts a mesh's crossings with vertical rays. Triangles are binned over x and y; which ones a ray meets
-/// follows a half-open rule at edges and corners, so over a closed mesh the signs sum to its winding number.
+/// Counts a mesh's crossings with vertical rays. Triangles are binned over x and y. A half-open rule at edges
+/// and corners decides which ones a ray meets, so over a closed mesh the signs sum to its winding number.
 class MeshRays {
   public:
     explicit MeshRays(const TriangleMesh& mesh);
 
-    /// Calls visit(triangle, sign) for the triangles above p; +1 where the ray leaves through the outside.
+    /// Calls visit(triangle, sign) for the triangles above p; sign is +1 where the ray leaves the solid.
     template <class Visit>
     void each_above(dvec3 p, const Visit& visit) const {
         if (!box_.contains({p.x, p.y, box_.lo.z})) return;
@@ -47,7 +47,7 @@ class MeshRays {
     static constexpr double tiny = 1e-300;
     const TriangleMesh& mesh_;
     Box box_;
-    std::size_t bins_ = 1;  // along each of x and y
+    std::size_t bins_ = 1;  // along x, and along y
     std::vector<std::uint32_t> begin_, members_;
 };
 

@@ -1,4 +1,4 @@
-// The steps that make a mesh a closed chain, and what is said about them.
+// The repair steps that make a mesh a closed chain, and the notes about them.
 #include "engine/mesh/mesh_repair.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace lamella {
 
 namespace {
 
-/// Below these shares of the bounding box's diagonal (and its cube) there is nothing a printer could make.
+/// Smaller shares of the bounding box's diagonal (and its cube) cannot be printed.
 constexpr double min_volume = 1e-12;
 constexpr double min_sheet_thickness = 1e-5;
 
@@ -114,7 +114,7 @@ class Repair {
         TriangleMesh& mesh = out_.mesh;
         drop_sheets(bodies);
         if (triangles().empty() && !original.triangles.empty()) {
-            // Some modellers list every face twice, once for each side: then everything cancelled.
+            // Some modellers list every face twice, once for each side: then everything has cancelled.
             mesh = original;
             const DroppedDuplicates dropped = drop_duplicates(mesh, BackToBack::keep_one);
             if (dropped.cancelled * 4 >= original.triangles.size()) {
@@ -139,7 +139,7 @@ class Repair {
         const double diagonal = diagonal_of(mesh);
         if (triangles().size() < 4 || !(volume > min_volume * diagonal * diagonal * diagonal)) refuse();
         drop_unused_vertices(mesh);
-        // What was one at first still is: only whole bodies have been turned or left out.
+        // A manifold stays one: only whole bodies have been flipped or removed.
         out_.oriented_manifold =
             out_.caps == 0 &&
             (out_.oriented_manifold || MeshEdges(triangles(), vertex_count()).is_oriented_manifold());
@@ -155,7 +155,7 @@ class Repair {
         say(what + were(holes.wide + holes.hairlines) + how);
     }
 
-    /// Takes out the bodies that are flat: open sheets with their own backs as caps.
+    /// Removes flat bodies: open sheets that are capped by their own backs.
     void drop_sheets(BodyVolumes& bodies) {
         const double diagonal = diagonal_of(out_.mesh);
         const std::size_t first_cap = triangles().size() - out_.caps;
@@ -169,7 +169,7 @@ class Repair {
         std::vector<bool> is_sheet(bodies.volume.size(), false);
         std::size_t sheets = 0;
         for (std::size_t b = 0; b < is_sheet.size(); ++b) {
-            // Two triangles closed by themselves are a pair back to back.
+            // Two triangles that only close each other are a pair back to back.
             const bool flat = std::abs(bodies.volume[b]) <= min_sheet_thickness * diagonal * bodies.area[b];
             const bool mostly_caps = 4.0 * cap_area[b] >= bodies.area[b];
             const bool nothing = std::abs(bodies.volume[b]) <= 1e-15 * diagonal * bodies.area[b];

@@ -1,4 +1,4 @@
-// Crossings of each line with the section's segments, sorted, summed up to winding numbers.
+// Crossings of each line with the section's segments, sorted and summed to winding numbers.
 #include "engine/mesh/mesh_section.h"
 
 namespace lamella {
@@ -14,11 +14,12 @@ struct LineCrossing {
     Crossing crossing;
 };
 
-/// First line of the band at or after a position across (lines counted so that their positions rise).
+/// Returns the first line of the band at or after a position across (lines counted so that their positions
+/// rise).
 int first_line_from(const RowBand& band, double position, bool rising) {
     int lo = 0, hi = band.lines();
     const auto line = [&](int l) { return rising ? band.line(l) : band.line(band.lines() - 1 - l); };
-    // A guess from the pitch, then exact comparison with the very positions that the runs use.
+    // Starts from a guess by the pitch, then compares the exact positions that the runs use.
     const double guess = (position - line(0)) / std::abs(band.line_pitch());
     int l = static_cast<int>(std::min(std::max(guess, 0.0), static_cast<double>(hi)));
     while (l > lo && line(l - 1) >= position) --l;
@@ -37,7 +38,8 @@ void add_crossings(const SectionSegment& s, const RowBand& band, std::vector<Lin
     const auto line_of = [&](int l) { return rising ? l : band.lines() - 1 - l; };
     while (first < band.lines() && band.line(line_of(first)) <= low) ++first;
     while (last < band.lines() && band.line(line_of(last)) <= high) ++last;
-    // Rows are entered where the segment falls, columns where it rises: the solid is on its left.
+    // A row enters the solid where the segment falls, a column where it rises: the solid is on the segment's
+    // left.
     std::int32_t turn = (a > b) == (band.axis == Axis::x) ? 1 : -1;
     if (band.along_pitch < 0) turn = -turn;
     for (int l = first; l < last; ++l) {
@@ -61,7 +63,7 @@ MeshSection::MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32
 }
 
 void MeshSection::runs(const RowBand& band, RunRows& out) const {
-    // Segments outside the band count too: they wind round what lies in it.
+    // Segments beyond the ends of the band count too: they wind around the points in it.
     std::vector<std::uint32_t> items;
     boxes_.query(band, items);
     std::vector<LineCrossing> found;

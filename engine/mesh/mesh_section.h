@@ -1,4 +1,4 @@
-// The section of a closed mesh with a plane, as runs by winding number.
+// MeshSection: the section of a closed mesh with a plane, as runs by winding number.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 namespace lamella {
 
 /// The directed segments in which a closed chain of triangles meets a plane. A point is solid where the
-/// section's winding number round it is not 0, which is the mesh's winding number there: nested shells,
-/// overlaps and mended holes come out right.
+/// section's winding number around it is not 0. This equals the mesh's winding number there, so nested
+/// shells, overlaps and capped holes are handled correctly.
 class MeshSection {
   public:
-    /// triangles: at least all triangles that meet the plane at height z, mm.
+    /// `triangles`: all triangles that meet the plane at height z (mm), possibly more.
     MeshSection(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double z);
 
     void runs(const RowBand& band, RunRows& out) const;

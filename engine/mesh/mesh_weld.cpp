@@ -1,4 +1,4 @@
-// Border welding: a grid over the border vertices, and a union of those that lie within reach.
+// Border welding: a grid over the border vertices, and a union of vertices within reach of each other.
 #include "engine/mesh/mesh_weld.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace lamella {
 
 namespace {
 
-/// The border vertices, sorted by the cell of a cubic grid they lie in.
+/// The border vertices, sorted by their cell of a cubic grid.
 class VertexGrid {
   public:
     VertexGrid(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, double cell)
@@ -20,7 +20,8 @@ class VertexGrid {
         std::sort(entries_.begin(), entries_.end());
     }
 
-    /// Calls visit(v) for the vertices in the 27 cells round p; a bounded number of each three in a row.
+    /// Calls visit(v) for the vertices in the 27 cells around p; limits their number for each row of three
+    /// cells.
     template <class Visit>
     void around(dvec3 p, const Visit& visit) const {
         constexpr int max_per_row = 128;
@@ -48,7 +49,7 @@ class VertexGrid {
         return {static_cast<std::int64_t>(q.x), static_cast<std::int64_t>(q.y),
                 static_cast<std::int64_t>(q.z)};
     }
-    /// A million cells an axis fit 21 bits each; the smallest tolerance is a millionth of the diagonal.
+    /// A million cells per axis fit 21 bits each; the smallest tolerance is a millionth of the diagonal.
     static std::uint64_t key(const std::array<std::int64_t, 3>& c) {
         const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i + 1) & 0x1fffffU; };
         return part(c[0]) << 42U | part(c[1]) << 21U | part(c[2]);
@@ -86,7 +87,7 @@ Border border_of(const TriangleMesh& mesh, const MeshEdges& edges) {
     return border;
 }
 
-/// Which vertex each vertex becomes when border vertices closer than `tolerance` are joined.
+/// Returns the new vertex of each vertex after joining border vertices closer than `tolerance`.
 std::vector<std::uint32_t> joined(const TriangleMesh& mesh, const Border& border, double tolerance,
                                   bool keep_detail, BorderWeld& weld) {
     std::vector<std::uint32_t> root(mesh.vertices.size());
@@ -103,7 +104,8 @@ std::vector<std::uint32_t> joined(const TriangleMesh& mesh, const Border& border
         grid.around(mesh.vertices[v], [&](std::uint32_t other) {
             const std::uint32_t a = find(v);
             const std::uint32_t b = find(other);
-            // Measured between those that stay, so that a row of close corners cannot drift into one.
+            // Distances are measured between the surviving vertices, so that a row of close vertices cannot
+            // collapse into one.
             const double apart = length(mesh.vertices[b] - mesh.vertices[a]);
             if (a == b || apart > std::min(reach(v), reach(other))) return;
             root[std::max(a, b)] = std::min(a, b);

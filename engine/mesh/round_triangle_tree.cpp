@@ -32,7 +32,7 @@ RoundTriangleTree::Node RoundTriangleTree::leaf(std::uint32_t first, std::uint32
     return node;
 }
 
-/// The least of |p - x| - sign * r(x) over all points x of the mesh.
+/// Returns the minimum of |p - x| - sign * r(x) over all points x of the mesh; at most `best`.
 double RoundTriangleTree::nearest(dvec3 p, double sign, double best) const {
     const auto bound = [&](const Node& node) {
         return lamella::distance(node.box, p) - (sign > 0 ? node.radii.hi : -node.radii.lo);

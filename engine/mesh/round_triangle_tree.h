@@ -1,4 +1,5 @@
-// A bounding-volume tree over triangles with a radius at each vertex: the nearest ball of all.
+// RoundTriangleTree: bounding-volume tree over triangles with a radius at each vertex; finds the nearest
+// ball.
 #pragma once
 
 #include <span>
@@ -9,18 +10,18 @@
 
 namespace lamella {
 
-/// The least distance to the balls about the points of a mesh, whose radius is interpolated between the
-/// vertices.
+/// The least distance to the balls around the points of a mesh, with radii interpolated between the vertices.
 class RoundTriangleTree {
   public:
-    /// One radius a vertex, mm, >= 0; triangles whose radii are all 0 are left out. The mesh and the radii
+    /// One radius per vertex, mm, >= 0; triangles whose radii are all 0 are skipped. The mesh and the radii
     /// must outlive the tree.
     RoundTriangleTree(const TriangleMesh& mesh, std::span<const double> radii);
 
-    /// The signed distance to the union of the round triangles, mm: exact outside; inside, its magnitude
-    /// never exceeds the distance. Infinite without triangles.
+    /// Returns the signed distance to the union of the round triangles, mm: exact outside; inside, its
+    /// magnitude never exceeds the distance. Infinite if there are no triangles.
     double distance(dvec3 p) const { return nearest(p, 1, infinity); }
-    /// The least sum of the way from p to a point of the mesh and the radius there, mm; at most `limit`.
+    /// Returns the least sum of the distance from p to a point of the mesh and the radius there, mm; at most
+    /// `limit`.
     double min_detour(dvec3 p, double limit) const { return nearest(p, -1, limit); }
     const Box& bounds() const { return bounds_; }
 
@@ -42,7 +43,7 @@ class RoundTriangleTree {
     Box bounds_;
 };
 
-/// Triangle number `triangle` of a mesh with a radius at each vertex.
+/// Returns triangle number `triangle` of a mesh with a radius at each vertex.
 inline RoundTriangle round_triangle(const TriangleMesh& mesh, std::span<const double> radii,
                                     std::uint32_t triangle) {
     const auto& t = mesh.triangles[triangle];

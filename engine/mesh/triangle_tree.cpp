@@ -14,7 +14,7 @@ double squared_distance(const Box& box, dvec3 p) {
     return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-/// How far along the edge from a to b the point closest to p lies, 0 to 1.
+/// Returns the position along the edge from a to b, 0 to 1, of the point closest to p.
 double along_edge(dvec3 p, dvec3 a, dvec3 b) {
     const dvec3 e = b - a;
     const double length = squared_length(e);
@@ -26,7 +26,7 @@ double along_edge(dvec3 p, dvec3 a, dvec3 b) {
 SurfacePoint closest_point(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
     const dvec3 ab = b - a, bc = c - b, ca = a - c, n = glm::cross(ab, c - a);
     const double nn = glm::dot(n, n);
-    // Twice the area opposite to each corner, times the length of n, as seen along n.
+    // Twice the area opposite to each corner, times the length of n; signed by the direction of n.
     const dvec3 areas(glm::dot(glm::cross(bc, p - b), n), glm::dot(glm::cross(ca, p - c), n),
                       glm::dot(glm::cross(ab, p - a), n));
     SurfacePoint best;
@@ -104,8 +104,8 @@ bool TriangleTree::any_within(dvec3 p, double distance) const {
 }
 
 SurfacePoint TriangleTree::closest(dvec3 p) const {
-    // A box's distance may be rounded above that of a triangle within: without the slack, which of two
-    // equally close triangles is found would depend on the tree.
+    // A box's distance may be rounded above that of a triangle within it: without this margin, the tree would
+    // determine which of two equally close triangles is found.
     constexpr double slack = 1 - 1e-12;
     SurfacePoint best;
     const auto matters = [&](double bound) { return bound * slack <= best.distance * best.distance; };
@@ -161,7 +161,7 @@ bool section_segment(const TriangleMesh& mesh, std::uint32_t triangle, double z,
     for (int e = 0; e < 3; ++e) {
         const int f = (e + 1) % 3;
         if (above[e] == above[f]) continue;
-        // Seen from outside, the surface is crossed downwards on the left and upwards on the right.
+        // Seen from outside, the surface crosses the plane downwards on the left and upwards on the right.
         (above[e] ? out.from : out.to) =
             edge_crossing(mesh, t[static_cast<std::size_t>(e)], t[static_cast<std::size_t>(f)], z);
     }

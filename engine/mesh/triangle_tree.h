@@ -1,19 +1,19 @@
-// A bounding-volume tree over triangles: distance, closest point and winding number.
+// TriangleTree: bounding-volume tree over triangles, for distance, closest point and winding number.
 #pragma once
 
 #include "engine/mesh/mesh.h"
 
 namespace lamella {
 
-/// Where a surface is closest to a point.
+/// The point of a surface that is closest to a query point.
 struct SurfacePoint {
     double distance = infinity;  ///< mm
     std::uint32_t triangle = 0;
-    dvec3 weights{0.0};  ///< of the triangle's corners: barycentric, 0 to 1, adding up to 1
+    dvec3 weights{0.0};  ///< barycentric coordinates in the triangle, 0 to 1, with sum 1
 };
 
-/// The point of a triangle that is closest to p (Ericson 2005, Real-time collision detection, section 5.1.5).
-/// A triangle without area counts as its longest edge. `triangle` is left 0.
+/// Returns the point of a triangle that is closest to p (Ericson 2005, Real-time collision detection, section
+/// 5.1.5). A triangle without area counts as its longest edge. `triangle` stays 0.
 SurfacePoint closest_point(dvec3 p, dvec3 a, dvec3 b, dvec3 c);
 
 class TriangleTree {
@@ -29,18 +29,18 @@ class TriangleTree {
     /// The mesh must outlive the tree.
     explicit TriangleTree(const TriangleMesh& mesh);
 
-    /// Distance from p to the nearest triangle, mm; gives up and returns `limit` when it is at least that.
+    /// Returns the distance from p to the nearest triangle, mm, or `limit` if it is at least that.
     double distance(dvec3 p, double limit = infinity) const;
-    /// Whether a triangle is nearer to p than `distance`, mm.
+    /// Returns true if a triangle is nearer to p than `distance`, mm.
     bool any_within(dvec3 p, double distance) const;
-    /// Winding number of p, by signed crossings of the line towards -x with the same half-open rules as the
-    /// mesh's sections. Meaningful for closed chains of triangles.
+    /// Returns the winding number of p, from signed crossings of the ray towards -x with the same half-open
+    /// rules as the mesh's sections. Meaningful for closed chains of triangles.
     int winding(dvec3 p) const;
 
-    /// The closest point of all triangles; of equally close ones that of the lowest triangle.
+    /// Returns the closest point of all triangles; of equally close ones, that of the lowest triangle.
     SurfacePoint closest(dvec3 p) const;
 
-    /// Nodes with the root first, children behind their parents; empty for a mesh without triangles.
+    /// Returns the nodes, the root first, children behind their parents; empty for a mesh without triangles.
     const std::vector<Node>& nodes() const { return nodes_; }
     const std::vector<std::uint32_t>& order() const { return order_; }
 
@@ -52,8 +52,8 @@ class TriangleTree {
     std::vector<Node> nodes_;
 };
 
-/// Where the edge between two vertices crosses the plane at height z; the same bits whichever way round it is
-/// given.
+/// Returns where the edge between two vertices crosses the plane at height z; the same bits whichever end is
+/// given first.
 inline dvec2 edge_crossing(const TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, double z) {
     const dvec3 a = mesh.vertices[std::min(u, v)], b = mesh.vertices[std::max(u, v)];
     const double t = (z - a.z) / (b.z - a.z);
@@ -66,12 +66,12 @@ struct SectionSegment {
     dvec2 to;
 };
 
-/// The triangle's piece of the section at height z; false when it has none. A vertex on the plane counts as
-/// above it.
+/// Computes the triangle's piece of the section at height z; returns false when it has none. A vertex on the
+/// plane counts as above it.
 bool section_segment(const TriangleMesh& mesh, std::uint32_t triangle, double z, SectionSegment& out);
 
-/// Where the line at `across` crosses the segment, in the coordinates (along, across) of `along_axis` 0 or 1;
-/// the same bits for a segment and its reverse. The caller has checked that the ends lie on both sides.
+/// Returns where the line at `across` crosses the segment, in the coordinates (along, across) of `along_axis`
+/// 0 or 1; the same bits for a segment and its reverse. Precondition: the ends lie on both sides of the line.
 inline double line_crossing(const SectionSegment& s, int along_axis, double across) {
     const int across_axis = 1 - along_axis;
     const bool upward = s.from[across_axis] <= s.to[across_axis];

@@ -13,7 +13,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 constexpr std::size_t min_area_limit = 32;      // cubic time: 5 microseconds a corner at this size
 constexpr std::size_t containment_limit = 512;  // quadratic time: longer loops are first shortened
 
-/// Area plus a small penalty for needles, so that among equal areas the well-shaped ones win.
+/// Returns the area plus a small penalty for needles, so that well-shaped triangles win among equal areas.
 double cost(dvec3 a, dvec3 b, dvec3 c) {
     const dvec3 cross = glm::cross(b - a, c - a);
     const double area = 0.5 * std::sqrt(squared_length(cross));
@@ -54,7 +54,7 @@ void min_area(std::span<const dvec3> p, Triangles& out) {
     }
 }
 
-/// The loop seen along its mean normal (Newell 1972), counter-clockwise.
+/// Projects the loop along its mean normal (Newell 1972), so that it is counter-clockwise.
 std::vector<dvec2> flattened(std::span<const dvec3> p) {
     dvec3 normal(0.0);
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -75,7 +75,7 @@ std::vector<dvec2> flattened(std::span<const dvec3> p) {
 
 double turn(dvec2 a, dvec2 b, dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Cuts ears off a ring of corners until three are left.
+/// Clips ears off a ring of corners until three are left.
 class EarClipper {
   public:
     EarClipper(std::span<const dvec3> loop, Triangles& out)
@@ -94,8 +94,9 @@ class EarClipper {
         bool forced = false;
         while (left_ > 3) {
             if (ears_.empty()) {
-                // Every ear left is reflex or holds another corner. Cutting made room for some; a loop that
-                // crosses itself never gets any, and then the shortest diagonal has to do.
+                // No ear is clear: each is reflex or contains another corner. If ears have been cut since,
+                // new ones may be clear now. A loop that crosses itself never gets any; then the shortest
+                // diagonal is cut regardless.
                 forced = ++refills > longest_patience || !cut_since_refill_;
                 refill();
             }
@@ -138,8 +139,8 @@ class EarClipper {
         return turn(flat_[before_[corner]], flat_[corner], flat_[after_[corner]]) <= 0.0;
     }
 
-    /// Convex, and no other corner in the ear. Long loops are not tested: their first, shortest ears are
-    /// local, and testing each against all corners would be quadratic.
+    /// Returns true if the corner is convex and no other corner lies in the ear. Long loops are not tested:
+    /// their first, shortest ears are local, and testing each against all corners would be quadratic.
     bool is_clear(std::uint32_t corner) const {
         if (left_ > containment_limit) return true;
         if (is_reflex(corner)) return false;

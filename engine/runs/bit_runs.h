@@ -1,4 +1,4 @@
-// Runs of set bits in a word.
+// Iteration over the runs of set bits in a word.
 #pragma once
 
 #include <bit>
@@ -6,7 +6,7 @@
 
 namespace lamella {
 
-/// Calls take(begin, end) for each run of set bits, from the lowest on; end is 64 where the highest is set.
+/// Calls take(begin, end) for each run of set bits, from the lowest; end is 64 when the highest bit is set.
 template <typename Take>
 void for_bit_runs(std::uint64_t word, Take take) {
     constexpr int bits = 64;

@@ -1,4 +1,4 @@
-// Bins over the intervals; within a bin, items by their rank.
+// Uniform bins over the intervals; each bin lists its items by rank.
 #include "engine/runs/interval_index.h"
 
 #include <bit>
@@ -21,7 +21,7 @@ IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::
     std::sort(order.begin(), order.end());
     item_.reserve(order.size());
     for (const auto& [key, item] : order) item_.push_back(item);
-    // Bins about as wide as the items: each item then stands in two of them or so.
+    // Bins are about as wide as the mean item, so that each item lies in about two of them.
     constexpr double max_bins = 4096;
     const double mean = total / static_cast<double>(item_.size());
     const double wanted = mean > 0 ? std::min(extent_.width() / mean, max_bins) : 1;
@@ -52,8 +52,8 @@ std::size_t IntervalIndex::bin_of(double v) const {
 void IntervalIndex::query(const Interval& interval, std::vector<std::uint32_t>& items) const {
     items.clear();
     if (bins_ == 0 || interval.hi < extent_.lo || extent_.hi < interval.lo) return;
-    // A bit for each rank sorts them, and finds once what stands in several bins. Which ones meet is hard to
-    // foretell, so no branch depends on it.
+    // A bit set over the ranks sorts the items and removes duplicates from several bins. Whether an item
+    // intersects is hard to predict, so no branch depends on it.
     constexpr std::uint32_t word_bits = 64;
     std::vector<std::uint64_t> met((intervals_.size() + word_bits - 1) / word_bits, 0);
     const std::size_t first = bin_of(interval.lo), last = bin_of(interval.hi);

@@ -1,5 +1,4 @@
-// An index of things by an interval they occupy: beams across the lines of a layer, triangles over the
-// height.
+// Index of items by the interval they occupy: beams across the lines of a layer, triangles over the height.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +8,16 @@
 
 namespace lamella {
 
-/// Finds the items whose interval meets another. Items come back sorted by a key; with the position along the
-/// lines as the key, runs made from them are nearly sorted already.
+/// Finds the items whose interval intersects a query interval, sorted by a key. With the position along the
+/// lines as the key, the runs made from the items are nearly sorted already.
 class IntervalIndex {
   public:
     IntervalIndex() = default;
-    /// intervals: one an item (empty ones are never found); keys: what the items are sorted by.
+    /// `intervals`: one per item (items with empty ones are never found); `keys`: the sort key of each item.
     IntervalIndex(const std::vector<Interval>& intervals, const std::vector<double>& keys);
 
-    /// Replaces `items` by the numbers of the items whose interval meets this one, in ascending order of
-    /// their keys.
+    /// Replaces `items` by the numbers of the items whose interval intersects this one, in ascending order of
+    /// key.
     void query(const Interval& interval, std::vector<std::uint32_t>& items) const;
 
   private:
@@ -27,7 +26,7 @@ class IntervalIndex {
     Interval extent_;
     double bins_per_mm_ = 0;
     std::size_t bins_ = 0;
-    std::vector<Interval> intervals_;    ///< by rank
+    std::vector<Interval> intervals_;    ///< by rank, that is in order of the keys
     std::vector<std::uint32_t> item_;    ///< item number of each rank
     std::vector<std::uint32_t> starts_;  ///< first entry of each bin, bins + 1 of them
     std::vector<std::uint32_t> ranks_;   ///< the ranks of each bin, ascending

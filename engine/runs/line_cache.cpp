@@ -1,4 +1,4 @@
-// Lines picked by their numbers.
+// Selects lines by their numbers.
 #include "engine/runs/line_cache.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-/// Whether a number means the same line in both, and what lies along it is told in the same way.
+/// Returns true if line numbers and run coordinates mean the same in both bands.
 bool count_alike(const RowBand& a, const RowBand& b) {
     return a.axis == b.axis && a.sub == b.sub && a.along_origin == b.along_origin &&
            a.along_pitch == b.along_pitch && a.across_origin == b.across_origin &&

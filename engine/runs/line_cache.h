@@ -5,19 +5,19 @@
 
 namespace lamella {
 
-/// Keeps some lines of a solid as bands of them are asked for, from the first row on.
+/// Keeps selected lines of a solid while bands of lines stream by in order, from the first row on.
 class LineCache {
   public:
-    /// The lines of `wanted`, which may have a step.
+    /// Keeps the lines of `wanted`, which may have a step.
     explicit LineCache(const RowBand& wanted) : wanted_(wanted) {}
 
     const RowBand& wanted() const { return wanted_; }
-    /// A band and its rows. It follows those that were added before, and what lies between them is empty.
-    /// Without effect where its lines are none of the wanted band's.
+    /// Adds a band and its runs. Bands come in order; lines between them are empty. Has no effect when the
+    /// band's line numbering differs from that of the wanted band.
     void add(const RowBand& band, const RunRows& rows);
-    /// There is nothing behind the bands that were added, which were all like this one.
+    /// Ends the stream: no band follows. `band` is any of the bands added; they all share its line numbering.
     void finish(const RowBand& band);
-    /// All of the lines wanted; null until they are known.
+    /// Returns all wanted lines; null until finish() was called.
     const RunRows* rows() const { return finished_ ? &rows_ : nullptr; }
 
   private:

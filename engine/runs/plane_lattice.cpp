@@ -1,4 +1,4 @@
-// Numbers of lines, and of pixels along them.
+// Line and pixel ranges of the lattice.
 #include "engine/runs/plane_lattice.h"
 
 #include <algorithm>

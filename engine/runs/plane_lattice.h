@@ -1,4 +1,4 @@
-// Lines that stand fixed in the plane, so that what is found on them is the same from wherever it is asked.
+// Sampling lines at fixed places in the plane, so that a result does not depend on the rectangle asked for.
 #pragma once
 
 #include "engine/base/geometry.h"
@@ -6,9 +6,9 @@
 
 namespace lamella {
 
-/// The lines along an axis that meet a rectangle, and their pixels in it. They stand on multiples of the
-/// pitch (mm) plus an odd fraction, so that borders at round coordinates do not run along them. Throws
-/// InputError where there would be too many of them from the origin on, as where the rectangle has no end.
+/// Returns the lines along an axis that meet a rectangle, and their pixels in it. They lie at multiples of
+/// the pitch (mm) plus an odd fraction, so that borders at round coordinates do not run along them. Throws
+/// InputError when the rectangle reaches more than 2^20 pitches from the origin or is unbounded.
 RowBand plane_lattice(Axis axis, const Rect& rect, double pitch);
 
 }  // namespace lamella

@@ -49,7 +49,7 @@ void subtract_line(std::span<const Run> a, std::span<const Run> b, RunRows& out)
 
 namespace {
 
-/// The first line from `l` on where both have runs, or behind the last one.
+/// Returns the first line from `l` on where both have runs; the number of lines when there is none.
 std::size_t line_with_both(const RunRows& a, const RunRows& b, std::size_t l) {
     for (const std::size_t lines = a.lines();;) {
         const std::size_t of_a = a.line_with_runs(l);
@@ -61,7 +61,7 @@ std::size_t line_with_both(const RunRows& a, const RunRows& b, std::size_t l) {
 
 }  // namespace
 
-// Where few lines hold anything that the others meet, all others are passed or copied many at once.
+// Often only few lines have runs in both operands. All others are skipped or copied in bulk.
 
 void unite(const RunRows& a, const RunRows& b, RunRows& out) {
     const bool a_has_more = a.runs().size() >= b.runs().size();

@@ -1,4 +1,4 @@
-// Set operations on the rows of a layer that return their result, for where no buffer is at hand.
+// Set operations on the runs of a layer that return their result, for callers without a buffer.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace lamella {
 
-/// One line of the operation, appended.
+/// Appends the result of the operation for one line.
 void unite_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
 void intersect_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
 void subtract_line(std::span<const Run> a, std::span<const Run> b, RunRows& out);
 
-/// The operands have equally many lines.
+/// Return the result of the operation line by line; the operands have equally many lines.
 inline RunRows united(const RunRows& a, const RunRows& b) {
     RunRows out;
     unite(a, b, out);
@@ -28,7 +28,8 @@ inline RunRows without(const RunRows& a, const RunRows& b) {
     subtract(a, b, out);
     return out;
 }
-/// What [begin, end) has on each line besides the rows, which lie in it.
+/// Returns, for each line, the part of [begin, end) that `rows` leaves; all runs of `rows` lie in [begin,
+/// end).
 inline RunRows complement(const RunRows& rows, std::int32_t begin, std::int32_t end) {
     RunRows out;
     out.reserve(rows.lines(), rows.lines() + rows.runs().size());
@@ -43,7 +44,7 @@ inline RunRows complement(const RunRows& rows, std::int32_t begin, std::int32_t 
     }
     return out;
 }
-/// From the first begin to the last end of a run of any line.
+/// Returns the interval from the first begin to the last end of any line's runs; {0, 0} when there are none.
 inline Run extent_of(const RunRows& rows) {
     Run extent{0, 0};
     for (std::size_t l = 0; l < rows.lines(); ++l) {
@@ -54,7 +55,7 @@ inline Run extent_of(const RunRows& rows) {
     }
     return extent;
 }
-/// Rows without a run.
+/// Returns rows without a run.
 inline RunRows empty_rows(std::size_t lines) {
     RunRows out;
     out.end_lines(lines);

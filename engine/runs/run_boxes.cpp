@@ -1,4 +1,4 @@
-// Look-ups by layer and row.
+// Lookups by layer and row.
 #include "engine/runs/run_boxes.h"
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 namespace lamella {
 namespace {
 
-/// The cell of a regular division that holds the coordinate, saturating far outside.
+/// Returns the index of the cell of a regular division that holds the coordinate; saturates far outside.
 int cell_of(double v, double origin, double size) {
     constexpr double limit = 1 << 30;
     const double cell = std::floor((v - origin) / size);
     return cell > -limit ? static_cast<int>(std::min(cell, limit)) : -(1 << 30);
 }
 
-/// Distance from a coordinate to an interval, 0 inside.
+/// Returns the distance from a coordinate to an interval, 0 inside.
 double gap(double v, double lo, double hi) { return std::max(std::max(lo - v, v - hi), 0.0); }
 
 bool same_row(const PlacedRun& a, const PlacedRun& b) { return a.layer == b.layer && a.row == b.row; }

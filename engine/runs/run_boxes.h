@@ -1,4 +1,4 @@
-// RunBoxes: the plan of a survey that has found places, kept as boxes of runs by layer.
+// RunBoxes: regions found by a survey, stored as boxes of runs by layer.
 #pragma once
 
 #include <span>
@@ -9,38 +9,38 @@
 
 namespace lamella {
 
-/// Where the rows and layers of a survey lie. Row r covers y in [origin.y + r pitch, origin.y + (r + 1)
-/// pitch) and layer l covers z in [z0 + l h, z0 + (l + 1) h); each is looked at in its middle.
+/// Position of a survey's rows and layers. Row r covers y in [origin.y + r pitch, origin.y + (r + 1) pitch)
+/// and layer l covers z in [z0 + l h, z0 + (l + 1) h); the survey samples each at its centre.
 struct SurveyGrid {
     dvec2 origin{0};          ///< mm, where row 0 begins and run coordinate 0 lies
     double pitch = 0.1;       ///< mm from row to row; a run unit is 1/256 of it
     double z0 = 0;            ///< mm
     double layer_height = 0;  ///< h, mm
 
-    /// The box of a run, mm.
+    /// Returns the box of a run, mm.
     Box box(const PlacedRun& run) const;
 };
 
-/// Boxes, layer by layer, to be taken from a solid or to be one (box_solid.h). Immutable and thread-safe.
+/// Set of boxes by layer, used as a solid (box_solid.h) or subtracted from one. Immutable and thread-safe.
 /// Memory: sixteen bytes a run.
 class RunBoxes {
   public:
-    /// The runs in any order; they may overlap.
+    /// The runs come in any order; they may overlap.
     RunBoxes(const SurveyGrid& grid, std::vector<PlacedRun> runs);
 
     const SurveyGrid& grid() const { return grid_; }
     bool empty() const { return runs_.empty(); }
-    /// All runs, by layer, row and begin; disjoint, not touching within a row.
+    /// Returns all runs, by layer, row and begin; disjoint, not touching within a row.
     std::span<const PlacedRun> runs() const { return runs_; }
-    /// The runs of the layer that holds height z.
+    /// Returns the runs of the layer that holds height z.
     std::span<const PlacedRun> at(double z) const;
-    /// The run whose box holds the point; null when there is none.
+    /// Returns the run whose box holds the point; null when there is none.
     const PlacedRun* find(dvec3 p) const;
-    /// The lesser of `limit` and the distance from the point to the nearest box, mm.
+    /// Returns the distance from the point to the nearest box, at most `limit`, mm.
     double distance_within(dvec3 p, double limit) const;
-    /// Encloses all boxes, mm; empty when there are none.
+    /// Returns the bounding box of all boxes, mm; empty when there are none.
     const Box& bounds() const { return bounds_; }
-    /// Whether some box meets this one.
+    /// Returns true if any of the boxes meets this one.
     bool meets(const Box& box) const;
 
     friend bool operator==(const RunBoxes& a, const RunBoxes& b) { return a.runs_ == b.runs_; }
@@ -53,8 +53,8 @@ class RunBoxes {
     SurveyGrid grid_;
     std::vector<PlacedRun> runs_;
     int first_layer_ = 0;
-    std::vector<std::size_t> starts_;  ///< of each layer from first_layer_ on, one more than there are
-    std::vector<Rect> rects_;          ///< encloses the runs of each layer
+    std::vector<std::size_t> starts_;  ///< of each layer from first_layer_ on, plus the end of the last
+    std::vector<Rect> rects_;          ///< bounding rectangle of each layer's runs
     Box bounds_;
 };
 

@@ -1,4 +1,4 @@
-// A scatter to lines, a sort within each line, then one joining pass.
+// Scatters the runs to their lines, sorts each line, then joins overlaps in one pass.
 #include "engine/runs/run_collector.h"
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 namespace lamella {
 namespace {
 
-/// Sorts runs by their begin. They mostly come nearly sorted, which insertion makes the best of; when it has
-/// to move too much (several sorted sequences one after the other), the general sort takes over.
+/// Sorts runs by their begin. Insertion sort, because they mostly come nearly sorted; when it has to move too
+/// much (several sorted sequences in a row), std::sort takes over.
 void sort_by_begin(Run* first, Run* last) {
     std::ptrdiff_t moves_left = 8 * (last - first);
     for (Run* r = first; r != last; ++r) {
@@ -24,9 +24,9 @@ void sort_by_begin(Run* first, Run* last) {
     }
 }
 
-/// Joins sorted runs that overlap or touch, in place, and clips them to [lo, hi). Where they overlap is hard
-/// to foretell, so no branch depends on it: a run grows while they do, and is written each time, though that
-/// counts only when the next one begins behind it.
+/// Joins sorted runs that overlap or touch, in place, and clips them to [lo, hi). Overlaps are hard to
+/// predict, so no branch depends on them: the current run is written at every step, and kept only when the
+/// next one begins behind it.
 std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::int32_t hi) {
     if (runs.empty()) return {};
     const auto clipped = [&](const Run& run) {
@@ -42,14 +42,14 @@ std::span<const Run> join_and_clip(std::span<Run> runs, std::int32_t lo, std::in
         joined = {apart ? begin : joined.begin, std::max(joined.end, end)};
     }
     *next++ = joined;
-    // What lies outside has become empty, at one end or the other.
+    // Runs outside [lo, hi) have become one empty run at either end.
     const Run *first = runs.data(), *last = next;
     if (first->begin == first->end) ++first;
     if (first < last && last[-1].begin == last[-1].end) --last;
     return {first, last};
 }
 
-/// What stands before the runs of each line, so that the first of them finds a last one, too.
+/// Sentinel before the runs of each line: no run joins it.
 constexpr Run joins_nothing{std::numeric_limits<std::int32_t>::max(),
                             std::numeric_limits<std::int32_t>::min()};
 
@@ -74,9 +74,9 @@ RunCollector::Segment RunCollector::add(int first, int count) {
 void RunCollector::merge(const RowBand& band, RunRows& out) {
     const auto lines = static_cast<std::size_t>(band.lines());
     make_room(lines);
-    // Scatter the runs to their lines. Things that follow each other are mostly neighbours whose runs
-    // overlap, and join right here; whether they do is hard to foretell, so no branch depends on it. Misses
-    // are written too, and overwritten by the next run.
+    // Scatter the runs to their lines. Objects in sequence are mostly neighbours whose runs overlap; these
+    // are joined right here. Whether they overlap is hard to predict, so no branch depends on it. Misses are
+    // written too, and overwritten by the next run.
     std::size_t k = 0;
     for (const Piece& piece : pieces_) {
         std::uint32_t* const next = next_.data() + piece.first;
@@ -99,10 +99,11 @@ void RunCollector::merge(const RowBand& band, RunRows& out) {
     }
 }
 
-/// Gives each line as much room in runs_ as pieces touch it, behind a run that nothing joins, and one run of
-/// slack at the end of all.
+/// Allocates runs_: each line gets a sentinel and then as many runs as pieces cover it, with one spare run at
+/// the very end.
 void RunCollector::make_room(std::size_t lines) {
-    // The pieces that open minus those that close at each line, then their sum, then the sum of the sums.
+    // The number of pieces that begin minus those that end at each line, then its prefix sum, then the sum of
+    // that.
     starts_.assign(lines + 1, 0);
     for (const Piece& piece : pieces_) {
         const auto first = static_cast<std::size_t>(piece.first),

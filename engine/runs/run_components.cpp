@@ -11,7 +11,7 @@ namespace {
 
 bool begins_first(const LabelledRun& a, const LabelledRun& b) { return a.begin < b.begin; }
 
-/// Appends the union of the grown runs of lines [first, last] as one row, each run a component of its own.
+/// Appends the union of the dilated runs of lines [first, last] as one row, each run a component of its own.
 void append_grown_row(const RunRows& lines, int first, int last, std::int32_t units,
                       std::vector<LabelledRun>& row, LabelledLayer& out) {
     row.clear();
@@ -33,10 +33,10 @@ void append_grown_row(const RunRows& lines, int first, int last, std::int32_t un
     out.starts.push_back(static_cast<std::uint32_t>(out.runs.size()));
 }
 
-/// Numbers the parts that a layer's runs belong to, run by run.
+/// Provisional labels of a layer's runs, assigned row by row.
 class PartNumbers {
   public:
-    /// The number of the next run: that of what it touches in the row before, or a new one.
+    /// Returns the label of the next run: that of the first run it touches in the previous row, or a new one.
     std::uint32_t next(std::int32_t begin, std::int32_t end) {
         const LabelledRun* const before_end = before_.data() + before_.size();
         while (first_ != before_end && first_->end < begin) ++first_;
@@ -47,7 +47,7 @@ class PartNumbers {
         }
         return number;
     }
-    /// What comes next is another row, above that one.
+    /// Starts a row; `before` is the previous one.
     void begin_row(std::span<const LabelledRun> before) {
         before_ = before;
         first_ = before.data();
@@ -55,15 +55,15 @@ class PartNumbers {
     DisjointSets& sets() { return sets_; }
 
   private:
-    DisjointSets sets_;  // most runs take the number of one before them, which nothing else joins
+    DisjointSets sets_;  // most runs take the label of one before them, which nothing else joins
     std::span<const LabelledRun> before_;
-    const LabelledRun* first_ = nullptr;  // of those before, what no later run lies behind
+    const LabelledRun* first_ = nullptr;  // first run of before_ that a later run may still touch
 };
 
-/// How the components of a layer are numbered.
+/// Final numbers of a layer's components.
 struct Numbering {
-    std::vector<std::uint32_t> numbers;  ///< of each component's parts: the component, by appearance
-    std::uint32_t count = 0;             ///< components
+    std::vector<std::uint32_t> numbers;  ///< for each provisional label its component, by first appearance
+    std::uint32_t count = 0;             ///< number of components
 };
 
 Numbering numbering_of(DisjointSets& sets) {
@@ -81,7 +81,7 @@ std::span<const LabelledRun> row_before(const LabelledLayer& layer, std::size_t 
     return std::span(layer.runs).subspan(layer.starts[r - 1], layer.starts[r] - layer.starts[r - 1]);
 }
 
-/// Gives each run the number of a part of its component.
+/// Gives each run a provisional label and returns the final number of each label.
 Numbering number_parts(LabelledLayer& layer) {
     PartNumbers parts;
     for (std::size_t r = 0; r + 1 < layer.starts.size(); ++r) {
@@ -115,7 +115,7 @@ void LabelledLayer::serialize(Archive& parcel) {
 
 namespace {
 
-/// Without growth each run is its own.
+/// Labels without growth: each run stays as it is.
 LabelledLayer label_as_it_is(const RunRows& rows, int layer) {
     LabelledLayer out;
     out.starts.reserve(rows.lines() + 1);

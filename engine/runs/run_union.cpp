@@ -1,4 +1,4 @@
-// Cells from left to right.
+// Scans the cells from left to right.
 #include "engine/runs/run_union.h"
 
 #include <algorithm>

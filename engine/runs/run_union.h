@@ -10,16 +10,17 @@
 
 namespace lamella {
 
-/// Of all runs that begin in one cell of the line, a pixel long, and leave it, the union is one run: from the
-/// least begin to the greatest end. Runs within a cell are few, and kept apart.
+/// The runs that begin in one cell (a pixel) of the line and leave it overlap: their union is one run, from
+/// the least begin to the greatest end. Runs within one cell are few and stored separately.
 class RunUnion {
   public:
-    /// Runs are clipped to `extent`.
+    /// Runs added are clipped to `extent`.
     explicit RunUnion(Run extent);
 
     void add(std::int32_t begin, std::int32_t end) { cells().add(begin, end); }
 
-    /// The cells by themselves: for loops, which cannot know that runs do not change where cells lie.
+    /// View of the cells for inner loops, where a compiler cannot know that adding runs leaves the pointers
+    /// alone.
     class Cells {
       public:
         void add(std::int32_t begin, std::int32_t end) const {
@@ -51,7 +52,7 @@ class RunUnion {
     };
     Cells cells() { return {extent_, cells_.data(), used_.data(), &small_}; }
 
-    /// Appends the runs of the union, sorted, disjoint and not touching, and forgets them.
+    /// Appends the runs of the union, sorted, disjoint and not touching, and empties this object.
     void take(std::vector<Run>& out);
 
   private:
@@ -60,19 +61,20 @@ class RunUnion {
     std::vector<std::uint64_t> used_;  // a bit for each cell
 };
 
-/// Finds runs of a union by where they lie.
+/// Lookup of the runs of a union by position.
 class CoverTable {
   public:
     explicit CoverTable(Run extent);
-    /// `runs` of a union.
+    /// Indexes the `runs` of a union.
     void assign(std::span<const Run> runs);
-    /// Whether a run that lies in the extent is covered; it may say no where one begins in the cell of the
-    /// run's own begin.
+    /// Returns true only if the run, which lies in the extent, is covered. Conservative: may return false
+    /// when the covering run begins in the same cell as `run`.
     bool surely_covers(const Run& run) const {
         return until_[static_cast<std::uint32_t>(run.begin - extent_.begin) / run_unit] >= run.end;
     }
     Run clip(Run run) const { return {std::max(run.begin, extent_.begin), std::min(run.end, extent_.end)}; }
-    /// The first run that ends right of what lies in the extent; or the number of runs.
+    /// Returns the index of the first run that ends right of `at`, which lies in the extent; else the number
+    /// of runs.
     std::size_t first_run(std::int32_t at) const {
         std::size_t run = cells_[static_cast<std::uint32_t>(at - extent_.begin) / run_unit];
         while (run < ends_.size() && ends_[run] <= at) ++run;
@@ -81,8 +83,8 @@ class CoverTable {
 
   private:
     Run extent_;
-    std::vector<std::uint32_t> cells_;  // the first run that ends in the cell or behind it
-    std::vector<std::int32_t> until_;  // where the run ends that covers the cell's begin, or the least number
+    std::vector<std::uint32_t> cells_;  // index of the first run that ends in the cell or behind it
+    std::vector<std::int32_t> until_;   // end of the run that covers the cell's begin, or the least number
     std::vector<std::int32_t> ends_;
 };
 

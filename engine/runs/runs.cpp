@@ -1,4 +1,4 @@
-// Bands of lines, and runs copied, summed up and packed.
+// Geometry of bands; copying, summing and packing of runs.
 #include "engine/runs/runs.h"
 
 #include <algorithm>

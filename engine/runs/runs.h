@@ -27,11 +27,11 @@ struct Run {
 
 /// A set of parallel lines in a layer's plane: `count` pixel rows (or columns) of `sub` lines each.
 ///
-/// Run coordinate u lies at along_origin + u / 256 * along_pitch; sub-line k of row i lies at
-/// across_origin + (i + (k + 1/2) / sub) * across_pitch. Pitches may be negative (mirrored displays).
-/// Pixel (i, j) therefore covers run coordinates [256 j, 256 (j + 1)) of row i. Lines have numbers, counted
-/// from the first one of row 0; with a `step`, only those whose number is a multiple of it are in the band.
-/// A line gives the same runs in whichever band it is asked for.
+/// Run coordinate u lies at along_origin + u / 256 * along_pitch; sub-line k of row i lies at across_origin +
+/// (i + (k + 1/2) / sub) * across_pitch. Pitches may be negative (mirrored displays). Pixel (i, j) therefore
+/// covers run coordinates [256 j, 256 (j + 1)) of row i. Lines are numbered from the first line of row 0;
+/// with a `step`, the band holds only those whose number is a multiple of it. A line has the same runs in
+/// every band that holds it.
 struct RowBand {
     Axis axis = Axis::x;       ///< direction of the lines
     double along_origin = 0;   ///< mm, where run coordinate 0 lies
@@ -46,30 +46,31 @@ struct RowBand {
     int step = 1;  ///< from line to line
 
     int lines() const { return step == 1 ? count * sub : steps_before(first + count) - steps_before(first); }
-    /// The number of line `l` of the band (0 <= l < lines()).
+    /// Returns the number of line `l` of the band (0 <= l < lines()).
     int number(int l) const { return step == 1 ? first * sub + l : (steps_before(first) + l) * step; }
-    /// Its position, mm across.
+    /// Returns its position across the lines, mm.
     double line(int l) const {
         const int n = number(l), row = floor_quotient(n, sub);
         return across_origin + (row + (n - row * sub + 0.5) / sub) * across_pitch;
     }
-    /// From line to line, mm; of the sign of across_pitch.
+    /// Returns the distance from line to line, mm; with the sign of across_pitch.
     double line_pitch() const { return across_pitch / sub * step; }
-    /// Position of run coordinate u, mm along.
+    /// Returns the position of run coordinate u along the lines, mm.
     double along(double u) const { return along_origin + u * (along_pitch / run_unit); }
-    /// Run coordinate (not rounded) of a position along the lines, mm.
+    /// Returns the run coordinate (not rounded) of a position along the lines, mm.
     double coordinate(double p) const { return (p - along_origin) * (run_unit / along_pitch); }
-    /// The part of the plane that the band's rows cover, mm.
+    /// Returns the part of the plane that the band's rows cover, mm.
     Rect rect() const;
     friend bool operator==(const RowBand&, const RowBand&) = default;
 
   private:
     static int floor_quotient(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
-    /// The multiples of `step` from 0 on that are numbers of lines before a row, negative behind it.
+    /// Returns how many multiples of `step` from 0 on number lines before a row; negative for rows before row
+    /// 0.
     int steps_before(int row) const { return -floor_quotient(-row * sub, step); }
 };
 
-/// The point of the plane at run coordinate u, on the lower edge of row `row` (may be fractional).
+/// Returns the point of the plane at run coordinate u, on the lower edge of row `row` (may be fractional).
 inline dvec2 on_band(const RowBand& band, double u, double row) {
     const double along = band.along(u), across = band.across_origin + row * band.across_pitch;
     return band.axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
@@ -90,7 +91,7 @@ class RunRows {
         runs_.clear();
         starts_.assign(1, 0);
     }
-    /// Makes room for so many lines and runs in all.
+    /// Reserves memory for this many lines and runs in total.
     void reserve(std::size_t lines, std::size_t runs) {
         starts_.reserve(lines + 1);
         runs_.reserve(runs);
@@ -100,9 +101,9 @@ class RunRows {
         return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};
     }
     std::span<const Run> runs() const { return runs_; }
-    /// The first line from `l` on that has a run; lines() where there is none.
+    /// Returns the first line from `l` on that has a run; lines() when there is none.
     std::size_t line_with_runs(std::size_t l) const {
-        constexpr std::size_t stride = 16;  // many lines are passed at once
+        constexpr std::size_t stride = 16;  // skips many lines at once
         const std::size_t count = lines();
         const std::uint32_t begin = starts_[l];
         while (l + stride <= count && starts_[l + stride] == begin) l += stride;
@@ -110,8 +111,8 @@ class RunRows {
         return l;
     }
 
-    /// Adds a run to the line being built; runs come sorted by begin; one that meets the last is joined with
-    /// it.
+    /// Adds a run to the current line. Runs come sorted by begin; one that overlaps or touches the last is
+    /// joined with it. An empty run is ignored.
     void push(std::int32_t begin, std::int32_t end) {
         if (begin >= end) return;
         if (runs_.size() > starts_.back() && begin <= runs_.back().end) {
@@ -120,9 +121,9 @@ class RunRows {
             runs_.push_back({begin, end});
         }
     }
-    /// Ends the line being built.
+    /// Ends the current line.
     void end_line() { starts_.push_back(static_cast<std::uint32_t>(runs_.size())); }
-    /// Ends the line being built and adds empty ones behind it, `count` lines in all.
+    /// Ends the current line and appends empty ones, `count` lines in all.
     void end_lines(std::size_t count) {
         starts_.insert(starts_.end(), count, static_cast<std::uint32_t>(runs_.size()));
     }
@@ -133,9 +134,9 @@ class RunRows {
     /// Appends lines [first, first + count) of other rows.
     void append_lines(const RunRows& rows, std::size_t first, std::size_t count);
     void append_lines(const RunRows& rows) { append_lines(rows, 0, rows.lines()); }
-    /// Sum of the lengths of all runs, in run units.
+    /// Returns the sum of the lengths of all runs, in run units.
     std::int64_t total_length() const;
-    /// Packs or unpacks. Throws FaultError for what are no rows.
+    /// Packs or unpacks. Throws FaultError when the bytes are no rows.
     void serialize(Archive& parcel);
 
     friend bool operator==(const RunRows&, const RunRows&) = default;
@@ -145,7 +146,7 @@ class RunRows {
     std::vector<std::uint32_t> starts_;
 };
 
-/// Line-by-line set operations; `out` must be another object than the operands.
+/// Computes a set operation line by line; `out` must not be one of the operands.
 void unite(const RunRows& a, const RunRows& b, RunRows& out);
 void intersect(const RunRows& a, const RunRows& b, RunRows& out);
 void subtract(const RunRows& a, const RunRows& b, RunRows& out);

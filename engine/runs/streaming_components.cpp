@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-/// The components of a layer by themselves; of their patches nothing but how long they are.
+/// Returns the components of one layer; of their patches only the lengths are set.
 std::vector<StreamingComponent> of_layer(const LabelledLayer& layer, int index, const ComponentTags& tags) {
     std::vector<StreamingComponent> components(layer.components.size());
     for (std::size_t c = 0; c < components.size(); ++c) {
@@ -20,7 +20,7 @@ std::vector<StreamingComponent> of_layer(const LabelledLayer& layer, int index, 
     return components;
 }
 
-/// Which members do not belong to the set that most of them belong to.
+/// Returns a flag per element: 1 unless it belongs to the set with the most elements.
 std::vector<std::uint8_t> apart_from_most(DisjointSets& sets) {
     std::vector<std::uint32_t> members(sets.size(), 0);
     for (std::uint32_t c = 0; c < sets.size(); ++c) ++members[sets.find(c)];
@@ -82,7 +82,7 @@ void StreamingComponent::include(StreamingComponent other) {
     }
 }
 
-/// What of a layer's components is joined to those that live.
+/// Joins between a layer's components and the live components.
 class LayerJoins {
   public:
     LayerJoins(const LabelledLayer& layer, DisjointSets& sets)
@@ -90,7 +90,8 @@ class LayerJoins {
           old_count_(static_cast<std::uint32_t>(sets.size() - layer.components.size())),
           joined_last_(layer.components.size(), none) {}
 
-    /// Each run to the first one of that component which it touches. Most are joined to it already.
+    /// Joins each run to the first run of `component` that it touches. Skips runs that were joined to it
+    /// last.
     void join_to(std::uint32_t component, std::span<const LabelledRun> row,
                  std::span<const LabelledRun> older) {
         auto other = older.begin();
@@ -101,7 +102,7 @@ class LayerJoins {
             if (other->begin <= run.end) join(run, *other);
         }
     }
-    /// To all runs of other components than that.
+    /// Joins each run to all runs that it touches of components other than `component`.
     void join_to_others_than(std::uint32_t component, std::span<const LabelledRun> row,
                              std::span<const LabelledRun> older) {
         auto first = row.begin();
@@ -112,7 +113,7 @@ class LayerJoins {
         }
     }
     void join(const LabelledRun& run, const LabelledRun& older) {
-        std::uint32_t& last = joined_last_[run.component];  // most say the same again
+        std::uint32_t& last = joined_last_[run.component];  // most joins repeat the last one
         if (last == older.component) return;
         last = older.component;
         sets_.join(old_count_ + run.component, older.component);
@@ -126,7 +127,7 @@ class LayerJoins {
     std::vector<std::uint32_t> joined_last_;
 };
 
-/// Joins what touches: a layer's components, which follow those that live, and these.
+/// Joins the components that touch. In `sets` the layer's components follow the live ones.
 void StreamingComponents::join_touching(const LabelledLayer& layer, DisjointSets& sets) const {
     LayerJoins joins(layer, sets);
     const int first = layer.first_row, end = first + layer.rows();
@@ -135,7 +136,7 @@ void StreamingComponents::join_touching(const LabelledLayer& layer, DisjointSets
         if (older.has_main) joins.join_to(main_, layer.row(r), last_.row(r));
         if (older.has_others) joins.join_to_others_than(main_, layer.row(r), last_.row(r));
     }
-    // Rows beside each other matter where something is not yet joined to what all the rest is.
+    // Diagonal neighbours matter only where a component is not yet joined to the largest set.
     const std::vector<std::uint8_t> apart = apart_from_most(sets);
     const auto any_apart = [&](std::span<const LabelledRun> row, std::size_t from) {
         return std::ranges::any_of(row,
@@ -170,7 +171,7 @@ void StreamingComponents::add(LabelledLayer layer, int index, const ComponentTag
     const auto old_count = static_cast<std::uint32_t>(live_.size());
     DisjointSets sets(live_.size() + fresh.size());
     join_touching(layer, sets);
-    // The layer's own components first: the runs of one layer belong together before layers are compared.
+    // The layer's own components come first: runs of one layer are united before layers are compared.
     std::vector<StreamingComponent> joined(sets.size());
     std::vector<std::uint8_t> goes_on(sets.size(), 0);
     for (std::uint32_t c = 0; c < fresh.size(); ++c) {
@@ -204,7 +205,7 @@ void StreamingComponents::add(LabelledLayer layer, int index, const ComponentTag
         live_.push_back(std::move(joined[c]));
     }
     std::vector<std::uint32_t> places_of_fresh(fresh.size());
-    std::vector<LayerPatch*> patches(fresh.size());  // null: most layers are not the largest of what goes on
+    std::vector<LayerPatch*> patches(fresh.size());  // null unless this layer is the component's largest
     for (std::uint32_t c = 0; c < fresh.size(); ++c) {
         places_of_fresh[c] = places[sets.find(old_count + c)];
         LayerPatch& patch = live_[places_of_fresh[c]].largest;

@@ -1,4 +1,4 @@
-// Union-find whose records come and go.
+// Union-find whose records can be removed.
 #include "engine/runs/streaming_parts.h"
 
 namespace lamella {
@@ -48,7 +48,8 @@ const LabelledLayer& StreamingParts::add(LabelledLayer layer) {
         numbers[c] = find(numbers[c]);
         records_.at(numbers[c]).length += layer.components[c].length;
     }
-    // Of components that share a part, some were counted before another one joined it.
+    // A component may have taken its number before another component of this layer joined its part to an
+    // older one.
     for (std::uint32_t& number : numbers) number = find(number);
     for (LabelledRun& run : layer.runs) run.component = numbers[run.component];
     last_ = std::move(layer);

@@ -1,4 +1,4 @@
-// Parts of a solid whose layers stream by, under numbers that others may keep.
+// StreamingParts: connected parts of a solid whose layers stream by, with numbers that callers may keep.
 #pragma once
 
 #include <unordered_map>
@@ -8,26 +8,26 @@
 
 namespace lamella {
 
-/// Joins labelled layers to parts as RunComponents does without growth, and knows of each part no more than
-/// how large it is. Memory: the runs of one layer, and a record for each part until it is forgotten.
+/// Joins labelled layers into parts like RunComponents without growth, but knows only the size of each part.
+/// Memory: the runs of one layer, and a record for each part until it is forgotten.
 class StreamingParts {
   public:
-    /// Adds the next layer, labelled without growth; its components become numbers of parts.
+    /// Adds the next layer, labelled without growth, and returns it relabelled with part numbers.
     const LabelledLayer& add(LabelledLayer layer);
-    /// The number under which a part goes now.
+    /// Returns the current number of a part.
     std::uint32_t find(std::uint32_t number);
-    /// The length of all of a part's runs, in run units.
+    /// Returns the length of all of a part's runs, in run units.
     std::int64_t length(std::uint32_t number) { return records_.at(find(number)).length; }
 
-    /// Records at the moment.
+    /// Returns the number of records held.
     std::size_t size() const { return records_.size(); }
-    /// Forgets all numbers but those of the last layer and `used` ones.
+    /// Forgets all numbers except those of the last layer and the `used` ones.
     void forget_all_but(std::vector<std::uint32_t> used);
 
   private:
     struct Record {
         std::uint32_t parent;
-        std::int64_t length;  // of a part that goes by its own number
+        std::int64_t length;  // valid for a representative
     };
     void join(std::uint32_t a, std::uint32_t b);
 

@@ -1,10 +1,10 @@
-// Closed forms of the round cone: its distance, and its cut with a line.
+// Closed forms of the round cone: its distance, and its intersection with a line.
 #include "engine/solids/beam.h"
 
 namespace lamella {
 namespace {
 
-/// The beam in the frame of its axis: length, direction, and the half-angle of its cone. When one ball holds
+/// A beam in the frame of its axis: length, direction, and the half-angle of its cone. When one ball contains
 /// the other, the beam is that ball and the length is 0.
 struct RoundCone {
     dvec3 a, axis;
@@ -35,8 +35,8 @@ Interval cut_ball(dvec3 relative, dvec3 direction, double radius) {
     return {-b - root, -b + root};
 }
 
-/// The line's part inside the cone between the circles where the two balls touch it; p relative to the first
-/// ball.
+/// Returns the part of the line inside the cone between the circles where it touches the two balls; p is
+/// relative to the first ball.
 Interval cut_frustum(const RoundCone& cone, dvec3 p, dvec3 direction) {
     const double u = glm::dot(direction, cone.axis), q = glm::dot(p, cone.axis);
     const double lo = cone.ra * cone.sine, hi = lo + cone.length * cone.cosine * cone.cosine;
@@ -67,7 +67,8 @@ Interval cut_frustum(const RoundCone& cone, dvec3 p, dvec3 direction) {
         }
         return c <= 0 || disc < 0 ? slab : Interval{};
     }
-    // a < 0: the line is steeper than the cone and inside it on both outer sides; the slab holds one of them.
+    // a < 0: the line is steeper than the cone and inside it beyond both roots; the slab holds one of these
+    // parts.
     const double root = std::sqrt(disc);
     const double t0 = (-b + root) / a, t1 = (-b - root) / a;  // t0 < t1
     if (slab.lo <= t0) return {slab.lo, std::min(slab.hi, t0)};

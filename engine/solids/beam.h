@@ -1,4 +1,4 @@
-// A beam: the convex hull of two balls (a round cone). The atom of foams, frames and supports.
+// Beam: the convex hull of two balls (a round cone). Foams, frames and supports are made of beams.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,14 @@ struct Beam {
     friend bool operator==(const Beam&, const Beam&) = default;
 };
 
-/// Signed distance from p to the beam's surface, mm; exact.
+/// Returns the exact signed distance from p to the beam's surface, mm.
 double signed_distance(const Beam& beam, dvec3 p);
 
-/// The interval in which the line p + t * direction (direction of unit length) lies inside the beam.
+/// Returns the interval of t in which the line p + t * direction (direction of unit length) lies inside the
+/// beam.
 std::optional<Interval> cut(const Beam& beam, dvec3 p, dvec3 direction);
 
-/// The beam's bounding box, exact.
+/// Returns the beam's exact bounding box.
 inline Box bounds(const Beam& beam) {
     return {glm::min(beam.a - beam.ra, beam.b - beam.rb), glm::max(beam.a + beam.ra, beam.b + beam.rb)};
 }

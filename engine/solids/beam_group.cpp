@@ -1,5 +1,5 @@
-// Prepares beams for the row kernel, a lane each. Compiled for every SIMD target; the operations are those of
-// IEEE doubles in one order, so that every target gives the same bits.
+// Prepares beams for the row kernel, one per lane. Compiled for every SIMD target; all do the same IEEE
+// operations on doubles in the same order, so that every target gives the same bits.
 #include "engine/solids/beam_group.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,7 +12,7 @@
 #define LAMELLA_BEAM_GROUP_LIMITS
 namespace lamella {
 
-/// Below this value of cos^2 - ux^2 the line is nearly parallel to the beam and the kernel's quotient loses
+/// Below this value of cos^2 - ux^2 the line is nearly parallel to the beam, and the kernel's quotient loses
 /// digits.
 constexpr double min_beam_slope = 1e-4;
 /// Beams longer than this many radii lose digits in single precision.
@@ -34,7 +34,7 @@ HWY_INLINE void put(DoubleLanes v, float* to) {
     hn::StoreU(hn::DemoteTo(d, v), d, to);
 }
 
-/// Whole numbers, kept so small that they are integers.
+/// Stores integral values, small enough for 32 bits.
 HWY_INLINE void put(DoubleLanes v, std::int32_t* to) {
     const Doubles d;
     const hn::Rebind<std::int32_t, Doubles> di;
@@ -42,7 +42,8 @@ HWY_INLINE void put(DoubleLanes v, std::int32_t* to) {
     hn::StoreU(hn::DemoteTo(di, hn::Min(hn::Max(v, hn::Neg(limit)), limit)), di, to);
 }
 
-/// The middle of the part of the axis whose balls can meet the plane, as a parameter in [0, 1], twice.
+/// Returns twice the midpoint of the part of the axis whose balls can meet the plane, as a parameter in [0,
+/// 1].
 HWY_INLINE DoubleLanes twice_middle_near_plane(DoubleLanes a_z, DoubleLanes rise, DoubleLanes reach,
                                                DoubleLanes z) {
     const Doubles d;

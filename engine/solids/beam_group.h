@@ -1,4 +1,4 @@
-// A few beams at once, prepared for the row kernel.
+// BeamGroup: up to eight beams, prepared together by SIMD for the row kernel.
 #pragma once
 
 #include <array>
@@ -10,33 +10,33 @@
 
 namespace lamella {
 
-/// Beams as lines along a band's axis meet them. Lanes of doubles, mm; which lines they meet is added up from
-/// the band's first one.
+/// Beams that intersect the lines of a band, in coordinates along and across the lines (mm). Lanes of
+/// doubles.
 class BeamGroup {
   public:
     static constexpr std::size_t most = 8;
 
-    /// Of the plane at height z, mm.
+    /// Prepares beams for the plane at height z, mm.
     BeamGroup(const RowBand& band, double z) : band_(band), z_(z) {}
 
     std::size_t size() const { return size_; }
     bool full() const { return size_ == most; }
-    /// There must be room for one.
+    /// Adds a beam and the lines it meets; the group must not be full.
     void add(const Beam& beam, const LineRange& lines);
     void clear() { size_ = 0; }
 
-    /// Prepares all that were added; what follows is known only then.
+    /// Prepares all beams of the group. The functions below are valid only after this call.
     void prepare();
     const Beam& beam(std::size_t i) const { return *beams_[i]; }
     const LineRange& lines(std::size_t i) const { return lines_[i]; }
-    /// Whether single precision would not do for it.
+    /// Returns true if single precision is not accurate enough for this beam.
     bool needs_doubles(std::size_t i) const { return in_plane_.needs_doubles[i] != 0; }
     BeamInPlane in_plane(std::size_t i) const;
     LineFrame frame(std::size_t i) const;
 
     template <typename Number>
     using Lanes = std::array<Number, most>;
-    /// What is prepared, and from what: for the kernel.
+    /// Input and output of the kernel.
     struct Ends {
         Lanes<double> a_along, a_across, a_z, ra, b_along, b_across, b_z, rb, first_line;
     };
@@ -52,7 +52,7 @@ class BeamGroup {
     std::size_t size_ = 0;
     Lanes<const Beam*> beams_;
     Lanes<LineRange> lines_;
-    Ends ends_{};  // lanes without a beam are prepared too
+    Ends ends_{};  // unused lanes are prepared too
     InPlane in_plane_;
 };
 

@@ -1,4 +1,4 @@
-// Beams go through the row kernel, and through the exact path where single precision would not do.
+// Beams go through the row kernel, or through the exact path where single precision is too coarse.
 #include "engine/solids/beam_slice.h"
 
 #include "engine/field/slice_context.h"
@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-/// The part of the beam's axis whose balls can meet the plane, as a range of its parameter in [0, 1].
+/// Returns the part of the beam's axis whose balls can meet the plane, as a range of its parameter in [0, 1].
 Interval axis_near_plane(const Beam& beam, double z) {
     const double reach = std::max(beam.ra, beam.rb), dz = beam.b.z - beam.a.z;
     if (dz == 0) return std::abs(z - beam.a.z) <= reach ? Interval{0, 1} : Interval{};
@@ -15,8 +15,8 @@ Interval axis_near_plane(const Beam& beam, double z) {
     return {std::max(0.0, std::min(s0, s1)), std::min(1.0, std::max(s0, s1))};
 }
 
-/// Encloses the beam's section along one axis of the plane: the balls that meet the plane, and the ellipse in
-/// which the plane cuts the endless cylinder round all balls.
+/// Bounds the beam's section along one axis of the plane by two enclosures: the balls that meet the plane,
+/// and the ellipse in which the plane cuts the infinite cylinder around all balls.
 Interval extent(const Beam& beam, const Interval& part, double z, int axis) {
     const dvec3 d = beam.b - beam.a;
     const double reach = std::max(beam.ra, beam.rb);
@@ -25,7 +25,7 @@ Interval extent(const Beam& beam, const Interval& part, double z, int axis) {
     if (d.z == 0) return balls;
     const double slope = d[axis] / d.z;  // of the axis, over the height
     const double center = beam.a[axis] + (z - beam.a.z) * slope;
-    // With room for rounding: the ellipse of a beam that hardly climbs is wide, and of no use.
+    // A margin covers rounding: the ellipse of a nearly horizontal beam is wide and of no use anyway.
     const double half = reach * std::sqrt(1 + slope * slope) * (1 + 1e-6);
     return {std::max(balls.lo, center - half), std::min(balls.hi, center + half)};
 }
@@ -48,7 +48,7 @@ void collect_exactly(const Beam& beam, const RowBand& band, const LineRange& lin
     }
 }
 
-/// Adds the runs of a group's beams, and empties it.
+/// Adds the runs of a group's beams, and empties the group.
 void collect_group(BeamGroup& group, const RowBand& band, double z, RunCollector& runs) {
     group.prepare();
     for (std::size_t i = 0; i < group.size(); ++i) {

@@ -1,4 +1,4 @@
-// The slice of a set of beams: an index of the beams that meet the plane, and their runs in closed form.
+// Slice of a set of beams: an index of the beams that meet the plane, and their runs in closed form.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace lamella {
 
-/// The beams of one plane, indexed by bands of lines; shared by foams, frames, supports and grown meshes.
+/// The beams that meet one plane, indexed by the lines they cover. Used by foams, frames, supports and grown
+/// meshes.
 class BeamRows {
   public:
     BeamRows() = default;
@@ -19,9 +20,9 @@ class BeamRows {
 
     /// Adds the runs of all beams that meet the band.
     void collect(const RowBand& band, RunCollector& runs) const { collect(band, {0, band.lines()}, runs); }
-    /// The same on some of its lines only.
+    /// Adds them on some of the band's lines only.
     void collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const;
-    /// Encloses the beams' sections, mm.
+    /// Returns a rectangle that encloses the beams' sections, mm.
     Rect bounds() const { return sections_.bounds(); }
     std::size_t size() const { return beams_.size(); }
 
@@ -31,10 +32,10 @@ class BeamRows {
     PlaneIndex sections_;  ///< where each beam meets the plane
 };
 
-/// Spans of a field that is a union of beams; samples and ranges by the field itself.
+/// Slice of a union of beams. Runs come from the beams; samples and ranges from the field.
 class BeamSlice : public SampledSlice {
   public:
-    /// beams: at least all beams of the field that meet the plane.
+    /// `beams`: all beams of the field that meet the plane, possibly more.
     BeamSlice(const Field& field, const std::vector<Beam>& beams, double z)
         : SampledSlice(field, z), rows_(beams, z) {}
 

@@ -1,4 +1,4 @@
-// Runs of a layer's boxes, taken from a solid's runs or as they are.
+// Runs of a layer's boxes, by themselves or subtracted from a solid's runs.
 #include "engine/solids/box_solid.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace lamella {
 namespace {
 
-/// The lines of the band in an interval that owns its lower end only, whichever way lines are counted. Their
-/// places are compared themselves, so that a line's answer is the same in every band.
+/// Returns the lines of the band in the half-open interval [lo, hi), whichever way lines are counted.
+/// Compares the lines' own positions, so that the answer for a line is the same in every band.
 LineRange owned_lines(const RowBand& band, const Interval& across) {
     LineRange lines = lines_across(band, across);
     lines.first = std::max(0, lines.first - 1);
@@ -23,8 +23,8 @@ LineRange owned_lines(const RowBand& band, const Interval& across) {
     return lines;
 }
 
-/// The runs of the boxes at height z on the lines of the band. False, and `out` as it was, where there are
-/// none.
+/// Computes the runs of the boxes at height z on the lines of the band. Returns false, and leaves `out` as it
+/// was, when there are none.
 bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector& boxes, RunRows& out) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     const Rect rect = band.rect();
@@ -46,7 +46,8 @@ bool box_spans(const RunBoxes& plan, double z, const RowBand& band, RunCollector
     return any;
 }
 
-/// How far inside the box a point of it lies; above 0, for a box owns its lower faces.
+/// Returns the depth of a point in the box that holds it. Always positive, because a box owns its lower
+/// faces.
 double depth_in(const Box& box, dvec3 p) {
     const dvec3 depth = glm::min(p - box.lo, box.hi - p);
     const double inner = std::min(depth.x, std::min(depth.y, depth.z));
@@ -64,7 +65,7 @@ class WithoutBoxes : public Field {
     const SliceField& slice(SliceContext& context, double z) const override;
     Box bounds() const override { return solid_->bounds(); }
 
-    /// The value at p of the solid without the boxes, from that of the solid with them.
+    /// Returns the value at p of the solid without the boxes; v is that of the whole solid.
     double adjusted(dvec3 p, double v) const {
         if (const PlacedRun* run = boxes_->find(p)) {
             return std::max(v, depth_in(boxes_->grid().box(*run), p));
@@ -105,7 +106,8 @@ class WithoutBoxesSlice : public SampledSlice {
 Interval WithoutBoxes::range(const Box& box) const {
     Interval r = solid_->range(box);
     if (boxes_->empty()) return r;
-    // Inside a box the value is at most its half-height; near one, a solid point is no deeper than it is far.
+    // Inside a box the value is at most half its height; near a box, a solid point is no deeper than its
+    // distance.
     const double margin = boxes_->grid().pitch;
     if (boxes_->meets(box)) {
         r.hi = std::max(r.hi, boxes_->grid().layer_height / 2);

@@ -1,4 +1,4 @@
-// Solids less the boxes of a plan, and solids that are such boxes.
+// Solids without the boxes of a plan, and solids that consist of such boxes.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,12 @@
 
 namespace lamella {
 
-/// The solid less the boxes of a plan. Runs are merged exactly; the value is that of the difference where the
-/// solid's metric is exact or bound. Null arguments are an InputError.
+/// Returns the solid without the boxes of a plan. Runs are subtracted exactly; the value is that of the
+/// difference if the solid's metric is exact or bound. Throws InputError when an argument is null.
 FieldPtr make_without_boxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes);
 
-/// The boxes themselves. Runs are exact; outside, the value is the distance to the nearest box, inside at
-/// most that to the surface. Null is an InputError.
+/// Returns the union of the boxes. Runs are exact. Outside, the value is the distance to the nearest box;
+/// inside, its magnitude is at most the distance to the surface. Throws InputError when the argument is null.
 FieldPtr make_box_solid(std::shared_ptr<const RunBoxes> boxes);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Rounding of closed-form intervals to runs.
+// Rounds closed-form intervals to runs.
 #include "engine/solids/closed_slice.h"
 
 namespace lamella {

@@ -1,4 +1,4 @@
-// ClosedSlice: the slice of a shape whose cut with a line has a closed form.
+// ClosedSlice: slice of a shape whose intersection with a line has a closed form.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace lamella {
 
-/// Rounds intervals (mm, sorted, disjoint) of a line to runs clipped to the band and appends them as one
+/// Rounds the intervals (mm, sorted, disjoint) of a line to runs clipped to the band, and appends them as one
 /// line.
 void push_intervals(const RowBand& band, std::span<const Interval> intervals, RunRows& out);
 
-/// A point in the plane from its coordinates along and across the lines.
+/// Returns a point in the plane from its coordinates along and across the lines.
 inline dvec2 on_plane(Axis axis, double along, double across) {
     return axis == Axis::x ? dvec2(along, across) : dvec2(across, along);
 }
 
-/// Spans by `shape.cut(axis, across, z, intervals)`, which appends the solid intervals (mm along, sorted,
-/// disjoint) of the line at `across`; samples and ranges by the field itself.
+/// Runs come from `shape.cut(axis, across, z, intervals)`, which appends the solid intervals (mm along,
+/// sorted, disjoint) of the line at `across`; samples and ranges come from the field.
 template <typename Shape>
 class ClosedSlice : public SampledSlice {
   public:
@@ -39,7 +39,7 @@ class ClosedSlice : public SampledSlice {
     double z_;
 };
 
-/// A range for fields whose value changes by at most 1 per mm.
+/// Returns the range over a box of a field whose value changes by at most 1 per mm.
 Interval lipschitz_range(const Field& field, const Box& box);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Set operations: merged runs for spans, min and max for samples.
+// Set operations: runs are merged, samples are min and max.
 #include "engine/solids/csg.h"
 
 #include "engine/base/error.h"
@@ -16,7 +16,7 @@ void empty_rows(const RowBand& band, RunRows& out) {
     for (int l = 0; l < band.lines(); ++l) out.end_line();
 }
 
-/// The pixels of the band that hold all runs, so that later operands need not look elsewhere.
+/// Returns the band narrowed to the pixels that hold runs, so that later operands skip the rest.
 RowBand narrowed(const RowBand& band, const RunRows& rows) {
     std::int32_t lo = band.hi * run_unit, hi = band.lo * run_unit;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
@@ -31,7 +31,7 @@ RowBand narrowed(const RowBand& band, const RunRows& rows) {
     return part;
 }
 
-/// min for a union, max for an intersection.
+/// Returns the min of both ranges for a union, their max for an intersection.
 template <bool is_union>
 Interval merge(Interval a, Interval b) {
     if constexpr (is_union) return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
@@ -40,7 +40,7 @@ Interval merge(Interval a, Interval b) {
 
 template <bool is_union, typename Number>
 Number pick(Number a, Number b) {
-    // A value that is not a number is outside: it never wins a union and always wins an intersection.
+    // NaN counts as outside: it never wins a union and always wins an intersection.
     if constexpr (is_union) return b < a || std::isnan(a) ? b : a;
     return b > a || std::isnan(b) ? b : a;
 }
@@ -128,7 +128,7 @@ class SetField : public Field {
         return Metric::bound;
     }
     FieldPtr offset(double d) const override {
-        // Growing distributes over a union and shrinking over an intersection, not the other way round.
+        // Dilation distributes over a union and erosion over an intersection, not the other way round.
         if (is_union ? d < 0 : d > 0) return nullptr;
         std::vector<FieldPtr> moved;
         for (const FieldPtr& solid : solids_) {
@@ -237,8 +237,8 @@ class Shifted : public Field {
         const Interval r = solid_->range(box);
         return {r.lo - d_, r.hi - d_};
     }
-    // Outside a grown convex corner the shifted value is still the distance; inside a shrunk one it is only a
-    // bound.
+    // Outside a dilated convex corner the shifted value is still the distance; inside an eroded one it is
+    // only a bound.
     Metric metric() const override { return d_ >= 0 ? Metric::exact : Metric::bound; }
     Box bounds() const override { return grown(solid_->bounds(), std::max(d_, 0.0)); }
 

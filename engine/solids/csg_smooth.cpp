@@ -8,15 +8,15 @@
 namespace lamella {
 namespace {
 
-/// The smaller number, less up to a quarter of the radius where the two are less than the radius apart. A
-/// number that is NaN counts as the greater.
+/// Returns the smaller number, less up to a quarter of the radius if the two differ by less than the radius.
+/// NaN counts as the greater number.
 double smooth_min(double a, double b, double radius) {
     const double lowest = b < a || std::isnan(a) ? b : a;
     const double h = std::max(radius - std::abs(a - b), 0.0) / radius;
     return std::isnan(h) ? lowest : lowest - h * h * radius * 0.25;
 }
 
-/// Encloses smooth_min over two ranges: it rises with both arguments.
+/// Returns a range that encloses smooth_min over two ranges; smooth_min is monotonic in both arguments.
 Interval smooth_min(Interval a, Interval b, double radius) {
     if (b.lo - a.hi >= radius) return a;
     if (a.lo - b.hi >= radius) return b;
@@ -25,15 +25,16 @@ Interval smooth_min(Interval a, Interval b, double radius) {
     return {lo - rounding(lo), hi + rounding(hi)};
 }
 
-/// A convex mean of two gradients of length at most 1 is no longer.
+/// A convex mean of two gradients of length at most 1 is not longer than 1.
 Metric metric_of(const Field& a, const Field& b) {
     return a.metric() == Metric::sign || b.metric() == Metric::sign ? Metric::sign : Metric::bound;
 }
 
-/// What a smooth union has, or a smooth difference lacks, besides its operands' own runs: the smooth minimum
-/// of a value and a tool's, where it is below zero at most `radius` outside the tool. The minimum is below
-/// zero outside both only where neither exceeds the radius, so a is not asked elsewhere. Farther outside the
-/// value is the distance to where it may be; the jump on the way lies inside a, or proves nothing wrong.
+/// The part that a smooth union has, or a smooth difference lacks, in addition to its operands' own runs:
+/// where the smooth minimum of a's value and the tool's is negative, at most `radius` outside the tool.
+/// Outside both solids it is negative only where neither value exceeds the radius, so `a` is not evaluated
+/// elsewhere. Farther outside, the value is the distance to the zone where it may be negative. The jump at
+/// the zone's border lies inside a, or does not invalidate a proof.
 class Seam : public Field {
   public:
     Seam(const Field& a, bool inverted, const Field& tool, double radius)
@@ -73,7 +74,7 @@ class Seam : public Field {
         return all;
     }
     Metric metric() const override { return metric_of(a_, tool_); }
-    /// A tool whose value only bounds the distance may be less than the radius farther away.
+    /// Everywhere unless the tool's metric is exact: a mere bound may stay below the radius at any distance.
     Box bounds() const override {
         const Box everywhere{dvec3(-infinity), dvec3(infinity)};
         return tool_.metric() == Metric::exact ? grown(tool_.bounds(), radius_) : everywhere;
@@ -90,7 +91,7 @@ class Seam : public Field {
 
 bool meet(const Rect& a, const RowBand& band) { return !intersect(a, band.rect()).empty(); }
 
-/// The operands' own runs, joined or subtracted, and the seam's.
+/// Runs of the operands, joined or subtracted, and those of the seam.
 template <bool is_union>
 class SmoothSlice : public SampledSlice {
   public:
@@ -115,7 +116,7 @@ class SmoothSlice : public SampledSlice {
     const SliceField& seam_;
 };
 
-/// A union or difference with the tool.
+/// Smooth union or difference with the tool.
 template <bool is_union>
 class SmoothSolid : public Field {
   public:

@@ -1,4 +1,4 @@
-// Affine maps of solids. An axis-aligned map only rewrites the band it is asked for.
+// Affine maps of solids. An axis-aligned map only rewrites the requested band.
 #include "engine/base/error.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/csg.h"
@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-/// The slice of a solid under p -> scale * p + shift, per axis.
+/// The slice of a solid under p -> scale * p + shift, separately per axis.
 class AlignedSlice : public SliceField {
   public:
     AlignedSlice(const SliceField& inner, dvec2 scale, dvec2 shift, double value_scale)
@@ -59,7 +59,7 @@ Box image_of(const Box& box, const glm::dmat3& linear, dvec3 translation) {
 }
 
 /// Smallest stretch of the map: 1 over the largest singular value of the inverse, bounded by its Frobenius
-/// norm. Exact for similarities, where every column has the same length and they are orthogonal.
+/// norm. Exact for similarities, whose columns are orthogonal and of equal length.
 struct Stretch {
     double least;
     bool similarity;

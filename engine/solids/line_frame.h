@@ -1,4 +1,4 @@
-// From a band of lines to the frame that the row kernels work in.
+// Conversion from a band of lines to the frame of the row kernels.
 #pragma once
 
 #include "engine/runs/runs.h"
@@ -6,13 +6,13 @@
 
 namespace lamella {
 
-/// Lines [first, last) of a band, counted from its first line.
+/// Lines [first, last) of a band, numbered from the band's first line.
 struct LineRange {
     int first;
     int last;
 };
 
-/// The lines of the band that an interval across meets.
+/// Returns the lines of the band that an interval across the lines meets.
 inline LineRange lines_across(const RowBand& band, const Interval& across) {
     const double per_mm = band.sub / band.across_pitch;
     const double p = (across.lo - band.across_origin) * per_mm, q = (across.hi - band.across_origin) * per_mm;
@@ -24,9 +24,8 @@ inline LineRange lines_across(const RowBand& band, const Interval& across) {
             static_cast<int>(std::min(std::max(hi, 0.0), lines))};
 }
 
-/// The lines of the band from number `first` on, as seen from a reference point. The reference line is
-/// counted from row 0 of the whole layer, so that a line gives the same run in whichever band it is asked
-/// for.
+/// Returns the lines of the band from line `first` on, relative to a reference point. The reference line is
+/// counted from row 0 of the whole layer, so that a line gives the same run in every band.
 inline LineFrame line_frame(const RowBand& band, int first, dvec2 reference) {
     const int along = band.axis == Axis::x ? 0 : 1, across = 1 - along;
     const double pitch = band.across_pitch / band.sub;

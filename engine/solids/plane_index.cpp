@@ -1,4 +1,4 @@
-// Two interval indices, one for each direction of the lines, each made when first asked.
+// Two interval indices, one for each direction of the lines, each built on first use.
 #include "engine/solids/plane_index.h"
 
 namespace lamella {

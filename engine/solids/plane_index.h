@@ -1,4 +1,4 @@
-// An index of things in a layer's plane by the bands of lines they meet, rows and columns alike.
+// PlaneIndex: index of items in a layer's plane by the lines they meet, for rows and columns alike.
 #pragma once
 
 #include <memory>
@@ -11,25 +11,24 @@
 
 namespace lamella {
 
-/// Finds the items that a band's lines can meet, wherever along them, also outside the band. They come back
-/// sorted along the lines.
+/// Finds the items that a band's lines can meet, also beyond the ends of the band. Results are sorted along
+/// the lines.
 class PlaneIndex {
   public:
     PlaneIndex() = default;
-    /// One rectangle an item, mm.
+    /// One rectangle per item, mm.
     explicit PlaneIndex(std::vector<Rect> rects);
 
     /// Replaces `items` by the numbers of the items whose extent across the lines meets the band's.
     void query(const RowBand& band, std::vector<std::uint32_t>& items) const;
-    /// Calls visit(item, lines) for each item whose rectangle meets the band, with those of the lines that it
-    /// meets.
+    /// Calls visit(item, lines) for each item whose rectangle meets the band, with the lines that it meets.
     template <typename Visit>
     void visit(const RowBand& band, const LineRange& lines, const Visit& visit) const;
-    /// Encloses all rectangles.
+    /// Returns the bounding rectangle of all rectangles.
     const Rect& bounds() const { return bounds_; }
 
   private:
-    /// The items by one coordinate; sorting them is worth putting off, as most layers are asked one way only.
+    /// The items by one coordinate, sorted on first use: most layers query one direction only.
     struct Direction {
         std::once_flag opened;
         IntervalIndex items;
@@ -37,7 +36,7 @@ class PlaneIndex {
     const IntervalIndex& direction(int across) const;
 
     std::vector<Rect> rects_;
-    std::unique_ptr<Direction[]> directions_;  ///< by the coordinate that differs between lines
+    std::unique_ptr<Direction[]> directions_;  ///< by the coordinate across the lines
     Rect bounds_;
 };
 

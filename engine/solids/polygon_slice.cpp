@@ -1,4 +1,4 @@
-// Lines cut by sides: a side counts where one of its ends is at or below the line and the other above it.
+// Scanline crossings: a side crosses a line if one end is at or below the line and the other one above it.
 #include "engine/solids/polygon_slice.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void PolygonSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out)
     for (const Side& side : sides_) {
         const double low = std::min(side.a[across], side.b[across]),
                      high = std::max(side.a[across], side.b[across]);
-        // A line more at both ends: which lines are cut is decided by their own positions.
+        // One more line at both ends: the lines' own positions decide which of them are crossed.
         const double from = (low - first) / step, to = (high - first) / step;
         const double last = band.lines() - 1;
         if (std::max(from, to) < -1 || std::min(from, to) > last + 1) continue;

@@ -1,4 +1,4 @@
-// Polygons as a slice: what of a plane lies inside them.
+// PolygonSlice: the interior of polygons as a slice.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace lamella {
 
-/// All points of the plane that an odd number of closed polygons encloses. Values are distances from the
+/// The points of the plane that an odd number of closed polygons encloses. Values are distances to the
 /// nearest side, mm.
 class PolygonSlice : public SliceField {
   public:
-    /// Polygons without repeated last points, in any order and orientation; mm, finite.
+    /// Polygons come without repeated last points, in any order and orientation; mm, finite.
     explicit PolygonSlice(std::span<const std::vector<dvec2>> polygons);
 
     void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;

@@ -1,4 +1,4 @@
-// Primitives: exact distances, closed-form offsets, closed-form cuts with a line.
+// Primitives: exact distances, closed-form offsets, closed-form intersections with a line.
 #include "engine/solids/primitives.h"
 
 #include "engine/base/error.h"
@@ -22,7 +22,7 @@ class Empty : public Field {
     Box bounds() const override { return {}; }
 };
 
-/// A shape with a distance that changes by at most 1 per mm and a closed-form cut.
+/// Shape with a value that changes by at most 1 per mm and a closed-form intersection with a line.
 template <typename Shape>
 class ClosedShape : public Field {
   public:
@@ -72,8 +72,7 @@ class RoundedBox : public ClosedShape<RoundedBox> {
     void cut(Axis axis, double across, double z, std::vector<Interval>& out) const {
         const int along_axis = axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
         if (rounding_ == 0) {
-            // A face belongs to the box at its lower side only, so that boxes that share a face do not
-            // overlap.
+            // A box owns its lower faces only, so that boxes that share a face do not overlap.
             const bool in = core_.lo[across_axis] <= across && across < core_.hi[across_axis] &&
                             core_.lo.z <= z && z < core_.hi.z;
             if (in) out.push_back({core_.lo[along_axis], core_.hi[along_axis]});

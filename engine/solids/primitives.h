@@ -1,5 +1,4 @@
-// The closed shapes everything is built from. Lengths in mm; sizes must be positive and finite (InputError
-// otherwise).
+// Primitive shapes. Lengths in mm; sizes must be positive and finite, else the functions throw InputError.
 #pragma once
 
 #include "engine/field/field.h"
@@ -7,18 +6,18 @@
 
 namespace lamella {
 
-/// Nothing: void everywhere.
+/// Returns the empty solid.
 FieldPtr make_empty();
 FieldPtr make_sphere(dvec3 center, double radius);
-/// A box whose edges are rounded by `rounding` >= 0 (at most half the shortest side).
+/// Returns a box whose edges are rounded by `rounding` >= 0 (at most half the shortest side).
 FieldPtr make_box(const Box& box, double rounding = 0);
-/// A cylinder between two points, with flat ends.
+/// Returns a cylinder between two points, with flat ends.
 FieldPtr make_cylinder(dvec3 a, dvec3 b, double radius);
-/// The convex hull of two balls; a capsule when the radii are equal.
+/// Returns the convex hull of two balls; a capsule when the radii are equal.
 FieldPtr make_round_cone(const Beam& beam);
-/// A torus about the z direction; minor_radius < major_radius.
+/// Returns a torus around the z direction; minor_radius < major_radius.
 FieldPtr make_torus(dvec3 center, double major_radius, double minor_radius);
-/// All points p with dot(p, normal) <= offset, for a unit normal (it is normalised here).
+/// Returns all points p with dot(p, normal) <= offset, where normal is first scaled to unit length.
 FieldPtr make_half_space(dvec3 normal, double offset);
 
 }  // namespace lamella

@@ -1,16 +1,17 @@
-// Closed forms of the unite of three balls: its distance, its wedge, and its cut with a line.
+// Closed forms of the hull of three balls: its distance, its wedge, and its intersection with a line.
 #include "engine/solids/round_triangle.h"
 
 namespace lamella {
 namespace {
 
-/// Squares of the least sine between edges, and of the least cosine between a tangent plane and the face,
-/// that leave a face: below, it differs from its edges' beams by less than rounding shows.
+/// Squares of the least sine between edges, and of the least cosine between a tangent plane and the face, for
+/// which the face counts. Below them the shape differs from the union of its edge beams by less than rounding
+/// errors.
 constexpr double min_sine_squared = 1e-18;
 constexpr double min_cosine_squared = 1e-12;
 
 /// The face and its two tangent planes, whose unit normals are tilt + cosine * normal and tilt - cosine *
-/// normal. The tilt lies in the face; the radius falls along it by its length per mm.
+/// normal. The tilt lies in the face; in its direction the radius falls by the tilt's length per mm.
 struct Face {
     dvec3 normal{0}, tilt{0};
     double cosine = 0;
@@ -31,13 +32,14 @@ std::optional<Face> face_of(const RoundTriangle& t) {
     return face;
 }
 
-/// How far a point in the face lies inside the edge that leaves a corner, times the edge's length.
+/// Returns the signed distance of a point in the face from the edge that starts at a corner (positive
+/// inside), times the edge's length.
 double inside_edge(const RoundTriangle& t, const Face& face, std::size_t corner, dvec3 p) {
     const dvec3 edge = t.corners[(corner + 1) % 3] - t.corners[corner];
     return glm::dot(glm::cross(edge, p - t.corners[corner]), face.normal);
 }
 
-/// A half-space of the wedge through a point.
+/// Sets a half-space of the wedge: bounded `beyond` mm outside of a point.
 void set_plane(Wedge& w, std::size_t k, dvec3 normal, dvec3 point, double beyond) {
     w.normals[k] = normal;
     w.limits[k] = glm::dot(normal, point - w.origin) + beyond;
@@ -53,9 +55,9 @@ dvec3 center(const RoundTriangle& t) { return (t.corners[0] + t.corners[1] + t.c
 }  // namespace
 
 double signed_distance(const RoundTriangle& t, dvec3 p) {
-    // The least of |p - x| - r(x) over the triangle's points x, a convex function. In the face's plane it is
-    // least where p - x stands on a tangent plane; if that is no point of the triangle, then the least one is
-    // on an edge that it lies outside of.
+    // The distance is the least of |p - x| - r(x) over the triangle's points x, a convex function. In the
+    // face's plane the minimum is where p - x is normal to a tangent plane. If that point is outside the
+    // triangle, the minimum is on an edge that it lies outside of.
     if (const auto face = face_of(t)) {
         const double along = glm::dot(face->normal, p - t.corners[0]), height = std::abs(along);
         const dvec3 foot = p - face->normal * along, x = foot - face->tilt * (height / face->cosine);
@@ -74,7 +76,8 @@ double signed_distance(const RoundTriangle& t, dvec3 p) {
 }
 
 std::optional<Interval> cut(const RoundTriangle& t, dvec3 p, dvec3 direction) {
-    // The union of the pieces is convex, so the line's part in it is the unite of its parts in them.
+    // The union of the pieces is convex, so the line meets it in the hull of the line's intervals in the
+    // pieces.
     Interval inside;
     for (std::size_t i = 0; i < 3; ++i) {
         if (const auto part = cut(edge_beam(t, i), p, direction)) inside = unite(inside, *part);

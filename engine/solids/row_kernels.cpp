@@ -17,12 +17,12 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatLanes = hn::Vec<Floats>;
 
-/// How many lines each lane lies behind the first (made once, for it goes through memory).
+/// Returns how many lines each lane is behind the first. Computed once, because it goes through memory.
 HWY_INLINE hn::Vec<Ints> lane_lines(const LineFrame& frame) {
     return hn::Mul(hn::Iota(Ints(), 0), hn::Set(Ints(), frame.step));
 }
 
-/// Positions across of the lines from the i-th on.
+/// Returns the positions across of the lines from the i-th on.
 HWY_INLINE FloatLanes positions(const LineFrame& frame, hn::Vec<Ints> lane, int i) {
     const Floats d;
     const auto line = hn::ConvertTo(d, hn::Add(lane, hn::Set(Ints(), frame.first + i * frame.step)));
@@ -47,8 +47,8 @@ HWY_INLINE void store(const LineFrame& frame, FloatLanes from, FloatLanes to, hn
     hn::StoreU(hn::IfThenElse(skip, unit0, hn::Add(rounded(hn::Max(u, v)), unit0)), di, end);
 }
 
-/// The line cuts the cone's side where a t^2 + 2 b t + c = 0; an end whose axial coordinate lies beyond the
-/// side belongs to the ball there.
+/// A line crosses the side of the cone where a t^2 + 2 b t + c = 0; an end whose axial coordinate lies beyond
+/// the side belongs to the ball there.
 void cut_beam(const LineFrame& frame, const BeamInPlane& beam, int count, std::int32_t* begin,
               std::int32_t* end) {
     const Floats d;
@@ -79,7 +79,7 @@ void cut_beam(const LineFrame& frame, const BeamInPlane& beam, int count, std::i
 
         auto from = t0, to = t1;
         auto miss = hn::Lt(disc, zero);
-        // Most lines leave most beams through their sides alone, and need no ball's root.
+        // Most lines leave most beams through the side only, and need no ball's root.
         const auto at_b0 = hn::Gt(axial0, high), at_b1 = hn::Gt(axial1, high), at_b = hn::Or(at_b0, at_b1);
         if (!hn::AllFalse(d, at_b)) {
             const auto yb = hn::Sub(y, by), hb = hn::Sub(bh, hn::Mul(yb, yb));

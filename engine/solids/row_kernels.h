@@ -1,4 +1,5 @@
-// The hot kernels: the runs of one beam or one prism on consecutive lines, in closed form, by SIMD.
+// SIMD kernels in closed form: the runs of one beam or one prism on consecutive lines. The innermost loops of
+// slicing.
 #pragma once
 
 #include <array>
@@ -6,13 +7,13 @@
 
 namespace lamella {
 
-/// The lines of a band as seen from a reference point. Single precision is enough, because every number that
-/// a kernel works with is relative to that point; lengths in mm.
+/// The lines of a band relative to a reference point. Single precision is enough, because all numbers in a
+/// kernel are relative to that point; lengths in mm.
 struct LineFrame {
     float line0;         ///< from the point to the reference line, across
-    float line_pitch;    ///< from a line to the next in number
-    std::int32_t first;  ///< first line to do, counted from the reference line
-    std::int32_t step;   ///< from one line to do to the next
+    float line_pitch;    ///< from a line to the one with the next number
+    std::int32_t first;  ///< first line to compute, counted from the reference line
+    std::int32_t step;   ///< from one line to compute to the next
     float scale;         ///< run units per mm (negative in a mirrored band)
     float shift;         ///< fraction of a run unit to add
     std::int32_t unit0;  ///< run unit of the point, floored
@@ -30,13 +31,14 @@ struct BeamInPlane {
     float bx, by, bh;    ///< second ball
 };
 
-/// A triangle grown along its normal, cut by a plane: along * nx + across * ny <= limit for five half-planes.
+/// A triangle dilated along its normal, cut by a plane: along * nx + across * ny <= limit for five
+/// half-planes.
 struct PrismInPlane {
     std::array<float, 5> nx, ny, limit;
 };
 
-/// Write begin and end of `count` lines; begin >= end where the line misses. They write up to
-/// RunCollector::slack entries more.
+/// Write begin and end of the runs on `count` lines; begin >= end where the line misses the shape. They may
+/// overwrite up to RunCollector::slack entries more.
 void beam_rows(const LineFrame& frame, const BeamInPlane& beam, int count, std::int32_t* begin,
                std::int32_t* end);
 void prism_rows(const LineFrame& frame, const PrismInPlane& prism, int count, std::int32_t* begin,

@@ -1,4 +1,4 @@
-// Shells by the body's own closed form, and filled bodies that ask the body once for each point.
+// Shells by the body's own closed form, and filled bodies that evaluate the body once per point.
 #include "engine/solids/shell.h"
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 namespace lamella {
 namespace {
 
-/// Everything but the value at a point is the constructive solid's. A value asks the body once, and for its
-/// distance only as far as it matters: deep inside, the filling alone decides.
+/// Delegates all but the value at a point to the CSG solid. A subclass evaluates the body once per value, and
+/// its distance only up to the limit that matters: deep inside, the filling alone decides.
 class LazySolid : public Field {
   public:
     explicit LazySolid(FieldPtr solid) : solid_(std::move(solid)) {}
@@ -58,7 +58,7 @@ class FilledBody : public LazySolid {
     double thickness_;
 };
 
-/// The same under a skin of graded thickness, which is asked only where it may reach.
+/// A filled body under a skin of graded thickness, which is evaluated only where the skin can reach.
 class FilledGradedSkin : public LazySolid {
   public:
     FilledGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
@@ -83,7 +83,7 @@ class FilledGradedSkin : public LazySolid {
     double thickest_;
 };
 
-/// What lies, inside a body with exact distances, no deeper than the thickness asked for there.
+/// Points inside a body with exact distances, no deeper than the thickness at the point.
 class GradedShell : public Field {
   public:
     GradedShell(FieldPtr body, GradingPtr thickness)
@@ -116,7 +116,7 @@ class GradedShell : public Field {
     GradingPtr thickness_;
 };
 
-/// What lies, outside a body with exact distances, no farther than the thickness asked for there.
+/// Points outside a body with exact distances, no farther away than the thickness at the point.
 class GradedOuterShell : public Field {
   public:
     GradedOuterShell(FieldPtr body, GradingPtr thickness, double greatest)
@@ -150,8 +150,9 @@ class GradedOuterShell : public Field {
     double greatest_;
 };
 
-/// Encloses the thickness in reach of a body: what is solid lies within the greatest thickness of the box,
-/// which bounds the places where the thickness is asked for, and so the greatest thickness.
+/// Returns the range of the thickness within reach of a body. The shell reaches as far from the body's box as
+/// the greatest thickness; this bounds the places where the thickness is read, and so the greatest thickness
+/// again.
 Interval thickness_about(const Box& body, const Grading& thickness, Interval limits) {
     constexpr int rounds = 8;
     Interval asked = limits;
@@ -176,7 +177,8 @@ class Half : public Grading {
     GradingPtr whole_;
 };
 
-/// The thickness kept within limits; InputError when there is none, or limits that make no skin.
+/// Returns the thickness clamped to the limits. Throws InputError when an argument is null, or the limits
+/// allow no skin.
 GradingPtr thickness_within(const FieldPtr& body, const GradingPtr& thickness, Interval limits) {
     if (!body || !thickness) throw InputError("a graded skin needs a body and a thickness");
     if (!(0 <= limits.lo && limits.lo <= limits.hi && 0 < limits.hi && std::isfinite(limits.hi))) {

@@ -1,4 +1,4 @@
-// The shell of a solid: what lies within a distance of its surface, and solids made of a shell and a filling.
+// Shells of solids, and bodies made of a shell and a filling.
 #pragma once
 
 #include "engine/field/field.h"
@@ -6,36 +6,38 @@
 
 namespace lamella {
 
-/// Where the skin of a body lies: under its surface, on it, or half and half.
+/// Position of a body's skin: under its surface, on it, or half and half.
 enum class SkinSide : std::uint8_t { inside, outside, centred };
 
-/// A field that, inside the body, is solid exactly where the surface is at most `thickness` mm away (true 3D
-/// distance). Outside the body it may be solid too: intersect it with the body. InputError for a body without
-/// a closed-form offset.
+/// Returns a field that, inside the body, is solid exactly where the surface is at most `thickness` mm away
+/// (true 3D distance). Outside the body it may be solid too: intersect it with the body. Throws InputError
+/// when the body has no closed-form offset.
 FieldPtr make_shell(const FieldPtr& body, double thickness);
 
-/// A shell whose thickness varies, mm, kept within limits (0 <= lo <= hi, hi > 0; where the grading is NaN,
-/// the upper one). A mesh's is read at its surface: about each of its points the ball with the thickness
-/// there as radius; triangles are divided until the thickness is linear over them to 2 %, or they are small
-/// against it. Where it is 0 there is no shell. Any other body needs a metric that is exact, and its
-/// thickness is read at the point in question. InputError for other bodies.
+/// Returns a shell whose thickness varies, mm, clamped to limits (0 <= lo <= hi, hi > 0; where the grading is
+/// NaN, the upper one). A mesh reads it at its surface: the shell is the union of balls around the surface's
+/// points, with the thickness there as radius; triangles are divided until the thickness is linear over them
+/// to 2 %, or until they are small against it. Where it is 0 there is no shell. Any other body needs an exact
+/// metric, and its thickness is read at the query point. Throws InputError for other bodies.
 FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
 
-/// The other side: a field that, outside the body, is solid exactly where the surface is at most `thickness`
-/// mm away. Inside the body it may be solid too. InputError for a body without a closed-form offset.
+/// Returns the outer counterpart: a field that, outside the body, is solid exactly where the surface is at
+/// most `thickness` mm away. Inside the body it may be solid too. Throws InputError when the body has no
+/// closed-form offset.
 FieldPtr make_outer_shell(const FieldPtr& body, double thickness);
 
-/// The other side of a shell whose thickness varies; read, limited and refused as there.
+/// Returns the outer counterpart with a varying thickness, read and limited as in make_shell, with the same
+/// errors.
 FieldPtr make_outer_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
 
-/// The body filled, under a skin: its part that is in the filling or within `thickness` mm of its surface.
-/// The filling may be null (a hollow body), the thickness 0 (no skin); not both. With a skin outside, the
-/// body's part that is in the filling, and what lies outside the body within `thickness` mm of it; with a
-/// centred one, half the thickness on either side.
+/// Returns the body's points that are in the filling or within `thickness` mm of its surface. The filling may
+/// be null (a hollow body), the thickness 0 (no skin); not both. With a skin outside: the body's points in
+/// the filling, and the points outside the body within `thickness` mm of it; with a centred one: half the
+/// thickness on either side.
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, double thickness,
                           SkinSide side = SkinSide::inside);
 
-/// The body filled, with a skin of varying thickness; the filling may be null.
+/// Returns a filled body with a skin of varying thickness; the filling may be null.
 FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thickness,
                           Interval thickness_limits, SkinSide side = SkinSide::inside);
 

@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-/// Squared distance from p to the segment a, a + e; e may be 0.
+/// Returns the squared distance from p to the segment a, a + e; e may be 0.
 inline double squared_distance_to_edge(dvec3 p, dvec3 a, dvec3 e) {
     const dvec3 d = p - a;
     const double length = glm::dot(e, e);
@@ -14,7 +14,8 @@ inline double squared_distance_to_edge(dvec3 p, dvec3 a, dvec3 e) {
     return squared_length(d - e * t);
 }
 
-/// Squared distance from p to a triangle: over its face when p projects into it, else to its nearest edge.
+/// Returns the squared distance from p to a triangle: to its face if p projects into it, else to its nearest
+/// edge.
 inline double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
     const dvec3 ab = b - a, bc = c - b, ca = a - c;
     const dvec3 n = glm::cross(ab, c - a);

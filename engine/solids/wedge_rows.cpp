@@ -12,7 +12,8 @@ Interval extent(const Wedge& wedge, int axis) {
     return all;
 }
 
-/// Where the wedge meets the plane: the hull of its edges' crossings.
+/// Returns the bounding rectangle of the wedge's section: the hull of the points where its edges cross the
+/// plane.
 Rect section(const Wedge& wedge, double z) {
     Rect rect;
     const auto add = [&](dvec2 p) { rect = unite(rect, {p, p}); };

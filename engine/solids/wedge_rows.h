@@ -1,4 +1,4 @@
-// The slice of a set of wedges: an index of those that meet the plane, and their runs in closed form.
+// Slice of a set of wedges: an index of the wedges that meet the plane, and their runs in closed form.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace lamella {
 
-/// The wedges of one plane, indexed by bands of lines. Round triangles are drawn as the wedges of all and the
-/// beams of their edges (BeamRows), where a shared edge is given once.
+/// The wedges that meet one plane, indexed by the lines they cover. A round triangle is drawn as its wedge
+/// plus the beams of its edges (BeamRows); a shared edge is added once.
 class WedgeRows {
   public:
     WedgeRows() = default;
     /// Keeps the wedges that may meet the plane at height z, mm.
     WedgeRows(const std::vector<Wedge>& wedges, double z);
-    /// The wedges of round triangles; their edges' beams are the caller's.
+    /// Keeps the wedges of round triangles; the caller draws the beams of their edges.
     WedgeRows(const std::vector<RoundTriangle>& triangles, double z);
 
     /// Adds the runs of all wedges that meet the band.
     void collect(const RowBand& band, RunCollector& runs) const { collect(band, {0, band.lines()}, runs); }
-    /// The same on some of its lines only.
+    /// Adds them on some of the band's lines only.
     void collect(const RowBand& band, const LineRange& lines, RunCollector& runs) const;
-    /// Encloses the wedges' sections, mm.
+    /// Returns a rectangle that encloses the wedges' sections, mm.
     const Rect& bounds() const { return sections_.bounds(); }
     std::size_t size() const { return wedges_.size(); }
 

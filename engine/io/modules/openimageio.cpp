@@ -54,7 +54,7 @@ class Reader : public ImageReader {
     int page_ = -1;
 };
 
-/// The library's name for the format that a file's ending tells.
+/// Returns the library's name for the format that a file's ending indicates.
 std::string format_of(const std::string& name) {
     std::string ending = name.substr(std::min(name.rfind('.') + 1, name.size()));
     if (ending == "tif") return "tiff";
@@ -85,7 +85,7 @@ class OpenImageIoLibrary : public ImageLibrary {
   public:
     std::unique_ptr<ImageReader> open(const std::string& path) const override {
         OIIO::ImageSpec config;
-        config["oiio:UnassociatedAlpha"] = 1;  // numbers as the file has them
+        config["oiio:UnassociatedAlpha"] = 1;  // unchanged numbers from the file
         auto input = OIIO::ImageInput::open(path, &config);
         if (!input) {
             OIIO::geterror();
@@ -96,17 +96,17 @@ class OpenImageIoLibrary : public ImageLibrary {
 
     std::unique_ptr<ImageReader> open_bytes(const std::string& name, std::string_view bytes,
                                             std::string& why) const override {
-        // By the format's name: a file's name would let every other reader try its luck as well.
+        // Opens by the format's name: with a file name, all other readers would be tried as well.
         auto input = OIIO::ImageInput::create(format_of(name));
         if (!input) {
             why = OIIO::geterror();
             return nullptr;
         }
-        // The reader wants a pointer to what it may change, and changes nothing.
+        // The reader requires a pointer to mutable data, but does not change it.
         auto memory =
             std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()), bytes.size());
         OIIO::ImageSpec spec, config;
-        config["oiio:UnassociatedAlpha"] = 1;  // numbers as the file has them
+        config["oiio:UnassociatedAlpha"] = 1;  // unchanged numbers from the file
         if (!input->set_ioproxy(memory.get()) || !input->open(name, spec, config)) {
             why = input->geterror();
             return nullptr;
