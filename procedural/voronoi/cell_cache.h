@@ -53,12 +53,13 @@ class RecentPlaces {
 /// it serves, mm).
 ///
 /// Memory bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below
-/// `capacity` a soft limit holds, at least `idle` bytes. At each eviction it shrinks towards twice the memory
-/// of the values near the requested height, so that a job that proceeds upwards needs no more memory the
-/// higher it gets. If most of the values inserted since the last eviction had recently been evicted, as with
-/// rays that cross the part in any order, the limit doubles. When the limit is reached, the values farthest
-/// in z from the last request are evicted first, among those the least recently used, until three quarters of
-/// the limit are left. Values still held by callers live on until released.
+/// `capacity` a soft limit holds, at least `idle` bytes. Each eviction sets it to twice the memory of the
+/// values near the requested height, but no lower than half the limit before, so that a job that proceeds
+/// upwards needs no more memory the higher it gets. If most of the values inserted since the last eviction
+/// had recently been evicted, as with rays that cross the part in any order, the limit doubles. When the
+/// limit is exceeded, the values farthest in z from the last request are evicted first, among those the least
+/// recently used, until three quarters of the limit are left. Values still held by callers live on until
+/// released.
 template <typename Value>
 class CellCache {
   public:
