@@ -1,4 +1,4 @@
-// Numbering.
+// Numbering of the nodes.
 #include "procedural/elasticity/elastic_grid.h"
 
 namespace lamella {

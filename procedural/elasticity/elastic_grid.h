@@ -1,4 +1,5 @@
-// The nodes of a periodic grid of cubic elements that something stiff touches, and the forces between them.
+// ElasticGrid: the nodes of a periodic voxel grid that touch a solid element, and the nodal forces of a
+// stencil.
 #pragma once
 
 #include <algorithm>
@@ -13,24 +14,25 @@
 
 namespace lamella {
 
-/// Load cases that are solved for side by side.
+/// Number of load cases that are solved side by side.
 inline constexpr std::size_t load_cases = 6;
-/// Numbers a node has in a vector: displacement or force x of each load case, then y, then z.
+/// Numbers per node in a nodal vector: the x component (displacement or force) of each load case, then y,
+/// then z.
 inline constexpr std::size_t node_numbers = 3 * load_cases;
 inline constexpr std::size_t hex_neighbours = 27;
 
-/// The forces at a node that displacements of the nodes about it cause: a 3x3 block for each, neighbour
-/// (dx, dy, dz) at dx + 1 + 3 * (dy + 1) + 9 * (dz + 1).
+/// The 27-point stencil of a node: the forces at the node due to displacements of the nodes around it. One
+/// 3x3 block per neighbour; neighbour (dx, dy, dz) has the block number dx + 1 + 3 * (dy + 1) + 9 * (dz + 1).
 template <typename Number>
 using NodeStencil = std::array<Number, 9 * hex_neighbours>;
 
-/// Which elements of a periodic grid there are. Elements x fastest, element (x, y, z) between nodes
-/// (x, y, z) and (x + 1, y + 1, z + 1).
+/// The solid elements of a periodic grid of cubes. Elements are stored x fastest; element (x, y, z) lies
+/// between the nodes (x, y, z) and (x + 1, y + 1, z + 1).
 struct ElementMask {
     glm::ivec3 size{0};
-    std::vector<std::uint8_t> present;  ///< not 0
+    std::vector<std::uint8_t> present;  ///< by element; non-zero: solid
 
-    /// Of all elements, those that are present.
+    /// Returns the volume fraction: solid elements over all elements, 0 to 1.
     double share() const {
         const auto there = std::count_if(present.begin(), present.end(), [](auto p) { return p != 0; });
         return static_cast<double>(there) / static_cast<double>(std::max<std::size_t>(present.size(), 1));
@@ -44,7 +46,7 @@ struct ElementMask {
     }
 };
 
-/// Numbers the nodes that belong to elements, in the order of the grid.
+/// Numbers the nodes that belong to at least one solid element, in grid order.
 class ElasticGrid {
   public:
     explicit ElasticGrid(const ElementMask& elements);
@@ -52,13 +54,16 @@ class ElasticGrid {
     glm::ivec3 size() const { return size_; }
     std::size_t nodes() const { return places_.size(); }
     glm::ivec3 place(std::size_t node) const { return places_[node]; }
-    /// The number of the node at a place, -1 where there is none. Coordinates from -1 to the size.
+    /// Returns the number of the node at a grid position, -1 if there is no node. Coordinates range from -1
+    /// to the size and wrap around.
     std::int32_t number(int x, int y, int z) const {
         return numbers_[index(wrapped(x, size_.x), wrapped(y, size_.y), wrapped(z, size_.z))];
     }
-    /// Of a node: bit e is set where the element exists whose corner e the node is.
+    /// Returns the elements around a node as bits: bit e is set if the element that has this node as its
+    /// corner e is solid.
     std::uint8_t elements(std::size_t node) const { return elements_[node]; }
-    /// Numbers of the nodes about a node, in the order of NodeStencil; -1 where there is none.
+    /// Returns the numbers of the 27 nodes around a node, itself included, in the order of NodeStencil; -1 if
+    /// there is no node.
     std::array<std::int32_t, hex_neighbours> neighbours(std::size_t node) const;
 
   private:
@@ -76,7 +81,8 @@ class ElasticGrid {
     std::vector<std::uint8_t> elements_;
 };
 
-/// The stencil of a node at corner e of elements; `stiffness(e)` is the matrix of that element or null.
+/// Assembles the stencil of a node that is corner e of elements e = 0..7. `stiffness(e)` returns a pointer to
+/// the stiffness matrix of that element, null for void.
 template <typename Number, typename Stiffness>
 NodeStencil<Number> gather_stencil(const Stiffness& stiffness) {
     NodeStencil<Number> stencil{};
@@ -96,7 +102,8 @@ NodeStencil<Number> gather_stencil(const Stiffness& stiffness) {
     return stencil;
 }
 
-/// Adds the forces of a stencil to `sum`, from the displacements of all nodes.
+/// Adds the forces of a stencil to `sum`. `displacements` holds node_numbers numbers for each node of the
+/// grid.
 template <typename Number>
 void add_forces(const NodeStencil<Number>& stencil,
                 const std::array<std::int32_t, hex_neighbours>& neighbours, const Number* displacements,

@@ -1,4 +1,4 @@
-// Coarse elements summed from finer ones, Chebyshev smoothing, and the cycle.
+// Galerkin coarsening of elements, Chebyshev smoothing, and the V-cycle.
 #include "procedural/elasticity/elastic_multigrid.h"
 
 #include <Eigen/LU>
@@ -13,15 +13,16 @@ namespace {
 using Stiffness = std::array<std::array<double, hex_unknowns>, hex_unknowns>;
 using Block = std::array<float, 9>;
 
-constexpr int power_steps = 12;          // to the greatest eigenvalue
-constexpr double safety = 1.1;           // above what they find
-constexpr double smoothed_share = 6;     // the smoother damps eigenvalues down to this part of the greatest
-constexpr std::size_t max_dense = 1200;  // unknowns of a grid that is solved directly
-constexpr int sweeps_instead = 8;        // of smoothing, where there are more
+constexpr int power_steps = 12;  // of the power iteration for the largest eigenvalue
+constexpr double safety = 1.1;   // factor on the eigenvalue estimate
+// the smoother damps eigenvalues from the largest down to this fraction (1/6) of it
+constexpr double smoothed_share = 6;
+constexpr std::size_t max_dense = 1200;  // unknowns of a coarsest grid that is still solved directly
+constexpr int sweeps_instead = 8;        // smoothing steps on a larger coarsest grid
 constexpr double negligible_stiffness =
-    1e-5;  // of the stiffness: less than rounding to single precision leaves
+    1e-5;  // relative to the stiffness: less than the rounding to single precision
 
-/// Weight of coarse node A at node a of the child in octant `child`.
+/// Returns the interpolation weight of coarse node A at node a of the child in octant `child`.
 double weight(std::size_t child, std::size_t a, std::size_t coarse) {
     double product = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,7 +32,7 @@ double weight(std::size_t child, std::size_t a, std::size_t coarse) {
     return product;
 }
 
-/// Adds a child's stiffness to that of the element that it is an octant of: P^T K P.
+/// Adds a child's stiffness to that of its parent element: P^T K P.
 void add_child(const Stiffness& child_stiffness, std::size_t child, Stiffness& sum) {
     std::array<std::array<double, hex_nodes>, hex_nodes> w;
     for (std::size_t a = 0; a < hex_nodes; ++a) {
@@ -58,7 +59,7 @@ void add_child(const Stiffness& child_stiffness, std::size_t child, Stiffness& s
     }
 }
 
-/// The inverse of a node's own block; of one that resists nothing, nothing.
+/// Returns the inverse of a node's diagonal block.
 Block inverse_of(const float* block) {
     Eigen::Matrix3d m;
     for (int k = 0; k < 9; ++k) m(k / 3, k % 3) = static_cast<double>(block[k]);
@@ -68,11 +69,11 @@ Block inverse_of(const float* block) {
     return out;
 }
 
-constexpr std::size_t own = 9 * (hex_neighbours / 2);  // where a stencil's own block begins
+constexpr std::size_t own = 9 * (hex_neighbours / 2);  // offset of the diagonal block in a stencil
 
 }  // namespace
 
-/// The stiffness of elements: kinds that many share, or one each.
+/// The element stiffnesses: a few kinds shared by many elements, or one for each element.
 struct ElasticMultigrid::Elements {
     std::vector<Stiffness> kinds;
     std::vector<std::int32_t> kind;  ///< by element, -1 for void
@@ -80,7 +81,8 @@ struct ElasticMultigrid::Elements {
     const Stiffness* at(std::size_t element) const {
         return kind[element] < 0 ? nullptr : &kinds[static_cast<std::size_t>(kind[element])];
     }
-    /// Elements twice as large, each the sum of its children: `children` says which octants are present.
+    /// Returns elements of twice the size, each the sum of its children. `children` has a bit for each solid
+    /// octant.
     Elements summed(const ElementMask& mask, glm::ivec3 size,
                     const std::vector<std::uint8_t>& children) const;
 };
@@ -89,10 +91,10 @@ ElasticMultigrid::Elements ElasticMultigrid::Elements::summed(
     const ElementMask& mask, glm::ivec3 size, const std::vector<std::uint8_t>& children) const {
     Elements larger;
     larger.kind.assign(children.size(), -1);
-    // While elements are alike, so are those of the same children.
+    // While all elements are alike, parents with the same set of children are alike, too.
     const bool alike = kinds.size() == 1;
     std::vector<std::int32_t> known(256, -1);
-    std::vector<std::size_t> of;  // an element of each kind
+    std::vector<std::size_t> of;  // one representative element of each kind
     for (std::size_t e = 0; e < children.size(); ++e) {
         if (children[e] == 0) continue;
         std::int32_t& same = known[children[e]];
@@ -122,11 +124,12 @@ struct ElasticMultigrid::Level {
 
     ElasticGrid grid;
     std::vector<NodeStencil<float>> stencils;
-    std::vector<std::int32_t> stencil;  ///< by node
-    std::vector<Block> inverses;        ///< of a stencil's own block, by stencil
-    double greatest = 1;  ///< bound of the eigenvalues of the inverse blocks times the stiffness
+    /// estimated upper bound of the eigenvalues of D^-1 K, D being the diagonal blocks
+    std::vector<std::int32_t> stencil;
+    std::vector<Block> inverses;  ///< inverse of the diagonal block, by stencil
+    double greatest = 1;          ///< upper bound of the eigenvalues of D^-1 K, D being the diagonal blocks
     std::vector<float> b, x, rest, step;
-    /// Of the coarsest grid, where that is small. What can move freely, it leaves alone.
+    /// Direct solver of the coarsest grid, if that is small. Leaves rigid-body modes unchanged.
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
     bool is_direct = false;
 
@@ -136,7 +139,7 @@ struct ElasticMultigrid::Level {
     void make_room() {
         for (auto* v : {&b, &x, &rest, &step}) v->assign(grid.nodes() * node_numbers, 0.0F);
     }
-    /// rest = b - K x.
+    /// Computes the residual rest = b - K x.
     void find_rest(const float* right, const float* at);
     void find_greatest();
     void smooth(const float* right, float* at, bool from_zero);
@@ -153,7 +156,7 @@ void ElasticMultigrid::Level::find_rest(const float* right, const float* at) {
     });
 }
 
-/// Power iteration, a start of its own in each load case.
+/// Estimates the largest eigenvalue by power iteration, with a separate start vector for each load case.
 void ElasticMultigrid::Level::find_greatest() {
     std::uint32_t state = 12345;
     for (float& v : x) {
@@ -187,7 +190,7 @@ void ElasticMultigrid::Level::find_greatest() {
     if (!(greatest > 0)) greatest = 1;
 }
 
-/// Two steps of Chebyshev's iteration with the nodes' own blocks.
+/// Performs two steps of Chebyshev iteration, preconditioned by the diagonal blocks.
 void ElasticMultigrid::Level::smooth(const float* right, float* at, bool from_zero) {
     const double high = greatest, low = greatest / smoothed_share, middle = (high + low) / 2,
                  half = (high - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
@@ -256,7 +259,7 @@ void ElasticMultigrid::add_level(const ElementMask& mask, const Elements& elemen
     auto level = std::make_unique<Level>(mask);
     const ElasticGrid& grid = level->grid;
     const glm::ivec3 size = mask.size;
-    // Where elements are of one kind, so are the stencils of nodes with the same elements about them.
+    // With one kind of element, nodes with the same elements around them share a stencil.
     const bool shared = elements.kinds.size() == 1;
     std::vector<std::int32_t> known(256, -1);
     level->stencil.resize(grid.nodes());
@@ -289,7 +292,7 @@ namespace {
 
 struct Coarser {
     ElementMask mask;
-    std::vector<std::uint8_t> children;  // which octants are present, by element
+    std::vector<std::uint8_t> children;  // by element: bits of the solid octants
 };
 
 Coarser coarsened(const ElementMask& fine) {
@@ -346,7 +349,7 @@ int ElasticMultigrid::levels() const { return static_cast<int>(levels_.size()); 
 
 namespace {
 
-/// Calls visit(fine place, weight) for the fine nodes that a coarse node has a share in.
+/// Calls visit(fine place, weight) for the fine nodes around a coarse node, with their restriction weights.
 template <typename Visit>
 void for_each_share(glm::ivec3 coarse, const Visit& visit) {
     for (int dz = -1; dz <= 1; ++dz) {

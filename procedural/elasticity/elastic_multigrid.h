@@ -1,4 +1,4 @@
-// A multigrid preconditioner for elastic structures on periodic grids.
+// ElasticMultigrid: a multigrid preconditioner for elastic structures on periodic grids.
 #pragma once
 
 #include <memory>
@@ -8,20 +8,20 @@
 
 namespace lamella {
 
-/// One V-cycle: solves K x = b roughly, for six load cases at once. Each coarser grid has half as many
-/// elements a side, whose stiffness is exactly that of the finer ones under trilinear displacements
-/// (Galerkin), so that thin struts keep what stiffness they have; void has none. Smoothing by Chebyshev's
-/// polynomials of the second degree over blocks of a node. In single precision, symmetric and positive
-/// definite.
+/// One V-cycle: solves K x = b approximately, for six load cases at once. Each coarser grid has half as many
+/// elements per side. The stiffness of a coarse element is exactly that of its children under trilinear
+/// displacements (Galerkin), so thin struts keep their stiffness; void has none. The smoother is a Chebyshev
+/// polynomial of degree two, preconditioned by the 3x3 diagonal block of each node. The cycle works in single
+/// precision; it is symmetric and positive definite.
 class ElasticMultigrid {
   public:
-    /// Sides are halved while all of them are even and at least four.
+    /// Coarsens as long as all sides are even and at least four elements.
     ElasticMultigrid(const ElementMask& elements, const HexElement& element);
     ~ElasticMultigrid();
 
     const ElasticGrid& grid() const;
     int levels() const;
-    /// x is roughly the solution for b; both have node_numbers for each node.
+    /// Computes an approximate solution x for the right-hand side b. Both have node_numbers numbers per node.
     void solve(std::span<const float> b, std::span<float> x);
 
   private:

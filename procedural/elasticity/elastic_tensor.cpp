@@ -1,4 +1,4 @@
-// Projections and norms in the notation of Mandel, where they are those of matrices.
+// Projections and norms, in Mandel notation where tensor norms are matrix norms.
 #include "procedural/elasticity/elastic_tensor.h"
 
 #include <Eigen/Dense>
@@ -22,7 +22,7 @@ Matrix6 matrix_of(const ElasticTensor& tensor) {
     return m;
 }
 
-/// The norm of the fourth-order tensor: shears count twice in each index pair.
+/// The Frobenius norm of the fourth-order tensor. Each shear index pair counts twice.
 double norm(const ElasticTensor& stiffness) {
     double sum = 0;
     for (std::size_t i = 0; i < 6; ++i) {
@@ -108,11 +108,11 @@ Interval directional_moduli(const ElasticTensor& compliance) {
         const double e = directional_modulus(compliance, glm::normalize(n));
         found = {std::min(found.lo, e), std::max(found.hi, e)};
     };
-    for (int i = 0; i < count; ++i) {  // half of the sphere, evenly
+    for (int i = 0; i < count; ++i) {  // evenly over a hemisphere
         const double z = (i + 0.5) / count, r = std::sqrt(1 - z * z), a = golden_angle * i;
         look({r * std::cos(a), r * std::sin(a), z});
     }
-    for (int k = 1; k < 27; ++k) {  // where the extremes of many symmetric structures are
+    for (int k = 1; k < 27; ++k) {  // symmetry axes of cubic structures, where extremes often are
         const dvec3 n(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
         if (n != dvec3(0)) look(n);
     }

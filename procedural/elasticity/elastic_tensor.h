@@ -1,4 +1,4 @@
-// Linear elasticity: tensors in Voigt's notation, what they say, and the bounds that hold for porous solids.
+// Linear elasticity: tensors in Voigt notation, moduli derived from them, and bounds for porous solids.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace lamella {
 
-/// A stiffness or compliance tensor: strains xx, yy, zz, xy, yz, zx, shears as engineers count them (twice
-/// the tensor's). Stiffness has the unit of the base material's modulus.
+/// A stiffness or compliance tensor in Voigt notation: strains xx, yy, zz, xy, yz, zx with engineering shears
+/// (twice the tensor's). Stiffness has the unit of the base material's modulus.
 using ElasticTensor = std::array<std::array<double, 6>, 6>;
 
-/// A material alike to all sides.
+/// An isotropic elastic material. `young` may have any unit of stress; derived moduli have the same unit.
 struct IsotropicMaterial {
     double young = 1;
     double poisson = 1.0 / 3;
@@ -21,24 +21,27 @@ struct IsotropicMaterial {
 };
 
 IsotropicMaterial material_of(double bulk, double shear);
-/// Throws InputError unless the modulus is positive and finite, and Poisson's ratio in (-1, 0.5).
+/// Throws InputError unless Young's modulus is positive and finite, and Poisson's ratio is in (-1, 0.5).
 void check_material(const IsotropicMaterial& material);
 ElasticTensor stiffness_of(const IsotropicMaterial& material);
 
-/// The isotropic stiffness nearest to one (in the norm that does not depend on the axes): its projection.
+/// Returns the isotropic stiffness closest to `stiffness` in the rotation-invariant (Frobenius) norm: its
+/// orthogonal projection.
 IsotropicMaterial closest_isotropic(const ElasticTensor& stiffness);
-/// How far a stiffness is from the closest isotropic one, as a share of that one's norm.
+/// Returns the distance from the closest isotropic stiffness, relative to the norm of that one.
 double anisotropy(const ElasticTensor& stiffness);
-/// The inverse. Throws FaultError for a stiffness that lets something be strained for nothing.
+/// Returns the inverse. Throws FaultError if the stiffness is singular: some strain
+/// costs no energy.
 ElasticTensor compliance_of(const ElasticTensor& stiffness);
-/// Young's modulus along a direction (a unit vector).
+/// Returns Young's modulus along a unit vector.
 double directional_modulus(const ElasticTensor& compliance, dvec3 direction);
 
-/// Least and greatest Young's modulus over a fixed set of about 4,000 directions, a degree or two apart.
+/// Returns the minimum and maximum of Young's modulus over a fixed set of about 4,000 directions, one or two
+/// degrees apart.
 Interval directional_moduli(const ElasticTensor& compliance);
 
-/// The upper bound of Hashin and Shtrikman for an isotropic mixture of a material and void, of which `share`
-/// is solid.
+/// Returns the upper Hashin-Shtrikman bound for an isotropic mixture of a material and void. `share` is the
+/// solid volume fraction.
 IsotropicMaterial hashin_shtrikman(const IsotropicMaterial& material, double share);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A plane of elements at a time, off the runs of its rows.
+// Marks elements plane by plane, from the runs of their rows.
 #include "procedural/elasticity/field_sample.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -24,7 +24,7 @@ void mark_plane(const Field& field, const Box& box, double edge, int z, ElementM
     context.slice(field, box.lo.z + (z + 0.5) * edge).runs(band, scratch, rows);
     for (int y = 0; y < sample.size.y; ++y) {
         for (const Run& run : rows.line(static_cast<std::size_t>(y))) {
-            // The first middle that is not before the run's begin.
+            // Start at the first element centre that is not before the run's begin.
             for (int x = std::max(0, (run.begin + run_unit / 2 - 1) / run_unit); x < sample.size.x; ++x) {
                 if (x * run_unit + run_unit / 2 >= run.end) break;
                 sample.present[sample.place(x, y, z)] = 1;

@@ -1,4 +1,4 @@
-// Elements of a solid: which cells of a grid have their middle in it.
+// Voxelises a field: an element is solid if its centre is.
 #pragma once
 
 #include "engine/field/field.h"
@@ -6,9 +6,9 @@
 
 namespace lamella {
 
-/// Cuts a box into cubic elements, `along_x` of them along x and as many along y and z as its sides say,
-/// rounded. An element is present where its middle is solid. Planes are taken in parallel, on the calling
-/// task arena's threads.
+/// Divides a box into cubic elements: `along_x` of them along x; along y and z as many as fit its sides,
+/// rounded. An element is solid if its centre is inside the field. Planes are sampled in parallel, on the
+/// threads of the calling task arena.
 ElementMask sample_field(const Field& field, const Box& box, int along_x);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A monotone curve through logarithms; laws as rows of text.
+// Monotone interpolation of logarithms, and the text format of laws.
 #include "procedural/elasticity/foam_law.h"
 
 #include <fmt/format.h>
@@ -17,8 +17,8 @@ namespace {
 constexpr std::array columns{"foam",      "ratio",  "density",    "E",        "nu",     "E_low_nu",
                              "E_high_nu", "spread", "anisotropy", "elements", "samples"};
 
-/// What the material's Poisson's ratio makes of the modulus: the parabola through the three that were
-/// computed.
+/// Returns the factor on the modulus for a material's Poisson's ratio: the parabola through the three
+/// computed values.
 double poisson_factor(const FoamLawPoint& point, double poisson) {
     const auto weight = [&](double here, double other, double third) {
         return (poisson - other) * (poisson - third) / ((here - other) * (here - third));

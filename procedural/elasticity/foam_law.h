@@ -1,4 +1,4 @@
-// How stiff a foam is by the size of its members, and the members that make it as stiff as wanted.
+// FoamLaw: the relative modulus of a foam as a function of its member-to-cell ratio, and the inverse.
 #pragma once
 
 #include <string>
@@ -9,59 +9,60 @@
 
 namespace lamella {
 
-/// Poisson's ratios of the materials that laws are computed with.
+/// Poisson's ratios of the base materials that laws are computed for.
 inline constexpr double law_poisson = 1.0 / 3, low_poisson = 0.2, high_poisson = 0.45;
 
-/// What was computed of a foam with members of one size.
+/// Computed properties of a foam at one member-to-cell ratio.
 struct FoamLawPoint {
-    double ratio = 0;    ///< of the members' radius (walls: thickness) to the cell
-    double density = 0;  ///< share that is solid
-    double young = 0;    ///< over the material's
-    double poisson = 0;  ///< of the foam
-    /// The foam's modulus with materials of low_poisson and high_poisson, over that with law_poisson.
+    double ratio = 0;    ///< members' radius (walls: thickness) over cell size
+    double density = 0;  ///< solid volume fraction
+    double young = 0;    ///< Young's modulus of the foam over the material's
+    double poisson = 0;  ///< Poisson's ratio of the foam
+    /// The foam's modulus with a material of low_poisson, and of high_poisson, over that with law_poisson.
     double low_factor = 1, high_factor = 1;
-    double spread = 0;      ///< of single samples' moduli: standard deviation over mean
-    double anisotropy = 0;  ///< of the mean stiffness
-    int elements = 0;       ///< along a sample's side
+    double spread = 0;      ///< of the moduli of single samples: standard deviation over mean
+    double anisotropy = 0;  ///< of the mean stiffness; see anisotropy()
+    int elements = 0;       ///< along one side of a sample
     int samples = 0;
 };
 
-/// A foam's law as it is kept: what foam, and its points by rising ratio, for a material with law_poisson.
+/// A foam's law as stored: the foam's description and the computed points by ascending ratio, for a material
+/// with law_poisson.
 struct FoamLawTable {
-    std::string foam;  ///< in words of its own, without commas
+    std::string foam;  ///< description, without commas
     std::vector<FoamLawPoint> points;
 };
 
-/// A foam's stiffness over its material's depends on the ratio of its members to its cells, and a little on
-/// the material's Poisson's ratio. Between the points that were computed a monotone cubic runs through the
-/// logarithms of modulus and ratio. The same bits on every machine.
+/// The relative modulus of a foam depends on the ratio of its members to its cells and, slightly, on
+/// Poisson's ratio of the material. Between computed points a monotone cubic interpolates log(ratio) over
+/// log(modulus). Results have the same bits on every machine.
 class FoamLaw {
   public:
-    /// The law for materials of a Poisson's ratio. Throws InputError for fewer than two points, for numbers
-    /// out of range, and where ratio and modulus do not grow from point to point.
+    /// Makes the law for materials of one Poisson's ratio. Throws InputError for fewer than two points, for
+    /// numbers out of range, and if ratio or modulus does not increase from point to point.
     FoamLaw(const FoamLawTable& table, double material_poisson);
 
-    /// The ratios that were computed, and the moduli at their ends, over the material's.
+    /// The range of computed ratios, and the relative moduli at its ends.
     Interval ratios() const { return {points_.front().ratio, points_.back().ratio}; }
     Interval moduli() const { return {points_.front().young, points_.back().young}; }
-    /// Of all samples: the root of the mean square of the points' spreads.
+    /// The root mean square of the points' spreads.
     double spread() const;
-    /// The ratio whose foam has a modulus, over the material's: beyond moduli() that of its nearest end; NaN
-    /// for NaN.
+    /// Returns the ratio that gives a relative modulus. Outside moduli() returns the ratio of the nearest
+    /// end; NaN for NaN.
     double ratio_of(double young) const;
-    /// What is known of a ratio; beyond ratios() of its nearest end.
+    /// Returns the interpolated properties at a ratio; outside ratios() those of the nearest end.
     FoamLawPoint at(double ratio) const;
 
   private:
     std::vector<FoamLawPoint> points_;  // for the material's Poisson's ratio
-    TableCurve log_ratio_;              // along the modulus' logarithm
+    TableCurve log_ratio_;              // over the logarithm of the modulus
 };
 
-/// Reads laws: rows in the columns that law_heading() names, those of one foam in a row. `name` stands in
-/// messages. Throws InputError("name:line: what").
+/// Reads laws from text. The columns are those of law_heading(); the rows of one foam are contiguous. `name`
+/// is the file name in messages. Throws InputError("name:line: what").
 std::vector<FoamLawTable> read_foam_laws(std::string_view text, const std::string& name);
 std::string law_heading();
-/// A row of such a file, with its end.
+/// Returns one row of such a file, including the line end.
 std::string law_row(const std::string& foam, const FoamLawPoint& point);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// B^T C B and B^T C over the Gauss points.
+// Gauss quadrature of B^T C B and B^T C.
 #include "procedural/elasticity/hex_element.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace {
 
 using StrainRows = std::array<std::array<double, hex_unknowns>, 6>;
 
-/// Strains at a point of [0, 1]^3 from the displacements of the nodes.
+/// Returns the strain-displacement matrix B at a point of [0, 1]^3: strains from nodal displacements.
 StrainRows strain_rows(dvec3 p) {
     StrainRows b{};
     for (std::size_t c = 0; c < hex_nodes; ++c) {

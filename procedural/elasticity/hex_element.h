@@ -1,4 +1,4 @@
-// The finite element of homogenisation: a cube of edge 1 with a node at each corner (trilinear, hex8).
+// HexElement: a trilinear finite element (hex8), a cube of edge 1 with a node at each corner.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@ inline constexpr int hex_unknowns = 3 * hex_nodes;  ///< displacements x, y, z o
 
 struct HexElement {
     std::array<std::array<double, hex_unknowns>, hex_unknowns> stiffness{};
-    /// Forces at the nodes under each of the six strains of Voigt's notation, held back by the stresses.
+    /// Nodal forces of the uniform stress of each of the six unit strains in Voigt notation.
     std::array<std::array<double, 6>, hex_unknowns> loads{};
 };
 
-/// Integrated exactly (two Gauss points a direction).
+/// Makes an element of a material with this stiffness. Integration is exact (two Gauss points per direction).
 HexElement make_hex_element(const ElasticTensor& stiffness);
 
 }  // namespace lamella

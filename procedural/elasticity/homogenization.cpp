@@ -1,4 +1,4 @@
-// Six load cases side by side; the energy of what is found gives the tensor.
+// Conjugate gradients for six load cases side by side; the tensor follows from the elastic energy.
 #include "procedural/elasticity/homogenization.h"
 
 #include <oneapi/tbb/task_arena.h>
@@ -13,7 +13,7 @@
 namespace lamella {
 namespace {
 
-/// The stiffness of the structure in full precision, and the loads on it.
+/// The stiffness of the structure in double precision, and its loads.
 class Structure {
   public:
     Structure(const ElasticGrid& grid, const HexElement& element) : grid_(grid), stencils_(256), loads_(256) {
@@ -39,18 +39,18 @@ class Structure {
             add_forces(stencils_[grid_.elements(node)], grid_.neighbours(node), x, sum);
         });
     }
-    /// What the square of the loads would be if no node's were balanced.
+    /// The squared norm that the loads would have if no node's loads cancelled.
     double load_scale() const { return scale_ * static_cast<double>(nodes()); }
     const double* load(std::size_t node) const { return loads_[grid_.elements(node)].data(); }
 
   private:
     const ElasticGrid& grid_;
     double scale_ = 0;
-    std::vector<NodeStencil<double>> stencils_;  // by the elements about a node
+    std::vector<NodeStencil<double>> stencils_;  // by the bits of the elements around a node
     std::vector<std::array<double, node_numbers>> loads_;
 };
 
-/// Conjugate gradients, case by case.
+/// Conjugate gradients, with separate coefficients for each load case.
 class Solution {
   public:
     Solution(const Structure& structure, ElasticMultigrid& multigrid)
@@ -67,7 +67,7 @@ class Solution {
                         rest_.begin() + static_cast<std::ptrdiff_t>(node * node_numbers));
         });
         load_ = products(nodes(), rest_.data(), rest_.data());
-        // A strain that loads no node, as in a full block, leaves what rounding makes of it.
+        // A strain whose loads cancel at every node, as in a full block, leaves only rounding errors.
         constexpr double hardly_any = 1e-8;
         for (double& load : load_) load = std::max(load, hardly_any * structure.load_scale());
     }
@@ -90,11 +90,12 @@ class Solution {
     ElasticMultigrid& multigrid_;
     std::vector<double> x_, rest_, way_, force_;
     std::vector<float> single_, eased_;
-    CaseNumbers load_{};  // squares of the loads
+    CaseNumbers load_{};  // squared norms of the loads
 };
 
-/// The preconditioner: single precision sees each case in units of its forces. Returns these; 0 for the cases
-/// that are solved, which rest: what rounding leaves of them has no solution.
+/// Applies the preconditioner. Each load case is scaled to unit residual for single precision. Returns the
+/// scales; 0 for converged cases, which are left out: their residual is rounding error, for which there is no
+/// solution.
 CaseNumbers Solution::ease(const CaseNumbers& squares, double tolerance) {
     CaseNumbers scale{};
     for (std::size_t l = 0; l < load_cases; ++l) {
@@ -146,7 +147,8 @@ int Solution::solve(const HomogenizationOptions& options) {
                      " iterations");
 }
 
-/// C = share of solid * C_s - (f_a . x_b + x_a . r_b) / V: the energy, whose error is that of x squared.
+/// Computes C = (volume fraction) * C_s - (f_a . x_b + x_a . r_b) / V from the elastic energy, whose error is
+/// quadratic in that of x.
 ElasticTensor tensor_of(const Structure& structure, const Solution& solution, const ElasticTensor& solid,
                         double share, double volume) {
     ElasticTensor c{};

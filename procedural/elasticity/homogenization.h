@@ -1,4 +1,4 @@
-// Homogenisation: the stiffness of a structure that repeats, as a block of it would show it.
+// Homogenisation: the effective stiffness of a periodic structure.
 #pragma once
 
 #include <functional>
@@ -9,26 +9,26 @@
 namespace lamella {
 
 struct HomogenizationOptions {
-    double tolerance = 1e-7;  ///< of the forces that are left, as a share of the loads
+    double tolerance = 1e-7;  ///< relative residual: norm of the residual forces over that of the loads
     int max_iterations = 2000;
     int threads = 0;  ///< 0: one per core
-    /// Told after each iteration, with the forces left over the loads; may be empty.
+    /// Called before each iteration with the relative residual; may be empty.
     std::function<void(int iteration, double left)> on_progress{};
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
 struct Homogenized {
     ElasticTensor stiffness{};
-    double density = 0;     ///< share of solid elements
-    int iterations = 0;     ///< of conjugate gradients, for the slowest load case
-    std::size_t nodes = 0;  ///< that elements touch
+    double density = 0;     ///< solid volume fraction
+    int iterations = 0;     ///< of the conjugate gradient method, for the slowest load case
+    std::size_t nodes = 0;  ///< nodes that touch solid elements
 };
 
-/// The effective stiffness of a periodic sample of cubic elements, solid or void: finite elements under six
-/// strains with displacements periodic at the sample's sides, solved by conjugate gradients on a multigrid
-/// cycle (ElasticMultigrid). What the forces left make wrong comes in with their square. A pure function of
-/// sample, material and tolerance. Throws InputError for an empty sample or what is no material, FaultError
-/// where the iterations do not suffice, Interrupted when cancelled.
+/// Computes the effective stiffness of a periodic sample of cubic elements, each solid or void. Solves finite
+/// elements under six unit strains, with displacements periodic at the sample's sides, by conjugate gradients
+/// preconditioned by a multigrid cycle (ElasticMultigrid). The error of the stiffness is quadratic in the
+/// residual. A pure function of sample, material and tolerance. Throws InputError for an empty sample or an
+/// invalid material, FaultError when max_iterations do not suffice, Interrupted when cancelled.
 Homogenized homogenize(const ElementMask& sample, const IsotropicMaterial& material,
                        const HomogenizationOptions& options = {});
 

@@ -1,4 +1,4 @@
-// A straight line through logarithms.
+// Linear regression of logarithms.
 #include "procedural/elasticity/law_fit.h"
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 namespace lamella {
 namespace {
 
-/// Student's t for 19 of 20, two-sided.
+/// Quantile of Student's t distribution, 95 % two-sided.
 double student_t(std::size_t degrees) {
     constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
     if (degrees <= table.size()) return table[degrees - 1];
     return 1.96 + 2.4 / static_cast<double>(degrees) + 3.0 / static_cast<double>(degrees * degrees);
 }
 
-/// y over x by least squares, with the slope given where it is not to be found.
+/// A line fitted by least squares; its slope is 1 unless it can be fitted.
 struct Line {
-    double slope, level, residual;  // the sum of squares that is left
+    double slope, level, residual;  // sum of squared residuals
 };
 
 Line line_through(std::span<const std::pair<double, double>> points, bool finds_slope) {
@@ -99,7 +99,7 @@ double FoamModulus::modulus_of(double ratio) const {
 }
 
 double FoamModulus::band() const {
-    constexpr double of_elements = 0.02;  // two to four of them along a radius
+    constexpr double of_elements = 0.02;  // discretisation error with two to four elements along a radius
     return fit_.band > 0 ? fit_.band : std::hypot(2 * law_.spread(), of_elements);
 }
 

@@ -1,16 +1,16 @@
-// Two gradings through one monotone law.
+// Gradings that combine two gradings by a monotone law.
 #include "procedural/elasticity/modulus_grading.h"
 
 namespace lamella {
 namespace {
 
-/// What rounding in logarithms and powers may add.
+/// Widens a range by the rounding error of logarithms and powers.
 Interval widened(Interval range) {
     constexpr double slack = 1e-12;
     return {range.lo * (1 - slack), range.hi * (1 + slack)};
 }
 
-/// A number that two positive ones give at every place.
+/// A grading that is a function of two positive gradings.
 template <typename Number>
 class PairGrading : public Grading {
   public:
@@ -24,7 +24,7 @@ class PairGrading : public Grading {
     Interval range(const Box& box) const override {
         const Interval a = a_->range(box), b = b_->range(box);
         Interval range = widened(number_.range(a, b));
-        if (a.hi == infinity || b.hi == infinity) range.hi = infinity;  // may stand for NaN
+        if (a.hi == infinity || b.hi == infinity) range.hi = infinity;  // the value may be NaN there
         return range;
     }
     std::optional<double> constant() const override {

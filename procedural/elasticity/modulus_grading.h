@@ -1,4 +1,4 @@
-// Cells and members of a foam that is to have a modulus, and the modulus of cells and members.
+// Gradings that relate a foam's modulus to the sizes of its cells and members.
 #pragma once
 
 #include "engine/field/grading.h"
@@ -8,11 +8,11 @@ namespace lamella {
 
 using FoamModulusPtr = std::shared_ptr<const FoamModulus>;
 
-/// The cells (mm) that give members (mm) a modulus (MPa).
+/// Returns the cell size (mm) at which members of a given size (mm) give a wanted modulus (MPa).
 GradingPtr make_cell_for_modulus(GradingPtr modulus, GradingPtr member, FoamModulusPtr foam);
-/// The members (mm) that give cells (mm) a modulus (MPa).
+/// Returns the member size (mm) at which cells of a given size (mm) give a wanted modulus (MPa).
 GradingPtr make_member_for_modulus(GradingPtr modulus, GradingPtr cell, FoamModulusPtr foam);
-/// The modulus (MPa) that members (mm) give cells (mm).
+/// Returns the modulus (MPa) of a foam with these cells (mm) and members (mm).
 GradingPtr make_modulus_of(GradingPtr cell, GradingPtr member, FoamModulusPtr foam);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Nodes worked on in parallel, and sums over them that do not depend on how.
+// Parallel loops over nodes, and sums over nodes whose result does not depend on the number of threads.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
@@ -13,7 +13,7 @@ namespace lamella {
 
 inline constexpr std::size_t nodes_in_a_block = 512;
 
-/// Calls work(node) for each node.
+/// Calls work(node) for each node, in parallel.
 template <typename Work>
 void for_each_node(std::size_t nodes, const Work& work) {
     const std::size_t blocks = (nodes + nodes_in_a_block - 1) / nodes_in_a_block;
@@ -25,7 +25,8 @@ void for_each_node(std::size_t nodes, const Work& work) {
 
 using CaseNumbers = std::array<double, load_cases>;
 
-/// Sums what add(node, sums) adds for each node: in blocks, then block after block.
+/// Returns the sum over all nodes of what add(node, sums) adds. Sums blocks in parallel and then the blocks
+/// in order, so that rounding is reproducible.
 template <typename Add>
 CaseNumbers sum_over_nodes(std::size_t nodes, const Add& add) {
     std::vector<CaseNumbers> parts((nodes + nodes_in_a_block - 1) / nodes_in_a_block, CaseNumbers{});
@@ -40,7 +41,7 @@ CaseNumbers sum_over_nodes(std::size_t nodes, const Add& add) {
     return sums;
 }
 
-/// The scalar products, case by case, of two vectors of nodes.
+/// Returns the dot products of two nodal vectors, one for each load case.
 template <typename A, typename B>
 CaseNumbers products(std::size_t nodes, const A* a, const B* b) {
     return sum_over_nodes(nodes, [=](std::size_t node, CaseNumbers& sums) {

@@ -1,10 +1,10 @@
-// The beam against box test: quick answers first, then the minimum of a convex function.
+// Beam-box intersection: quick tests first, then the minimum of a convex function.
 #include "procedural/foam/beam_box.h"
 
 namespace lamella {
 namespace {
 
-/// Whether the segment from a to b meets the box (slab method).
+/// Returns whether the segment from a to b meets the box (slab method).
 bool segment_meets(dvec3 a, dvec3 b, const Box& box) {
     double enter = 0, leave = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +30,8 @@ bool touches(const Beam& beam, const Box& box) {
     };
     double lo = 0, hi = 1;
     if (gap(lo) <= 0 || gap(hi) <= 0) return true;
-    // Thirds: the minimum of a convex function stays in the part that holds the lower of two inner values.
+    // Ternary search: the minimum of a convex function stays in the part that contains the lower of two inner
+    // values.
     for (int step = 0; step < 100; ++step) {
         const double s = lo + (hi - lo) / 3, t = hi - (hi - lo) / 3;
         const double at_s = gap(s), at_t = gap(t);

@@ -5,12 +5,12 @@
 
 namespace lamella {
 
-/// The union of infinitely many beams.
+/// An infinite union of beams.
 class BeamFoam : public PieceFoam<Beam> {
   public:
-    /// Every beam whose solid touches the box, once, in canonical order.
+    /// Returns every beam that touches the box, once, in canonical order.
     std::vector<Beam> beams_touching(const Box& box) const { return pieces_touching(box); }
-    /// The beams that meet the region's rectangle at height z, in canonical order.
+    /// Returns the beams that meet the region's rectangle at height z, in canonical order.
     std::vector<Beam> beams_at(double z) const {
         const Box region = bounds();
         return pieces_touching({{region.lo.x, region.lo.y, z}, {region.hi.x, region.hi.y, z}});

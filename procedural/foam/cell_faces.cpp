@@ -1,4 +1,4 @@
-// Edges sorted by face, and put in order round each.
+// Sorts edges by face and chains them around each face.
 #include "procedural/foam/cell_faces.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::size_t CellFaces::collect_edges(const VoronoiCell& cell, const Seed& own, s
         }
     };
     cell.edges([&](std::int32_t a, std::int32_t b, std::size_t v, std::size_t w) {
-        // Seen from outside, face b turns from v to w, and face a back.
+        // Seen from outside, the ring of face b runs from v to w, that of face a from w to v.
         const Seed *first = seed(a), *second = seed(b);
         add(first, second, w, v);
         add(second, first, v, w);
@@ -41,7 +41,7 @@ std::size_t CellFaces::collect_edges(const VoronoiCell& cell, const Seed& own, s
     return left_out;
 }
 
-/// Puts the vertices of a face in order into ring_. False when its edges make no ring.
+/// Chains the vertices of a face into ring_. Returns false if its edges are not a closed ring.
 bool CellFaces::order(std::span<const Edge> edges) {
     ring_.clear();
     std::size_t at = edges.front().from;
@@ -60,7 +60,7 @@ std::size_t CellFaces::list(const VoronoiCell& cell, const Seed& own, std::span<
     std::size_t left_out = collect_edges(cell, own, sites, which);
     nodes_.start(cell);
     faces_.clear();
-    // No ring is longer than its edges, so the spans stay valid.
+    // All rings together are no longer than the edges, so the spans stay valid.
     corners_.clear();
     corners_.reserve(edges_.size());
     for (std::size_t first = 0, last = 0; first < edges_.size(); first = last) {

@@ -1,4 +1,4 @@
-// Units of Voronoi cells: pieces that are made from the cell of the seed that owns them.
+// CellSource, CellUnits: units of pieces that are made from the Voronoi cell of the seed that owns them.
 #pragma once
 
 #include <cmath>
@@ -53,7 +53,7 @@ class CellSource {
     const Stretch& stretch() const { return maker_.stretch(); }
 
   private:
-    /// Seeds come in the order of keys, as the gathered sites stand.
+    /// Finds the seed among the gathered sites and computes its cell in rings. Both come in key order.
     bool cell_in_rings(const Seed& own) {
         const auto sites = rings_.sites();
         if (site_ < sites.size() && own.key < sites[site_].key) site_ = 0;

@@ -1,4 +1,4 @@
-// Checking walls and windows, and putting the foam with walls together.
+// Checks walls and windows, and assembles the foam with walls.
 #include "procedural/foam/closed_foam.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double max_wall_share = 0.9;  // share of the local cell
 
-/// Half a wall's thickness, where cells are large enough for it.
+/// Half a wall's thickness, limited by the local cell size.
 class HalfWall : public Grading {
   public:
     HalfWall(GradingPtr wall, GradingPtr cell) : wall_(std::move(wall)), cell_(std::move(cell)) {}
@@ -31,7 +31,8 @@ class HalfWall : public Grading {
     GradingPtr wall_, cell_;
 };
 
-/// The range of a graded setting over the region, cut to limits. A constant must keep to them.
+/// Returns the range of a graded setting over the region, clamped to `limits`. Throws InputError if a
+/// constant is outside them.
 Interval range_within(const Graded& graded, const Box& region, Interval limits, const char* what,
                       const char* limits_in_words) {
     const Interval range = tight_range(*graded, region);

@@ -1,4 +1,4 @@
-// ClosedFoam: the foam whose cells are closed by walls, wholly or but for a window in each.
+// ClosedFoam: the closed-cell foam, whose Voronoi faces are walls, each with or without a window.
 #pragma once
 
 #include <memory>
@@ -11,28 +11,28 @@
 
 namespace lamella {
 
-/// What a foam with walls is made of.
+/// Parameters of a foam with walls.
 struct ClosedFoamSettings {
     FoamSettings foam;  ///< the cells, and the beams along their edges
-    /// Thickness of the walls, mm, >= 0, asked for at the nodes and in the middle of each face; at most 0.9
-    /// of the local cell. Where it is 0 there is none.
+    /// Thickness of the walls, mm, >= 0, at most 0.9 of the local cell. Sampled at the nodes and at the
+    /// centre of each face. Where it is 0 there is no wall.
     Graded wall = 0.2;
-    /// Share of a wall's width that is a window, asked for in the middle of each face: 0 is closed, 1 has no
-    /// wall; graded numbers beyond count as these.
+    /// Size of the windows, as a share of a wall's width: 0 is closed, 1 has no wall. Sampled at the centre
+    /// of each face; graded numbers are clamped to [0, 1].
     Graded window = 0.0;
 };
 
-/// The foam of all faces of the Voronoi diagram that VoronoiFoam takes the edges of: every face is a wall,
-/// its rims round, with a window in its middle where one is asked for; beams run along the edges. It fills
-/// space; the region only says where slices and bounds are wanted.
+/// A foam on the same Voronoi diagram as VoronoiFoam. Every face of the diagram is a wall with round rims,
+/// with a window in its centre if wanted; beams run along the edges. The foam fills space; `region` only
+/// bounds slices.
 class ClosedFoam : public PieceFoam<FoamPiece> {
   public:
     /// Throws InputError for settings out of range.
     explicit ClosedFoam(const ClosedFoamSettings& settings);
 
     std::vector<FoamPiece> pieces_touching(const Box& box) const override { return units_.touching(box); }
-    /// The foam with beams and walls thicker by d on every side, d >= 0; null for d < 0, where the joints
-    /// have no closed form.
+    /// Returns the foam with beams and walls thicker by d on every side, d >= 0; null for d < 0, where the
+    /// joints have no closed form.
     FieldPtr offset(double d) const override;
 
   private:

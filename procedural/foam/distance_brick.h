@@ -1,4 +1,5 @@
-// A small cube of space that knows, for each of its voxels, the few pieces that can be nearest there.
+// PieceBrick: a small cube of space that stores, for each of its voxels, the few pieces that can be nearest
+// there.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +16,20 @@
 namespace lamella {
 
 /// Finds the exact distance to the nearest of infinitely many pieces from a short list. A piece is on a
-/// voxel's list when its distance from the voxel's centre exceeds the smallest one by no more than the
-/// voxel's diagonal; distances are 1-Lipschitz, so no other piece is nearest anywhere in the voxel.
+/// voxel's list if its distance from the voxel's centre exceeds the smallest such distance by no more than
+/// the voxel's diagonal. Distances are 1-Lipschitz, so no other piece is nearest anywhere in the voxel.
 /// Immutable.
 ///
-/// Piece: signed_distance(piece, p), found by argument.
+/// Piece must have signed_distance(piece, p), found by argument-dependent lookup.
 template <typename Piece>
 class PieceBrick {
   public:
-    /// All pieces that touch a box.
+    /// Returns all pieces that touch a box.
     using Query = std::function<std::vector<Piece>(const Box&)>;
-    /// Gathers the pieces about the cube `box`, mm.
+    /// Gathers the pieces around the cube `box`, mm.
     PieceBrick(const Box& box, const Query& touching);
 
-    /// The signed distance to the union of all pieces at a point of the cube, mm.
+    /// Returns the signed distance to the union of all pieces at a point of the cube, mm.
     double distance(dvec3 p) const;
     std::size_t bytes() const {
         return sizeof(PieceBrick) + pieces_.capacity() * sizeof(Piece) +
@@ -57,17 +58,17 @@ class PieceBrick {
 
     Box box_;
     std::vector<Piece> pieces_;
-    std::vector<std::uint32_t> begins_;  ///< by voxel, in the order of an octree
-    std::vector<Entry> lists_;           ///< each voxel's by distance
+    std::vector<std::uint32_t> begins_;  ///< by voxel, in octree order
+    std::vector<Entry> lists_;           ///< of each voxel, sorted by distance
 };
 
-/// The brick of foams that are made of beams alone.
+/// The brick of foams that consist of beams alone.
 using DistanceBrick = PieceBrick<Beam>;
 
 template <typename Piece>
 PieceBrick<Piece>::PieceBrick(const Box& box, const Query& touching) : box_(box) {
     // Pieces that do not touch the grown cube are farther than the growth from all of it. Grow until every
-    // voxel's list must be complete.
+    // voxel's list is certainly complete.
     const double first_growth = 0.75 * (box.hi.x - box.lo.x);
     for (double growth = first_growth;; growth *= 1.5) {
         const std::vector<Piece> near = touching(grown(box, growth));
@@ -81,7 +82,8 @@ PieceBrick<Piece>::PieceBrick(const Box& box, const Query& touching) : box_(box)
     }
 }
 
-/// Narrows the candidates down from cube to octant. False when a piece beyond the growth might be nearest.
+/// Culls candidates from cube to octant, down to the voxels. Returns false if a piece farther than the growth
+/// might be nearest.
 template <typename Piece>
 bool PieceBrick<Piece>::divide(const Box& box, std::span<const std::uint32_t> candidates,
                                const std::vector<Piece>& near, double growth, int depth) {
@@ -116,7 +118,7 @@ bool PieceBrick<Piece>::divide(const Box& box, std::span<const std::uint32_t> ca
     return true;
 }
 
-/// Keeps the pieces that stand on a list, and renumbers the lists.
+/// Keeps the pieces that are on a list, and renumbers the lists.
 template <typename Piece>
 void PieceBrick<Piece>::keep_used(const std::vector<Piece>& near) {
     std::vector<std::int32_t> renumbered(near.size(), -1);
@@ -145,7 +147,8 @@ double PieceBrick<Piece>::distance(dvec3 p) const {
     }
     double nearest = infinity;
     for (std::uint32_t i = begins_[v]; i < begins_[v + 1]; ++i) {
-        // No later piece is nearer: it would have to come closer than the way from the centre.
+        // No later piece is nearer: the distance from p differs from that of the voxel's centre by at most
+        // `way`.
         if (lists_[i].center_distance - way > nearest) break;
         nearest = std::min(nearest, signed_distance(pieces_[lists_[i].piece], p));
     }

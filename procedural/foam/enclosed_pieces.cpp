@@ -1,4 +1,4 @@
-// The cell's box divided where the body may be.
+// Subdivides the cell's box where the body may be, and groups the leaves into pieces.
 #include "procedural/foam/enclosed_pieces.h"
 
 #include <algorithm>
@@ -6,12 +6,12 @@
 namespace lamella {
 namespace {
 
-// Leaves along the box, powers of two: cells that the surface crosses are many, the others few.
+// Leaves along the box, powers of two. Coarser for cells that the surface crosses, because there are many.
 constexpr int leaves_in_crossed_cell = 8, leaves_in_cell = 16;
 
-using Places = std::vector<glm::ivec3>;  // of leaves
+using Places = std::vector<glm::ivec3>;  // positions of leaves
 
-/// The leaves of a cell's box whose middle lies in the cell and in the body.
+/// The leaves of a cell's box whose centre lies in the cell and in the body.
 class InsideLeaves {
   public:
     InsideLeaves(const Box& box, const SurfaceTracer& tracer, const Seed& own, std::span<const Seed> sites,
@@ -30,7 +30,7 @@ class InsideLeaves {
         return box_.lo + box_.size() * ((dvec3(leaf) + 0.5) / double(along_));
     }
 
-    /// Leaves out the piece about a point.
+    /// Removes the piece near a point.
     void leave_out(dvec3 p) {
         Places piece;
         const glm::ivec3 home(glm::floor((p - box_.lo) / box_.size() * double(along_)));
@@ -38,7 +38,7 @@ class InsideLeaves {
         take_neighbours(piece);
     }
 
-    /// The leaves of each piece: those that touch.
+    /// Returns the connected components of leaves; diagonal contact connects.
     std::vector<Places> pieces() {
         std::vector<Places> pieces;
         for (std::size_t i = 0; i < inside_.size(); ++i) {
@@ -69,7 +69,7 @@ class InsideLeaves {
         piece.push_back(leaf);
     }
 
-    /// Extends the piece by all leaves that touch it, and by those that touch these.
+    /// Extends the piece by flood fill over touching leaves.
     void take_neighbours(Places& piece) {
         for (std::size_t k = 0; k < piece.size(); ++k) {
             const glm::ivec3 leaf = piece[k];
@@ -96,15 +96,15 @@ class InsideLeaves {
         }
     }
 
-    /// Takes in all leaves of a part that lies in the body, but those that may lie beyond the cell do not
-    /// matter: a piece that reaches there is held by the cell's faces.
+    /// Marks all leaves of a part inside the body. Some may be beyond the cell, which does no harm: a piece
+    /// that reaches there is held by the cell's faces.
     void fill(glm::ivec3 first, int size) {
         for (int n = 0; n < size * size * size; ++n) {
             held(first + glm::ivec3(n % size, n / size % size, n / size / size)) = 1;
         }
     }
 
-    /// Whether some other seed is nearer to all of the box.
+    /// Returns whether some other seed is nearer to all of the box.
     bool beyond_the_cell(const Box& box) const {
         const Box about = stretch_.to_seeds(box);
         const dvec3 middle = about.center(), half = about.size() * 0.5;
@@ -124,7 +124,7 @@ class InsideLeaves {
     std::vector<char> inside_;
 };
 
-/// Lines from the deepest of a piece's leaves along the six axes to the surface.
+/// Appends the lines from the deepest leaf of a piece along the six axes to the surface.
 void append_star(const InsideLeaves& leaves, const Places& piece, const SurfaceTracer& tracer,
                  std::vector<SurfaceCurve>& lines) {
     const Field& body = tracer.body();

@@ -1,4 +1,5 @@
-// Pieces of the body that lie within one Voronoi cell, so that no face or edge of the foam meets them.
+// Finds pieces of the body that are enclosed in one Voronoi cell, so that no face or edge of the foam meets
+// them.
 #pragma once
 
 #include <span>
@@ -9,10 +10,10 @@
 
 namespace lamella {
 
-/// The lines that stand for such pieces of a cell: from the deepest point of each along the six axes to its
-/// surface. `curves` are those on the cell's faces: what lies about them is no such piece. What is smaller
-/// than 1/16 of the cell, or 1/8 of one that the surface crosses, is not seen, and pieces nearer to each
-/// other than that count as one. `own` and `sites` are the cell's, in the seeds' space.
+/// Returns lines that represent such pieces in a cell: for each piece, the lines from its deepest point along
+/// the six axes to its surface. `curves` are the curves on the cell's faces; pieces around them are not
+/// enclosed. Pieces smaller than 1/16 of the cell (1/8 if curves cross its faces) are missed, and pieces
+/// closer together than that count as one. `own` and `sites` are those of the cell, in seed space.
 std::vector<SurfaceCurve> enclosed_pieces(std::span<const CellFaces::Face> faces,
                                           std::span<const SurfaceCurve> curves, const SurfaceTracer& tracer,
                                           const Seed& own, std::span<const Seed> sites,

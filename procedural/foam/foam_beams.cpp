@@ -1,4 +1,4 @@
-// Owned edges of a cell, and the canonical position of nodes.
+// The edges that a cell owns, and the canonical positions of nodes.
 #include "procedural/foam/foam_beams.h"
 
 #include <algorithm>
@@ -13,10 +13,11 @@ dvec3 cross(dvec3 a, dvec3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Seeds that tie to within the cell's tolerance may have their circumcentre anywhere on the common edges.
+// If seeds tie to within the cell's tolerance, their computed circumcentre may be anywhere on the common
+// edges.
 constexpr double tie_width = 1e-6;
-constexpr double double_is_enough = 1e-12;  // squared: seven digits lost leave nine
-constexpr double flat = 1e-36;              // squared: rounding of the seeds themselves decides below
+constexpr double double_is_enough = 1e-12;  // squared: about seven digits are lost, nine are left
+constexpr double flat = 1e-36;  // squared: below this, the rounding of the seeds themselves dominates
 
 using Precise = std::array<DoubleDouble, 3>;
 
@@ -26,7 +27,7 @@ Precise cross(const Precise& a, const Precise& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The circumcentre of nearly coplanar seeds, in twice the digits; empty when they are coplanar.
+/// Returns the circumcentre of nearly coplanar seeds, in twice the precision; empty if they are coplanar.
 std::optional<dvec3> precise_circumcenter(dvec3 origin, dvec3 u, dvec3 v, dvec3 w) {
     const auto precise = [](dvec3 p) { return Precise{{{p.x}, {p.y}, {p.z}}}; };
     const Precise a = precise(u), b = precise(v), c = precise(w);
@@ -49,7 +50,7 @@ std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds) {
     const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
     const dvec3 vw = cross(v, w);
     const double volume = dot(u, vw), square = volume * volume, scale = uu * vv * ww;
-    // The centre loses as many digits as the volume over the product of the edges is small.
+    // The relative error of the centre grows with the product of the edge lengths over the volume.
     if (square > double_is_enough * scale) {
         return seeds[0] + (uu * vw + vv * cross(w, u) + ww * cross(u, v)) / (2 * volume);
     }
@@ -98,8 +99,8 @@ std::size_t BeamMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
         }
         const Seed* second = &sites[static_cast<std::size_t>(a)];
         const Seed* third = &sites[static_cast<std::size_t>(b)];
-        // Seen from the cell, planes a and b meet counter-clockwise about v; the order of keys decides which
-        // end comes first.
+        // Seen from the cell, planes a and b meet counter-clockwise around v. The key order decides which end
+        // comes first.
         if (third->key < second->key) {
             std::swap(second, third);
             std::swap(v, w);

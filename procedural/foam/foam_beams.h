@@ -1,4 +1,4 @@
-// From cells to beams: each Voronoi edge made once, with ends that every cell agrees on.
+// BeamMaker: makes the beam of each Voronoi edge once, with end points that all adjacent cells agree on.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 
 namespace lamella {
 
-/// The point at equal distance from four seeds, which come in the order of keys: one formula, relative to the
-/// first, so every cell that shares the node gets the same bits; in twice the precision where the seeds
-/// nearly lie in a plane. Empty when they do.
+/// Returns the point at equal distance from four seeds, given in key order. One formula, relative to the
+/// first seed, so every cell that shares the node computes the same bits. Uses twice the precision if the
+/// seeds are nearly coplanar. Empty if they are coplanar.
 std::optional<dvec3> circumcenter(const std::array<dvec3, 4>& seeds);
 
-/// The nodes of a cell where every cell that shares them has them. Keeps buffers for reuse.
+/// The canonical positions of a cell's nodes, on which all cells that share a node agree. Keeps buffers for
+/// reuse.
 class CellNodes {
   public:
-    /// Forgets the nodes of the last cell.
+    /// Starts a new cell and forgets the nodes of the last one.
     void start(const VoronoiCell& cell);
-    /// The node at a vertex whose three planes are those of seeds; `cell` is the one started with.
+    /// Returns the node at a vertex whose three planes belong to seeds. `cell` is the one passed to start().
     dvec3 at(const VoronoiCell& cell, std::size_t vertex, const Seed& own, std::span<const Seed> sites);
 
   private:
@@ -30,12 +31,12 @@ class CellNodes {
     std::vector<bool> known_;
 };
 
-/// Makes the beams that a cell owns: those of its edges whose two other seeds have higher keys than its own.
-/// Not thread-safe; keeps buffers for reuse.
+/// Makes the beams that a cell owns: those along its edges whose two other seeds have higher keys than its
+/// own. Not thread-safe; keeps buffers for reuse.
 class BeamMaker {
   public:
     using Piece = Beam;
-    /// Radii are asked for at the nodes as the stretch maps them.
+    /// `radius` is sampled at the nodes in part space, after the stretch.
     explicit BeamMaker(NodeRadius radius, const Stretch& stretch = {})
         : tapered_(std::move(radius)), stretch_(stretch) {}
 
@@ -44,13 +45,13 @@ class BeamMaker {
     bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return stretch_; }
 
-    /// Appends the beams that `own` owns, in the order of the other seeds' keys. The cell's identifiers index
-    /// `sites`. Edges that reach the start box are left out. Only where the four seeds of a node tie with a
-    /// fifth to within rounding, and lie in a plane, is the node taken from the cell. An edge that four or
-    /// more cells share may then be made more than once, in one place. Returns the number of edges left out.
+    /// Appends the beams that `own` owns, in order of the other seeds' keys. The cell's plane identifiers
+    /// index `sites`. Edges that reach the start box are skipped. If the four seeds of a node are coplanar
+    /// and tie with a fifth, to within rounding, the node is taken from the cell; an edge shared by four or
+    /// more cells may then be made more than once, in the same place. Returns the number of skipped edges.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        std::vector<Beam>& beams);
-    /// Appends the beam along an edge between two nodes in the part's space.
+    /// Appends the beam along an edge between two nodes in part space.
     void append_edge(dvec3 from, dvec3 to, std::vector<Beam>& beams) {
         tapered_.add(from, to);
         tapered_.append(beams);

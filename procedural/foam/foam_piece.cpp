@@ -1,4 +1,4 @@
-// The round triangle against box test: its beams, and its wedge by separating axes.
+// Intersection of a round triangle and a box: its beams, then its wedge by separating axes.
 #include "procedural/foam/foam_piece.h"
 
 #include "procedural/foam/beam_box.h"
@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-/// Whether the box and the wedge lie apart along an axis.
+/// Returns whether box and wedge are disjoint along an axis.
 bool apart(const Wedge& wedge, const Box& box, dvec3 axis) {
     Interval corners;
     for (const dvec3& corner : wedge.corners) {
@@ -17,8 +17,8 @@ bool apart(const Wedge& wedge, const Box& box, dvec3 axis) {
     return corners.lo > reach || corners.hi < -reach;
 }
 
-/// Two convex polyhedra lie apart along a normal of one of them or a normal to an edge of each, or not at
-/// all.
+/// Separating axis theorem: disjoint convex polyhedra are separated along a face normal of one of them or
+/// along the cross product of an edge of each.
 bool meets(const Wedge& wedge, const Box& box) {
     const dvec3 axes[3] = {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)};
     for (const dvec3& normal : wedge.normals) {
@@ -43,7 +43,8 @@ bool meets(const Wedge& wedge, const Box& box) {
 bool touches(const RoundTriangle& triangle, const Box& box) {
     const Box solid = bounds(triangle);
     if (box.empty() || intersect(solid, box).empty()) return false;
-    // Along the one axis where it sticks out of the box, it has a point at every coordinate between its ends.
+    // If the solid sticks out of the box along one axis only, it still has a point at every coordinate
+    // between its ends.
     int sticks_out = 0;
     for (int axis = 0; axis < 3; ++axis) {
         sticks_out += solid.lo[axis] < box.lo[axis] || box.hi[axis] < solid.hi[axis];

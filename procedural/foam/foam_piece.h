@@ -1,4 +1,4 @@
-// A piece of a foam with walls: a beam or a round triangle.
+// FoamPiece: a piece of a foam with walls, a beam or a round triangle.
 #pragma once
 
 #include <variant>
@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// What the cells of a foam with walls are made of.
+/// A beam or a wall.
 using FoamPiece = std::variant<Beam, RoundTriangle>;
 
 inline double signed_distance(const FoamPiece& piece, dvec3 p) {
@@ -25,7 +25,7 @@ inline void put_into(PlanePieces& pieces, const FoamPiece& piece) {
     if (const auto* wall = std::get_if<RoundTriangle>(&piece)) pieces.walls.push_back(*wall);
 }
 
-/// Whether the closed round triangle and the closed box have a point in common; exact up to rounding.
+/// Returns whether the closed solid and the closed box have a point in common; exact up to rounding.
 bool touches(const RoundTriangle& triangle, const Box& box);
 bool touches(const FoamPiece& piece, const Box& box);
 

@@ -1,4 +1,4 @@
-// Checking a foam's settings, and the coarse cells that suit its sizes.
+// Checks a foam's settings, and chooses the coarse cells for its cell sizes.
 #include "procedural/foam/foam_settings.h"
 
 #include <fmt/format.h>
@@ -11,16 +11,16 @@
 namespace lamella {
 namespace {
 
-// With four cells along a coarse cell, the counts come out as 64 a coarse cell and 8 a leaf: one seed per
-// cell^3, each in its own cube of side `cell`. Where sizes vary, two of the largest leave less to compute
-// that lies far away, and every coarse cell still expects 8 seeds.
+// With four cells along a coarse cell, there are 64 seeds per coarse cell and 8 per leaf: one seed per
+// cell^3, each in its own cube of side `cell`. If sizes vary, a coarse side of two of the largest cells means
+// less far-away work, and every coarse cell still expects 8 seeds.
 constexpr double cells_per_coarse_side = 4, graded_cells_per_coarse_side = 2;
-constexpr double bcc_side = 1.2599210498948732;  // of a cube with two cells, in cells
+constexpr double bcc_side = 1.2599210498948732;  // side of a cube that contains two cells, in cells
 constexpr double max_cells_per_slice = 1e8;
 constexpr double max_variation = 40;
 constexpr double max_beam_share = 0.45;  // share of the local cell
 
-/// A radius where cells are large enough for it, else the share of the cell that leaves an opening.
+/// The radius, limited to the share of the local cell that leaves an opening.
 class RadiusWithinCells : public Grading {
   public:
     RadiusWithinCells(GradingPtr radius, GradingPtr cell)
@@ -40,7 +40,7 @@ class RadiusWithinCells : public Grading {
     GradingPtr radius_, cell_;
 };
 
-/// The frame's radius, but never less than the foam's.
+/// The frame's radius, but at least that of the foam's beams.
 class RadiusOverBeams : public Grading {
   public:
     RadiusOverBeams(GradingPtr frame, NodeRadius beams)
@@ -60,7 +60,7 @@ class RadiusOverBeams : public Grading {
     NodeRadius beams_;
 };
 
-/// A grading of the part's space, asked in the space of the seeds.
+/// A grading of part space, evaluated at points of seed space.
 class AmongSeeds : public Grading {
   public:
     AmongSeeds(GradingPtr grading, const Stretch& stretch)

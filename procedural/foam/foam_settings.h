@@ -1,4 +1,5 @@
-// What a foam is made of, and the seeds, sizes and radii that follow from it.
+// FoamSettings, FoamSeeding: the parameters of a foam, and the seeds, cell sizes and radii that follow from
+// them.
 #pragma once
 
 #include <cstdint>
@@ -13,46 +14,46 @@
 
 namespace lamella {
 
-/// What a foam is made of.
+/// Parameters of a foam.
 struct FoamSettings {
-    /// Mean spacing of the seeds, mm: one seed per cell^3, where the stretch is none. May vary by a factor of
-    /// 40 over the region. Numbers outside the range that it has in the region are clamped to that.
+    /// Mean spacing of the seeds, mm: one seed per cell^3 before the stretch. May vary by a factor of 40 over
+    /// the region. Outside the region it is clamped to the range that it has inside.
     Graded cell = 2.0;
-    /// Radius of the beams, mm. A constant one must be less than half of a constant `cell`; otherwise it is
-    /// kept to at most 0.45 of the local cell, asked for at the beams' ends.
+    /// Radius of the beams, mm. A constant radius must be less than half of a constant `cell`. Otherwise it
+    /// is limited to 0.45 of the local cell. Sampled at the beams' ends.
     Graded beam_radius = 0.2;
-    std::uint64_t seed = 0;  ///< another number, another foam
+    std::uint64_t seed = 0;  ///< of the random numbers; another seed gives another foam
     SeedPattern pattern = SeedPattern::jittered;
-    double jitter = 0.05;  ///< of the patterns other than jittered: share of the spacing
-    /// Coarse cells of the seeds after which these repeat along each axis; 0: never.
+    double jitter = 0.05;  ///< of patterns other than jittered, as a share of the spacing
+    /// Period of the seeds along each axis, in coarse cells; 0: not periodic.
     std::int64_t repeats_after = 0;
     Stretch stretch{};                     ///< of the cells
-    std::optional<FrameSettings> frame{};  ///< under a body's surface, which the foam then ends at
-    Box region{};                          ///< where the foam is wanted, mm; finite
+    std::optional<FrameSettings> frame{};  ///< beams along a body's surface; the foam then ends there
+    Box region{};                          ///< where the foam is wanted, mm; must be finite
     std::size_t cache_bytes = std::size_t{256}
-                              << 20;  ///< bound of the memory for cells, and again for distances
+                              << 20;  ///< memory bound for cached cells, and as much again for distances
 };
 
-/// Seeds, cell sizes and radii of checked settings: what all foams on seeds start from.
+/// Seeds, cell sizes and radii that follow from valid settings; the basis of all foams on seeds.
 struct FoamSeeding {
     std::shared_ptr<const SeedTree> tree;
-    GradingPtr cell;  ///< mm, in the part's space, clamped to `cells`
-    Interval cells;   ///< the cell sizes of the region, mm
+    GradingPtr cell;  ///< mm, in part space, clamped to `cells`
+    Interval cells;   ///< range of cell sizes in the region, mm
     NodeRadius radius;
     Stretch stretch;
     std::optional<SurfaceFrame> frame;
 
-    /// No beam is thicker, mm.
+    /// Upper bound of the radius of any beam, mm.
     double largest_radius() const {
         return frame ? std::max(radius.largest(), frame->largest_radius()) : radius.largest();
     }
-    /// The ground of the foam with beams thicker by a length, mm.
+    /// Returns the same seeding with all beam radii larger by `by`, mm.
     FoamSeeding grown(double by) const;
-    /// All seeds in the closed box of the part's space, by key.
+    /// Returns all seeds in the closed box of part space, in key order.
     std::vector<Seed> seeds_in(const Box& box) const;
 };
 
-/// Throws InputError for settings out of range; `what` names the thing in messages ("the foam").
+/// Checks the settings and makes seeds and radii. Throws InputError for settings out of range.
 FoamSeeding prepare_foam(const FoamSettings& settings);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The fans and windows of faces, and the edges of the fans that show.
+// Triangle fans and windows of faces, and the visible edges of the fans.
 #include "procedural/foam/foam_walls.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-/// A gap between triangles thinner than this is closed by rounding anyway, mm.
+/// mm; a narrower gap between triangles is closed by rounding anyway
 constexpr double min_gap = 1e-7;
 
 double distance_to_line(dvec3 p, dvec3 a, dvec3 b) {
@@ -34,7 +34,7 @@ std::size_t WallMaker::append(const VoronoiCell& cell, const Seed& own, std::spa
     return left_out;
 }
 
-/// The wall of the face whose corners stand in corners_.
+/// Appends the wall of the face in corners_.
 void WallMaker::append_wall(std::vector<FoamPiece>& pieces) {
     const std::size_t n = corners_.size();
     const auto thickness = [](const Corner& corner) { return corner.radius > 0; };
@@ -78,7 +78,7 @@ void WallMaker::append_beam(const Corner& a, const Corner& b, std::vector<FoamPi
     pieces.push_back(Beam{a.place, a.radius + walls_.growth, b.place, b.radius + walls_.growth});
 }
 
-/// The wall's own rounding along an edge of the face, where the foam's beams do not hold it.
+/// Appends the wall's rounded rim along an edge of the face, unless the foam's beams cover it.
 void WallMaker::append_rim(const Corner& a, const Corner& b, std::vector<FoamPiece>& pieces) {
     made_.clear();
     beams_.append_edge(a.place, b.place, made_);
@@ -93,7 +93,7 @@ void WallMaker::append_rim(const Corner& a, const Corner& b, std::vector<FoamPie
     if (!held) append_beam(a, b, pieces);
 }
 
-/// The area centroid of the face, with the radius there.
+/// Returns the area centroid of the face, with the wall's radius there.
 WallMaker::Corner WallMaker::middle() const {
     const dvec3 origin = corners_[0].place;
     dvec3 sum(0), mean(0);
@@ -110,7 +110,7 @@ WallMaker::Corner WallMaker::middle() const {
     return {place, walls_.radius.at(place)};
 }
 
-/// The share of the face's width that is open.
+/// Returns the open share of the face's width; 0 if its rim would close the window.
 double WallMaker::window(const Corner& middle) const {
     const double open = walls_.window->at(middle.place);
     if (!(open > 0)) return 0;
@@ -122,7 +122,8 @@ double WallMaker::window(const Corner& middle) const {
     return open * narrowest > middle.radius ? open : 0;
 }
 
-/// Whether the beam along the spoke from the middle to a corner shows between the triangles on its sides.
+/// Returns whether the beam along the spoke from the centre to a corner protrudes between the adjacent
+/// triangles.
 bool WallMaker::has_crest(const Corner& middle, std::size_t spoke) const {
     const std::size_t n = corners_.size();
     const Corner &at = corners_[spoke], &before = corners_[(spoke + n - 1) % n],
@@ -132,7 +133,7 @@ bool WallMaker::has_crest(const Corner& middle, std::size_t spoke) const {
     const auto second =
         wedge({{middle.place, at.place, after.place}, {middle.radius, at.radius, after.radius}});
     if (!first || !second) return true;
-    // The tangent planes' normals differ across the spoke only.
+    // The normals of the tangent planes differ only across the spoke.
     const dvec3 between = first->normals[0] - second->normals[0];
     if (length(between) * std::max(middle.radius, at.radius) < min_gap) return false;
     return glm::dot(between, after.place - middle.place) < 0;

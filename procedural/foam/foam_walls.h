@@ -1,4 +1,5 @@
-// From cells to walls: each Voronoi face made once, closed or with a window, and the beams along its edges.
+// WallMaker: makes the wall of each Voronoi face once, with or without a window, and the beams along its
+// edges.
 #pragma once
 
 #include <span>
@@ -9,22 +10,22 @@
 
 namespace lamella {
 
-/// How the faces of a foam are walled. All is asked for at nodes and at the middles of faces.
+/// Parameters of the walls. Gradings are sampled at nodes and at the centres of faces.
 struct WallSettings {
     NodeRadius radius{0.1};  ///< half the thickness, mm, >= 0
-    Graded window = 0.0;     ///< share of a face's width that is open, 0 to 1: closed to no wall
-    double growth = 0;       ///< added to every radius at the end, mm
+    Graded window = 0.0;     ///< open share of a face's width: 0 is closed, 1 has no wall
+    double growth = 0;       ///< added to every radius of a wall, mm
 };
 
 /// Makes the beams and walls that a cell owns: beams as BeamMaker does, and the walls of its faces towards
 /// seeds of higher keys. Not thread-safe; keeps buffers for reuse.
 ///
-/// A wall is a fan of round triangles about the middle (area centroid) of its face, from one of its nodes
-/// when it is closed and of one thickness. With a window, the face shrunk about its middle is left open and
-/// rimmed with beams of the wall's radius; a window that its rim would close in the middle is not made. A
-/// triangle's own edges are all beams, but only those are made as pieces that can be seen: along the face's
-/// edges where the foam's beams are thinner, round windows, and between triangles where the thickness has a
-/// crest.
+/// A wall is a fan of round triangles around the centre (area centroid) of its face; a closed wall of
+/// constant thickness is a fan from one of its nodes. A window is the face scaled about its centre; it is
+/// left open and rimmed with beams of the wall's radius. A window that its rim would close in the middle is
+/// not made. All edges of a round triangle are beams, but only those that can be visible are made as pieces:
+/// along the face's edges where the foam's beams are thinner than the wall, around windows, and between
+/// triangles where the thickness has a crest.
 class WallMaker {
   public:
     using Piece = FoamPiece;
@@ -39,8 +40,8 @@ class WallMaker {
     bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return beams_.stretch(); }
 
-    /// Appends the pieces that `own` owns, beams first, then walls in the order of the other seeds' keys; see
-    /// BeamMaker::append. Returns the number of edges and faces left out because they reach the start box.
+    /// Appends the pieces that `own` owns: beams first, then walls in order of the other seeds' keys; see
+    /// BeamMaker::append. Returns the number of edges and faces skipped because they reach the start box.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        std::vector<FoamPiece>& pieces);
 
@@ -63,8 +64,8 @@ class WallMaker {
     WallSettings walls_;
     CellFaces faces_;
     std::vector<Beam> made_;
-    std::vector<Corner> corners_;  ///< of the face in hand
-    std::vector<double> radii_;    ///< of its corners
+    std::vector<Corner> corners_;  ///< of the current face
+    std::vector<double> radii_;    ///< of the current face's corners
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The pieces of a cell's frame by union-find; straight joints first, then paths through a lattice.
+// Components of a cell's frame by union-find; straight joints first, then paths through a lattice.
 #include "procedural/foam/frame_joints.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double allowed_outside = 0.25;  // share of the frame's radius
 constexpr int lattice_points = 20;        // along the longest side of the cell
-constexpr double reach_in_steps = 1.8;    // from a piece to its first lattice points
+constexpr double reach_in_steps = 1.8;    // from a component to its first lattice points, in lattice steps
 
 }  // namespace
 
@@ -37,7 +37,8 @@ void FrameJoints::unite(std::size_t a, std::size_t b) {
     parents_[std::max(a, b)] = std::min(a, b);
 }
 
-/// The parts of the cell's edges that lie in the body; an edge stands in the rings of two faces.
+/// Adds the parts of the cell's edges inside the body. An edge is in the rings of two faces, so it is visited
+/// once only.
 void FrameJoints::add_edges(std::span<const CellFaces::Face> faces, SurfaceTracer& tracer) {
     std::set<std::pair<dvec3, dvec3>, PlaceOrder> seen;
     for (const CellFaces::Face& face : faces) {
@@ -73,7 +74,7 @@ void FrameJoints::collect_components() {
     }
 }
 
-/// Joins by the shortest candidates first, each only while it joins what is apart.
+/// Kruskal's algorithm: accepts candidates by length, each if it joins two components.
 void FrameJoints::join(std::vector<Candidate>& candidates, std::vector<SurfaceCurve>& joints) {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
@@ -95,7 +96,7 @@ bool FrameJoints::leads_through(dvec3 p, dvec3 q, const Field& body, double allo
     return true;
 }
 
-/// The straight lines between the nearest points of two components.
+/// Returns the lines between the nearest points of each pair of components, if they stay in the body.
 std::vector<FrameJoints::Candidate> FrameJoints::straight(const Field& body) const {
     const double allowance = body.metric() == Metric::sign ? 0 : allowed_outside;
     std::vector<Candidate> candidates;
@@ -116,7 +117,7 @@ std::vector<FrameJoints::Candidate> FrameJoints::straight(const Field& body) con
     return candidates;
 }
 
-/// Points of the cell within the body, and the way to each from the nearest component.
+/// Lattice points of the cell inside the body, each with a path to the nearest component.
 struct FrameJoints::Lattice {
     static constexpr std::int32_t none = -1;
     struct Point {
@@ -124,7 +125,7 @@ struct FrameJoints::Lattice {
         std::int32_t component = none;
         std::int32_t parent = none;
         std::int64_t distance = std::numeric_limits<std::int64_t>::max();
-        dvec3 start{0};  ///< of the component, where the way begins
+        dvec3 start{0};  ///< point of the component where the path begins
     };
 
     Lattice(std::span<const CellFaces::Face> faces, const Field& body_, const Seed& own_,
@@ -177,7 +178,7 @@ struct FrameJoints::Lattice {
     std::vector<Point> points;
 };
 
-/// Grows all components at once through the lattice; where two fronts meet there is a path.
+/// Grows all components at once through the lattice (Dijkstra); where two fronts meet there is a path.
 std::vector<FrameJoints::Candidate> FrameJoints::paths(std::span<const CellFaces::Face> faces,
                                                        const Field& body, const Seed& own,
                                                        std::span<const Seed> sites,
@@ -263,7 +264,7 @@ std::vector<FrameJoints::Candidate> FrameJoints::paths(std::span<const CellFaces
     return candidates;
 }
 
-/// The path without the points that it can do without.
+/// Returns the path without the points that a straight line inside the body can skip.
 SurfaceCurve FrameJoints::shortened(const SurfaceCurve& path, const Field& body) const {
     SurfaceCurve kept{path.front()};
     for (std::size_t at = 0; at + 1 < path.size();) {

@@ -1,4 +1,4 @@
-// Joints: what holds the parts of a surface frame together where Voronoi faces and edges alone do not.
+// FrameJoints: beams that connect the parts of a surface frame where Voronoi faces and edges alone do not.
 #pragma once
 
 #include <map>
@@ -10,28 +10,28 @@
 
 namespace lamella {
 
-/// Joins what hangs together in the body but not in the frame, cell by cell.
+/// Joins, cell by cell, components that are connected in the body but not in the frame.
 ///
-/// In a cell, the frame is the curves on its faces and the parts of its edges within the body. Where the body
-/// is thin against the cell, a face may cut it in a loop that meets no edge, and a cell may hold several such
-/// pieces. All pieces that lie in one connected part of (cell and body) are joined: so foam and frame are in
-/// one piece wherever the body is, up to what the lattices below do not see. A piece is joined by the
-/// straight line from its nearest point where that leaves the body by less than a quarter of the frame's
-/// radius, else by a path through a lattice of 20 points along the cell. Not thread-safe; keeps buffers for
-/// reuse.
+/// In a cell, the frame consists of the curves on its faces and the parts of its edges inside the body. Where
+/// the body is thin compared to the cell, a face may cut it in a loop that meets no edge, and a cell may
+/// contain several such components. All components in one connected part of the intersection of cell and body
+/// are joined. So foam and frame are connected wherever the body is, up to features smaller than the lattice
+/// spacing. Components are joined by the straight line between their nearest points if that leaves the body
+/// by less than a quarter of the frame's radius, else by a path through a lattice of 20 points along the
+/// cell. Not thread-safe; keeps buffers for reuse.
 class FrameJoints {
   public:
-    /// `radius`: of the frame. `edges_hold`: whether the cells' edges are beams.
+    /// `radius` is that of the frame. `edges_hold` tells whether the cells' edges are beams.
     FrameJoints(NodeRadius radius, bool edges_hold) : radius_(std::move(radius)), edges_hold_(edges_hold) {}
 
-    /// The joints of a cell whose faces, and the curves on all of them, are given. `own` and `sites` are the
-    /// cell's, in the seeds' space.
+    /// Returns the joints of a cell, as lines. `curves` are those on all its faces. `own` and `sites` are
+    /// those of the cell, in seed space.
     std::vector<SurfaceCurve> joints(std::span<const CellFaces::Face> faces,
                                      std::span<const SurfaceCurve> curves, SurfaceTracer& tracer,
                                      const Seed& own, std::span<const Seed> sites, const Stretch& stretch);
 
   private:
-    /// A pair of components that could be joined, and the line or path that would.
+    /// A pair of components that could be joined, and the line or path between them.
     struct Candidate {
         double length;
         std::size_t a, b;

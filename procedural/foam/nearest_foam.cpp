@@ -1,4 +1,4 @@
-// Searching the tree for the nearest seeds in a local metric, and the beams to them.
+// Searches the tree for the nearest seeds in a local metric, and makes the beams to them.
 #include "procedural/foam/nearest_foam.h"
 #include "procedural/voronoi/rounding.h"
 
@@ -12,12 +12,12 @@
 namespace lamella {
 namespace {
 
-/// The number of the octant about the center that holds the point.
+/// Returns the octant around the centre that contains the point.
 std::size_t octant_about(dvec3 center, dvec3 p) {
     return (p.x >= center.x ? 1U : 0U) | (p.y >= center.y ? 2U : 0U) | (p.z >= center.z ? 4U : 0U);
 }
 
-/// The largest ratio of two factors anywhere in the region.
+/// Checks the settings. Returns the largest ratio of two factors anywhere in the region.
 double check_metric(const NearestFoamSettings& settings) {
     if (settings.neighbours < 1 || settings.neighbours > 26) {
         throw InputError(
@@ -52,7 +52,7 @@ NearestFoamSettings within_limits(NearestFoamSettings settings) {
 
 }  // namespace
 
-/// A search in progress: the k nearest so far, and how far others may still matter.
+/// A search in progress: the k nearest seeds so far, and the radius within which others may still be nearer.
 struct NearestSource::Search {
     struct Found {
         double distance_squared;
@@ -65,7 +65,7 @@ struct NearestSource::Search {
     const Seed& own;
     LocalMetric metric;
     std::size_t wanted;
-    double radius;             ///< Euclidean; seeds beyond are not among the k nearest
+    double radius;             ///< Euclidean; seeds beyond it are not among the k nearest
     std::vector<Found> found;  ///< sorted
 
     void offer(const Seed& seed) {
@@ -98,11 +98,11 @@ LocalMetric NearestSource::metric_at(dvec3 p) const {
     return {inverse, std::max({factor.x, factor.y, factor.z}) * rounding_margin};
 }
 
-/// Within this distance of every seed about the point there are enough others: the diagonal of the smallest
-/// node about the point that holds as many, down to a level.
+/// Returns a radius within which each seed near the point has at least k other seeds: the diagonal of the
+/// smallest node around the point with more than k seeds, down to a level.
 double NearestSource::sure_radius(dvec3 p, int deepest_level) const {
     const auto block = tree_->block(tree_->block_index(p));
-    // Of the 27 coarse cells about the point's, each has a seed.
+    // Each of the 27 coarse cells around the point has a seed.
     double radius = farthest() / farthest_ratio_;
     const SeedNode* node = &block->nodes[0];
     while (node->seed_count > neighbours_) {
@@ -132,7 +132,7 @@ void NearestSource::visit(const SeedBlock& block, std::size_t node, Search& sear
         }
         return;
     }
-    // The octant of the seed first: it makes the others fail sooner.
+    // Visit the seed's own octant first, so that the others are pruned sooner.
     const std::size_t first = octant_about(here.box.center(), search.own.position);
     for (std::size_t turn = 0; turn < 8; ++turn) {
         visit(block, static_cast<std::size_t>(here.first_child) + (first ^ turn), search);

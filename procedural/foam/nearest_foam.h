@@ -1,4 +1,4 @@
-// NearestFoam: beams from every seed to its k nearest ones, near in a metric that may be stretched and turned
+// NearestFoam: beams from every seed to its k nearest seeds, in a metric that may be stretched and rotated
 // from place to place.
 #pragma once
 
@@ -14,34 +14,34 @@
 
 namespace lamella {
 
-/// The factors that a k-nearest foam takes.
+/// The accepted stretch factors of a k-nearest foam.
 inline constexpr Interval nearest_factors{0.1, 10};
 
 struct NearestFoamSettings {
     FoamSettings foam;   ///< without a stretch of its own
     int neighbours = 5;  ///< k, from 1 to 26
-    /// Factors along three axes at right angles, within nearest_factors: where one is larger, beams along its
-    /// axis are more and longer.
+    /// Factors along three orthogonal axes, within nearest_factors. Beams along an axis with a larger factor
+    /// are more numerous and longer.
     std::array<Graded, 3> stretch = {1.0, 1.0, 1.0};
-    std::array<Graded, 3> turn = {0.0, 0.0, 0.0};  ///< of the axes about x, then y, then z, degrees
+    std::array<Graded, 3> turn = {0.0, 0.0, 0.0};  ///< rotation of the axes about x, then y, then z, degrees
 };
 
-/// How near seeds are to one of them: the length of the way to them, divided along each axis by its factor.
+/// The metric at one seed: vectors to other seeds are divided by a factor along each axis.
 struct LocalMetric {
-    glm::dmat3 inverse{1};      ///< squared length of inverse * way is what is compared
-    double largest_factor = 1;  ///< a way is at most this times as long as it is far in the metric
+    glm::dmat3 inverse{1};      ///< maps a vector to one whose length is its distance in the metric
+    double largest_factor = 1;  ///< upper bound of Euclidean length over distance in the metric
     double distance_squared(dvec3 way) const {
         const dvec3 v = inverse * way;
         return v.x * v.x + v.y * v.y + v.z * v.z;
     }
 };
 
-/// Makes the beams that a seed owns: those to its k nearest seeds, except to a lower key that has it among
-/// its own.
+/// Makes the beams that a seed owns: those to its k nearest seeds, except to a seed of lower key that has
+/// this seed among its own k nearest.
 class NearestSource {
   public:
     using Piece = Beam;
-    /// `settings` are checked.
+    /// `settings` must be valid.
     NearestSource(const FoamSeeding& ground, const NearestFoamSettings& settings, double farthest_ratio);
 
     void gather(const Box& /*box*/) { known_.clear(); }
@@ -53,7 +53,7 @@ class NearestSource {
     bool avoids(const Box& /*box*/) const { return false; }
     const Stretch& stretch() const { return none_; }
 
-    /// The k nearest seeds, by distance, then key.
+    /// Returns the k nearest seeds, by distance, then key.
     const std::vector<Seed>& nearest(const Seed& own);
 
   private:
@@ -66,21 +66,21 @@ class NearestSource {
     TaperedBeams tapered_;
     std::size_t neighbours_;
     std::array<Graded, 3> stretch_, turn_;
-    double farthest_ratio_;  ///< no metric's largest factor over its smallest exceeds it
+    double farthest_ratio_;  ///< upper bound of any metric's largest factor over its smallest
     Stretch none_;
     std::map<SeedKey, std::vector<Seed>> known_;
 };
 
-/// A foam of beams between near seeds (after Martinez, Song, Dumas and Lefebvre, "Orthotropic k-nearest foams
-/// for additive manufacturing", SIGGRAPH 2017). It has no walls and no cells, follows any field of
-/// directions, and is not sure to be in one piece.
+/// A foam of beams between nearby seeds (after Martinez, Song, Dumas and Lefebvre, "Orthotropic k-nearest
+/// foams for additive manufacturing", SIGGRAPH 2017). It has no walls and no cells, follows any field of
+/// directions, and is not guaranteed to be connected.
 class NearestFoam : public BeamFoam {
   public:
     /// Throws InputError for settings out of range.
     explicit NearestFoam(const NearestFoamSettings& settings);
 
     std::vector<Beam> pieces_touching(const Box& box) const override { return units_.touching(box); }
-    /// All seeds in the closed box, by key.
+    /// Returns all seeds in the closed box, in key order.
     std::vector<Seed> seeds_in(const Box& box) const { return ground_.seeds_in(box); }
 
   private:

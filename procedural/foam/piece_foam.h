@@ -1,4 +1,5 @@
-// PieceFoam: what foams share as fields: distances, ranges and slices from a query of pieces.
+// PieceFoam: the common base of foams as fields. Computes distances, ranges and slices from a query for
+// pieces in a box.
 #pragma once
 
 #include <cmath>
@@ -12,17 +13,18 @@
 
 namespace lamella {
 
-/// The union of infinitely many pieces, known by what touches a box.
+/// An infinite union of pieces, given by a query for the pieces that touch a box.
 ///
-/// Piece: signed_distance(piece, p) and put_into(PlanePieces&, piece), found by argument.
+/// Piece must have signed_distance(piece, p) and put_into(PlanePieces&, piece), found by argument-dependent
+/// lookup.
 template <typename Piece>
 class PieceFoam : public Field {
   public:
-    /// Every piece whose solid touches the box, once, in canonical order.
+    /// Returns every piece that touches the box, once, in canonical order.
     virtual std::vector<Piece> pieces_touching(const Box& box) const = 0;
 
-    /// The minimum of the signed distances to all pieces, mm: the exact distance outside; inside, its
-    /// magnitude never exceeds the distance to the surface. NaN at points that are not finite.
+    /// Returns the minimum of the signed distances to all pieces, mm. Outside it is the exact distance;
+    /// inside, its magnitude never exceeds the distance to the surface. NaN at points that are not finite.
     double value(dvec3 p) const override;
     Interval range(const Box& box) const override;
     Metric metric() const override { return Metric::bound; }
@@ -31,8 +33,8 @@ class PieceFoam : public Field {
     Box bounds() const override { return region_; }
 
   protected:
-    /// `cell`: about how far pieces are apart, mm, within `cells` everywhere. No piece is deeper than
-    /// `deepest`, mm. `cache_bytes` bounds the memory for distances.
+    /// `cell` is roughly the spacing of pieces, mm, and lies within `cells` everywhere. No piece is deeper
+    /// than `deepest`, mm. `cache_bytes` bounds the memory for distances.
     PieceFoam(const Box& region, GradingPtr cell, Interval cells, double deepest, std::size_t cache_bytes)
         : region_(region),
           cell_(std::move(cell)),
@@ -70,8 +72,8 @@ double PieceFoam<Piece>::value(dvec3 p) const {
     return brick->distance(p);
 }
 
-/// Any brick about the point is exact; one no larger than twice the smallest cell about it is quick to make
-/// and to ask.
+/// Any brick that contains the point gives the exact distance. One no larger than twice the smallest cell
+/// around it is quick to build and to query.
 template <typename Piece>
 PlaceKey PieceFoam<Piece>::brick_about(dvec3 p) const {
     for (int level = 0;; ++level) {
@@ -90,12 +92,12 @@ Interval PieceFoam<Piece>::range(const Box& box) const {
     const dvec3 center = box.center();
     const double center_value = value(center);
     if (!std::isfinite(center_value)) return {-infinity, infinity};
-    // The value is 1-Lipschitz. Inside, the axis of the thickest piece is the deepest place.
+    // The value is 1-Lipschitz. Inside, it is lowest on the axis of the thickest piece.
     const double radius = glm::length(box.hi - center);
     return {std::max(center_value - radius, -deepest_), center_value + radius};
 }
 
-/// Strips of some thousand cells in a plane.
+/// Returns the number of strips of a plane, so that each has some thousand cells.
 template <typename Piece>
 int PieceFoam<Piece>::strips_of(const Box& region, double cell) {
     constexpr double cells_per_strip = 8192, max_strips = 256;

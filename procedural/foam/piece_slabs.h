@@ -1,4 +1,4 @@
-// Pieces of a foam by slab: layers close together ask the foam once for what they have in common.
+// PieceSlabs: a cache of a foam's pieces by slab in z, shared by layers that are close together.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@
 
 namespace lamella {
 
-/// The pieces that meet a plane, strip by strip, from slabs of space that many layers share. Thread-safe;
-/// what is held never shows in a result.
+/// Returns the pieces that meet a plane, strip by strip, from slabs of space that several layers share.
+/// Thread-safe; results do not depend on the state of the cache.
 template <typename Piece>
 class PieceSlabs {
   public:
-    /// All pieces that touch a box, in canonical order.
+    /// Returns all pieces that touch a box, in canonical order.
     using Query = std::function<std::vector<Piece>(const Box&)>;
 
-    /// `height` of a slab, mm. The last few slabs of each strip are held.
+    /// `height` is that of a slab, mm. The three most recent slabs of each strip are cached.
     PieceSlabs(double height, int strips) : height_(height), strips_(static_cast<std::size_t>(strips)) {}
 
     int strips() const { return static_cast<int>(strips_.size()); }
-    /// What of the strip, a rectangle of the plane, may meet the plane at height z: at least all that does,
-    /// and only pieces whose heights hold z; in the query's order.
+    /// Returns the pieces that may meet a strip (`rect`) of the plane at height z, in the query's order. The
+    /// list is conservative: it has all that do, and only pieces whose height interval contains z.
     PlanePieces at(std::size_t strip, const Rect& rect, double z, const Query& touching) const;
 
   private:
@@ -35,11 +35,11 @@ class PieceSlabs {
         std::int64_t index = 0;
         std::once_flag asked;
         std::vector<Piece> pieces;
-        std::vector<Interval> heights;  ///< of each piece's solid, mm
+        std::vector<Interval> heights;  ///< z interval of each piece's solid, mm
     };
     struct Strip {
         std::mutex mutex;
-        std::array<std::shared_ptr<Slab>, slabs_held> slabs;  ///< the last one used first
+        std::array<std::shared_ptr<Slab>, slabs_held> slabs;  ///< most recently used first
     };
 
     std::shared_ptr<Slab> slab(std::size_t strip, std::int64_t index) const;
@@ -69,7 +69,7 @@ PlanePieces PieceSlabs<Piece>::at(std::size_t strip, const Rect& rect, double z,
     const double index = std::floor(z / height_);
     const auto slab = this->slab(strip, static_cast<std::int64_t>(index));
     std::call_once(slab->asked, [&] {
-        // A little higher than the slab, whose borders are rounded.
+        // Slightly higher than the slab, because its borders are rounded.
         const double lo = (index - 1e-6) * height_, hi = (index + 1 + 1e-6) * height_;
         slab->pieces = touching({{rect.lo.x, rect.lo.y, lo}, {rect.hi.x, rect.hi.y, hi}});
         slab->pieces.shrink_to_fit();

@@ -1,4 +1,4 @@
-// The pieces of a foam by place: units of seeds whose pieces are made once, shared by all layers in flight.
+// PieceUnits: the pieces of a foam by place, cached in units of seeds and shared by all layers in flight.
 #pragma once
 
 #include <array>
@@ -41,13 +41,13 @@ class PieceUnits {
           units_(cache_bytes, idle_unit_bytes),
           reaches_(reach_bytes, idle_reach_bytes) {}
 
-    /// Every piece whose solid touches the box, once, in the order of units (coarse cells by z, y, x; nodes
-    /// depth first; slabs upwards) and within a unit in the order of keys.
+    /// Returns every piece that touches the box, once. Order: units (coarse cells by z, y, x; nodes depth
+    /// first; slabs upwards), then key.
     std::vector<Piece> touching(const Box& box) const;
 
   private:
-    static constexpr std::uint32_t unit_seeds = 64;      // a node with more is no unit but its children
-    static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more is cut into slabs
+    static constexpr std::uint32_t unit_seeds = 64;      // a node with more seeds is split into its children
+    static constexpr std::uint32_t slabless_seeds = 16;  // a unit with more seeds is cut into slabs
     static constexpr int slabs = 8;
     static constexpr std::size_t reach_bytes = std::size_t{32} << 20;
     static constexpr std::size_t idle_unit_bytes = std::size_t{1} << 20;
@@ -55,25 +55,26 @@ class PieceUnits {
 
     struct Unit {
         std::vector<Piece> pieces;
-        std::vector<Interval> heights;  ///< of each piece's solid: most pieces miss a layer's plane
-        Box extent;                     ///< of the pieces' solids, mm
+        /// z interval of each piece's solid; most pieces miss a layer's plane
+        std::vector<Interval> heights;
+        Box extent;  ///< bounding box of the pieces' solids, mm
         std::size_t bytes() const {
             return sizeof(Unit) + pieces.capacity() * (sizeof(Piece) + sizeof(Interval));
         }
         Interval z_extent() const { return {extent.lo.z, extent.hi.z}; }
     };
-    /// How far the pieces of a node's seeds can be from it, in the seeds' space.
+    /// How far the pieces of a node's seeds can be from the node, in seed space.
     struct Reach {
         double distance;
         Interval z;
         std::size_t bytes() const { return sizeof(Reach); }
         Interval z_extent() const { return z; }
     };
-    /// What one query passes on: what is asked, what was found, and the buffers for making units.
+    /// The state of one query: its box, the pieces found, and buffers for making units.
     struct Request {
-        const Box& box;  ///< in the part's space
-        Box seed_box;    ///< about the same in the seeds' space
-        double z;        ///< of the layer, for the caches; in the seeds' space
+        const Box& box;  ///< in part space
+        Box seed_box;    ///< bounding box of the query's box in seed space
+        double z;        ///< height of the layer in seed space, for the caches
         Source source;
         std::vector<Piece> pieces;
     };
@@ -146,7 +147,8 @@ void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double 
     if (here.seed_count == 0) return;
     const double away = distance(here.box, request.seed_box);
     if (away > within) return;
-    // Where all leaves have one level, so has the reach; elsewhere it is worth knowing at every node.
+    // If all leaves share one level, one reach serves all nodes; otherwise it is worth computing at every
+    // node.
     if (node == 0 || block.leaf_level < 0) {
         within = std::min(within, reach(block, node, request.z));
         if (away > within) return;

@@ -1,4 +1,4 @@
-// Opening strips on demand, and sharing a band's lines out to them.
+// Fills strips on demand, and assigns a band's lines to strips.
 #include "procedural/foam/plane_strips.h"
 
 #include "engine/field/slice_context.h"
@@ -42,7 +42,7 @@ void PlaneStrips::runs(const RowBand& band, Scratch& scratch, RunRows& out) cons
     if (band.axis == Axis::y || strips_.size() == 1) {
         for (std::size_t strip = 0; strip < strips_.size(); ++strip) collect(open(strip), {0, band.lines()});
     } else {
-        // Each line belongs to one strip, whichever band it comes in.
+        // Each line belongs to one strip, whatever band it is in.
         for (int first = 0, last = 0; first < band.lines(); first = last) {
             const std::size_t strip = strip_of(band.line(first));
             while (last < band.lines() && strip_of(band.line(last)) == strip) ++last;

@@ -1,4 +1,4 @@
-// The slice of a foam: its plane in strips, each opened when a band first needs it.
+// PlaneStrips: the slice of a foam, as strips that are filled when a band first needs them.
 #pragma once
 
 #include <functional>
@@ -11,24 +11,25 @@
 
 namespace lamella {
 
-/// What of a foam meets a part of a plane.
+/// The pieces that meet a part of a plane.
 struct PlanePieces {
     std::vector<Beam> beams;
-    std::vector<RoundTriangle> walls;  ///< drawn without their edges' beams
+    std::vector<RoundTriangle> walls;  ///< rasterised without the beams along their edges
 };
 
 inline void put_into(PlanePieces& pieces, const Beam& beam) { pieces.beams.push_back(beam); }
 
-/// Runs of infinitely many pieces in one plane. A small plane is one strip; a large one is cut across y into
-/// strips of equal height, so that its first band waits for its own pieces only. Thread-safe.
+/// Runs of infinitely many pieces in one plane. A small plane is one strip; a large one is divided along y
+/// into strips of equal height, so that its first band waits only for its own pieces. Thread-safe.
 class PlaneStrips : public SampledSlice {
   public:
-    /// At least what of a strip, given with its number, meets the plane.
+    /// Returns the pieces that meet the plane within a strip, given by its number and rectangle; may return
+    /// more.
     using Query = std::function<PlanePieces(std::size_t strip, const Rect&)>;
     PlaneStrips(const Field& field, Query meeting, const Rect& region, int strips, double z);
 
     void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
-    /// The region.
+    /// The region's rectangle.
     Rect bounds() const override { return region_; }
 
   private:

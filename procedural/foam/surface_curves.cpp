@@ -1,4 +1,4 @@
-// Triangles divided where the surface may pass, their crossings narrowed and linked to curves.
+// Subdivides triangles where the surface may pass, refines the crossings, and links them into curves.
 #include "procedural/foam/surface_curves.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr std::size_t points_along = steps + 1;
 constexpr double narrow = 1e-3;  // share of a step
 constexpr std::size_t max_edges = 20000;
 
-/// The point of an edge that is i steps from a; the same bits seen from b.
+/// Returns the point of an edge that is i steps from a; the same bits as seen from b.
 dvec3 on_edge(dvec3 a, dvec3 b, int i) {
     return a * (static_cast<double>(steps - i) / steps) + b * (static_cast<double>(i) / steps);
 }
@@ -53,7 +53,7 @@ dvec3 SurfaceTracer::crossing(dvec3 p, dvec3 q) const {
     const bool inside = at_p < 0;
     double lo = 0, hi = 1;
     for (int turn = 0; hi - lo > narrow && turn < 60; ++turn) {
-        // Straight lines, and halves in turn for what is none.
+        // Secant steps, with a bisection every third time for curved values.
         double t = at_p / (at_p - at_q);
         if (turn % 3 == 2 || !(0 <= t && t <= 1)) t = 0.5;
         t = lo + (hi - lo) * std::min(std::max(t, 0.25 * narrow), 1 - 0.25 * narrow);
@@ -72,7 +72,7 @@ dvec3 SurfaceTracer::crossing(dvec3 p, dvec3 q) const {
 }
 
 std::vector<dvec3> SurfaceTracer::inside(dvec3 a, dvec3 b) {
-    // Which end comes first decides no bit.
+    // The result does not depend on which end comes first, not even in one bit.
     const bool turned = PlaceOrder{}(b, a);
     const auto [entry, fresh] = edges_.try_emplace(turned ? std::pair(b, a) : std::pair(a, b));
     if (fresh) entry->second = find_inside(entry->first.first, entry->first.second);
@@ -117,7 +117,7 @@ bool SurfaceTracer::inside(Place place) {
     return held > 0;
 }
 
-/// Whether the surface surely does not pass through the box.
+/// Returns whether the surface certainly does not pass through the box.
 bool SurfaceTracer::clear(const Box& box) const {
     if (body_->metric() == Metric::sign) {
         const Interval range = body_->range(box);
@@ -131,7 +131,7 @@ SurfaceTracer::Side SurfaceTracer::side_of(const Box& box) const {
     return holds(box.center()) ? Side::inside : Side::outside;
 }
 
-/// Divides the sub-triangle whose corner 0 is the place; of negative size, one that is turned round.
+/// Divides the sub-triangle whose corner 0 is `corner`; a negative size means an inverted triangle.
 void SurfaceTracer::divide(Place corner, int size) {
     const Place b{corner.i + size, corner.j}, c{corner.i, corner.j + size};
     if (std::abs(size) == 1) {
@@ -148,7 +148,7 @@ void SurfaceTracer::divide(Place corner, int size) {
     divide({corner.i + half, corner.j + half}, -half);
 }
 
-/// The straight line in which the surface cuts the smallest triangle, if it does.
+/// Adds the segment in which the surface cuts a smallest triangle, if it does.
 void SurfaceTracer::cut(Place a, Place b, Place c) {
     const std::array<Place, 3> places{a, b, c};
     std::array<bool, 3> inside{};
@@ -179,7 +179,7 @@ void SurfaceTracer::trace(std::span<const dvec3> ring, std::vector<SurfaceCurve>
     link(curves);
 }
 
-/// Joins the segments at their common ends.
+/// Links the segments at their common ends into curves.
 void SurfaceTracer::link(std::vector<SurfaceCurve>& curves) {
     std::map<dvec3, std::vector<std::size_t>, PlaceOrder> at_end;
     for (std::size_t s = 0; s < segments_.size(); ++s) {

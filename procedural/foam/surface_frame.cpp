@@ -1,4 +1,4 @@
-// Curves on the faces to beams, and beams cut at the surface.
+// Beams along the curves on faces, and beams clipped at the surface.
 #include "procedural/foam/surface_frame.h"
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 namespace lamella {
 namespace {
 
-constexpr double flatness = 0.02;  // share of the radius that a beam may leave its curve by
+constexpr double flatness = 0.02;  // maximum distance of a beam from its curve, as a share of the radius
 constexpr std::size_t max_faces = 5000;
 
 }  // namespace
 
-/// Adds the beams along a line of nodes.
+/// Adds the beams along a polyline.
 void SurfaceFrame::add_line(const SurfaceCurve& line) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) tapered_.add(line[i], line[i + 1]);
 }

@@ -1,5 +1,4 @@
-// The surface frame: beams where a foam's Voronoi faces meet the body's surface, and the foam cut to the
-// body.
+// SurfaceFrame: beams where a foam's Voronoi faces meet the body's surface, and the foam clipped to the body.
 #pragma once
 
 #include <map>
@@ -16,32 +15,32 @@
 
 namespace lamella {
 
-/// What a surface frame is made of.
+/// Parameters of a surface frame.
 struct FrameSettings {
-    FieldPtr body;         ///< whose surface it follows
-    Graded radius = 0.3;   ///< of its beams, mm; where the foam's beams are thicker, theirs
-    bool interior = true;  ///< whether the foam itself is made, too
+    FieldPtr body;         ///< the frame follows its surface
+    Graded radius = 0.3;   ///< of its beams, mm; where the foam's beams are thicker, their radius
+    bool interior = true;  ///< whether the foam itself is made as well
 };
 
 /// Makes the frame's beams that a cell owns (the armature of Martinez, Dumas and Lefebvre 2016, as curves
 /// instead of a distance): those along the curves in which its faces towards seeds of higher keys meet the
-/// surface, its joints, and what stands for pieces of the body within the cell. Axes on curves lie on the
-/// surface, so half of each beam lies outside the body, and is the caller's to cut off. Each edge of the
-/// diagram that pierces the surface does so at a node of the frame. Not thread-safe; keeps buffers for reuse.
+/// surface, its joints, and lines for pieces of the body enclosed in the cell. Axes on curves lie on the
+/// surface, so half of each beam lies outside the body; the caller has to clip it. Each edge of the diagram
+/// that pierces the surface does so at a node of the frame. Not thread-safe; keeps buffers for reuse.
 class SurfaceFrame {
   public:
     SurfaceFrame(const FieldPtr& body, NodeRadius radius, bool interior)
         : tracer_(body), tapered_(radius), interior_(interior), joints_(std::move(radius), interior) {}
 
-    /// The same frame with beams thicker by a length, mm.
+    /// Returns the same frame with beam radii larger by `by`, mm.
     SurfaceFrame grown(double by) const {
         SurfaceFrame thicker = *this;
         thicker.growth_ += by;
         return thicker;
     }
 
-    /// Appends the beams that `own` owns; see BeamMaker::append. Returns the number of edges and faces left
-    /// out because they reach the start box.
+    /// Appends the beams that `own` owns; see BeamMaker::append. Returns the number of edges and faces
+    /// skipped because they reach the start box.
     std::size_t append(const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
                        const Stretch& stretch, std::vector<Beam>& beams);
     /// Appends the parts of a beam whose axis lies in the body.
@@ -64,12 +63,12 @@ class SurfaceFrame {
     FrameJoints joints_;
     CellFaces faces_;
     std::vector<SurfaceCurve> curves_;
-    /// What is known of faces, which two cells share, by the keys of these.
+    /// A cache of the curves on faces, which two cells share, by the keys of their seeds.
     std::map<std::pair<SeedKey, SeedKey>, std::vector<SurfaceCurve>> known_;
 };
 
-/// A maker of a foam's pieces (see CellSource), with a frame when there is one. The foam's beams then end
-/// where their axes leave the body: in the frame's nodes.
+/// A maker of a foam's pieces (see CellSource), with a frame if there is one. The foam's beams then end where
+/// their axes leave the body: at the frame's nodes.
 template <typename Maker>
 class FramedMaker {
   public:
@@ -109,7 +108,7 @@ class FramedMaker {
 
   private:
     void append_inside(const Beam& beam, std::vector<Beam>& pieces) { frame_->append_inside(beam, pieces); }
-    /// Walls end at the surface by the cut with the body.
+    /// Walls are not cut here; clipping with the body ends them at the surface.
     template <typename... Kinds>
     void append_inside(const std::variant<Kinds...>& piece, std::vector<Piece>& pieces) {
         if (const Beam* beam = std::get_if<Beam>(&piece)) {

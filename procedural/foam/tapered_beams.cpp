@@ -1,4 +1,4 @@
-// Level by level, so that each one's radii are asked for at once.
+// Splits beams level by level, to sample all radii of a level at once.
 #include "procedural/foam/tapered_beams.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 constexpr int max_splits = 4;
 constexpr double bend = 0.02;  // share of the radius
 
-/// A radius grown by a length.
+/// A radius plus a length.
 class GrownRadius : public Grading {
   public:
     GrownRadius(GradingPtr radius, double by) : radius_(std::move(radius)), by_(by) {}
@@ -44,7 +44,7 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
             beams.push_back({ends_[i], radius, ends_[i + 1], radius});
         ends_.clear();
     } else {
-        // Asking may throw; what was added is gone then.
+        // Sampling may throw; clear what was added first.
         places_.swap(ends_);
         ends_.clear();
         find_radii();
@@ -58,13 +58,13 @@ void TaperedBeams::append(std::vector<Beam>& beams) {
     }
 }
 
-/// The radii at places_.
+/// Samples the radii at places_.
 void TaperedBeams::find_radii() {
     found_.resize(places_.size());
     if (!places_.empty()) radius_.grading().numbers(places_, found_);
 }
 
-/// Replaces parts that bend by their halves. False where none is left that may bend.
+/// Splits each part whose radius is not linear into halves. Returns false if no part may need another split.
 bool TaperedBeams::split() {
     places_.clear();
     for (const auto& [beam, is_straight] : parts_) {

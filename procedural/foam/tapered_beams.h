@@ -1,4 +1,4 @@
-// Beams whose radius varies in space, split where it bends.
+// NodeRadius, TaperedBeams: beams whose radius varies in space, split where the variation is not linear.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// The radius of the foam's beams, mm: asked at nodes only, so all beams of a node agree, and between them
-/// where it bends.
+/// The radius of the foam's beams, mm. Beams that share a node sample it at the node, so they agree there.
+/// Between nodes it is sampled only to find where it is not linear.
 class NodeRadius {
   public:
     explicit NodeRadius(double radius) : radius_(radius), largest_(radius) {}
@@ -17,15 +17,15 @@ class NodeRadius {
     NodeRadius(GradingPtr radius, double largest) : radius_(std::move(radius)), largest_(largest) {}
     double at(dvec3 p) const { return radius_->at(p); }
     bool constant() const { return radius_->constant().has_value(); }
-    /// Encloses the radii of the nodes in the box.
+    /// Returns bounds of the radius over the box, mm.
     Interval range(const Box& box) const { return radius_->range(box); }
     /// The radius at any point, mm.
     const Grading& grading() const { return *radius_; }
-    /// Every radius larger by a length, mm.
+    /// Returns the radius plus `by`, mm.
     NodeRadius grown(double by) const;
-    /// No node has a larger one.
+    /// Upper bound of the radius, mm.
     double largest() const { return largest_; }
-    /// No node in the box has a larger one.
+    /// Upper bound of the radius in the box, mm.
     double largest_in(const Box& box) const { return std::min(radius_->range(box).hi, largest_); }
 
   private:
@@ -33,9 +33,9 @@ class NodeRadius {
     double largest_;
 };
 
-/// Makes beams between nodes. Where the radius between two of them leaves the straight line by more than 2 %,
-/// the beam is split in the middle, and its halves likewise, down to a sixteenth. Radii are asked for many
-/// places at a time, of all beams that were added. Not thread-safe; keeps buffers for reuse.
+/// Makes beams between nodes. If the radius deviates from linear between two nodes by more than 2 %, the beam
+/// is split in the middle, and its halves likewise, down to a sixteenth. Radii are sampled in batches, over
+/// all beams that were added. Not thread-safe; keeps buffers for reuse.
 class TaperedBeams {
   public:
     explicit TaperedBeams(NodeRadius radius) : radius_(std::move(radius)) {}
@@ -46,7 +46,7 @@ class TaperedBeams {
         ends_.push_back(from);
         ends_.push_back(to);
     }
-    /// Appends the beams between the nodes that were added since the last time, in that order.
+    /// Appends the beams between the nodes added since the last call, in the order of adding.
     void append(std::vector<Beam>& beams);
 
   private:
@@ -60,7 +60,7 @@ class TaperedBeams {
     NodeRadius radius_;
     std::vector<dvec3> ends_;
     std::vector<Part> parts_, halves_;
-    std::vector<dvec3> places_;  ///< where the radius is asked for
+    std::vector<dvec3> places_;  ///< points at which the radius is sampled
     std::vector<double> found_;
 };
 

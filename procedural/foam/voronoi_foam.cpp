@@ -1,4 +1,4 @@
-// The Voronoi foam: seeds, cells and beams put together.
+// Assembles the Voronoi foam from seeds, cells and beams.
 #include "procedural/foam/voronoi_foam.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// A tree over points and segments, a list of planes, and falloffs as monotone functions of a distance.
+// A bounding-volume tree over points and segments, a list of planes, and falloffs as monotone functions of a
+// distance.
 #include "procedural/grading/attractors.h"
 
 #include <cstdint>
@@ -11,11 +12,10 @@
 namespace lamella {
 namespace {
 
-/// Relative distance_rounding that distances are allowed in ranges.
+/// Relative rounding error of distances that ranges allow for.
 constexpr double distance_rounding = 1e-14;
 
-/// The least distance between two boxes, mm.
-/// A segment, or a point where both ends agree.
+/// A segment, or a point if both ends are equal.
 struct Segment {
     dvec3 a, b;
 
@@ -42,7 +42,7 @@ struct Plane {
     }
 };
 
-/// Segments in boxes in boxes, by median splits along the longest side.
+/// A bounding-volume tree over segments, built by median splits along the longest side.
 class SegmentTree {
   public:
     explicit SegmentTree(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -68,7 +68,8 @@ class SegmentTree {
         return best;
     }
 
-    /// A lower bound of the distance from a box: exact where points are nearest.
+    /// Returns a lower bound of the distance from any point of a box; exact if the nearest segments are
+    /// points.
     double least(const Box& box) const {
         const dvec3 centre = box.center();
         const double half = length(box.size()) / 2;
@@ -82,7 +83,8 @@ class SegmentTree {
         return best;
     }
 
-    /// The greatest distance from any point of a box to one segment: at a corner, as distances are convex.
+    /// Returns the maximum distance of a box's points from one segment. It is at a corner, because distances
+    /// are convex.
     double greatest(const Box& box, std::uint32_t segment) const {
         double most = 0;
         for (int i = 0; i < 8; ++i) {
@@ -99,7 +101,7 @@ class SegmentTree {
     struct Node {
         Box box;
         std::uint32_t
-            first;  ///< first segment of a leaf, or the second child; the first one follows its parent
+            first;  ///< first segment of a leaf, or the second child; the first child follows its parent
         std::uint32_t count;  ///< segments of a leaf, 0 for an inner node
     };
 
@@ -125,7 +127,7 @@ class SegmentTree {
         build(middle, last);
     }
 
-    /// Visits the segments of all leaves whose bound is below what `visit` last returned, nearer nodes first.
+    /// Visits the segments of all leaves whose bound is below the last result of `visit`, nearer nodes first.
     template <class Bound, class Visit>
     void search(const Bound& bound, const Visit& visit) const {
         struct Entry {
@@ -133,7 +135,7 @@ class SegmentTree {
             double bound;
         };
         if (nodes_.empty()) return;
-        Entry stack[64];  // halving bounds the depth
+        Entry stack[64];  // median splits bound the depth
         int top = 0;
         double best = infinity;
         stack[top++] = {0, bound(nodes_[0].box)};
@@ -194,7 +196,7 @@ class DistanceGrading : public Grading {
   private:
     bool is_signed() const { return tree_.empty() && planes_.size() == 1; }
 
-    /// A length that no coordinate or distance that counts for the box exceeds by much.
+    /// Returns a length that no relevant coordinate or distance exceeds by much.
     double farthest(const Box& box) const {
         double most = length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
         if (!tree_.empty()) {
@@ -226,7 +228,7 @@ class FalloffGrading : public Grading {
         const double slack = distance_rounding * std::max(std::abs(near_), std::abs(far_));
         Interval range{std::max(std::min(first, last) - slack, limits.lo),
                        std::min(std::max(first, last) + slack, limits.hi)};
-        if (distances.hi == infinity) range.hi = infinity;  // may stand for NaN
+        if (distances.hi == infinity) range.hi = infinity;  // the value may be NaN there
         return range;
     }
 
@@ -238,7 +240,7 @@ class FalloffGrading : public Grading {
         return std::min(std::max(value, std::min(near_, far_)), std::max(near_, far_));
     }
 
-    /// What is left of the near value at t radii, 1 to 0.
+    /// Returns the weight of the near value at a distance of t radii, from 1 to 0.
     double weight(double t) const {
         switch (falloff_) {
             case Falloff::linear:

@@ -1,4 +1,4 @@
-// Closest points through a tree whose nodes know the least and greatest attribute below them.
+// Closest points through a tree whose nodes store the attribute's range.
 #include "procedural/grading/attribute_grading.h"
 
 #include "engine/base/error.h"
@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-/// Relative color_rounding that distances and interpolated values are allowed.
+/// Relative rounding error that distances and interpolated values are allowed.
 constexpr double color_rounding = 1e-12;
 
 class AttributeGrading : public Grading {
@@ -21,9 +21,9 @@ class AttributeGrading : public Grading {
 
     double at(dvec3 p) const override { return value(tree_.closest(p)); }
 
-    /// The closest point of a convex set moves no farther than the point it is closest to. So the closest
-    /// points on a triangle of all points of the box lie within the box's half diagonal of the one for its
-    /// centre, and only triangles that can be closest to some point of the box count.
+    /// The closest point on a convex set moves no farther than the query point. So, over all points of the
+    /// box, the closest points on a triangle lie within the box's half diagonal of the one for its centre,
+    /// and only triangles that can be closest to some point of the box count.
     Interval range(const Box& box) const override {
         const dvec3 centre = box.center();
         const double half = std::sqrt(glm::dot(box.size(), box.size())) / 2;
@@ -42,8 +42,8 @@ class AttributeGrading : public Grading {
     struct Search {
         Box box;
         dvec3 centre;
-        double half;   ///< farthest that the box reaches from its centre
-        double reach;  ///< no point of the box is farther from the surface
+        double half;   ///< maximum distance of a point of the box from its centre
+        double reach;  ///< upper bound of the distance of the box's points from the surface
         Interval found;
     };
 
@@ -59,23 +59,24 @@ class AttributeGrading : public Grading {
         const double a = values_[t[0]], b = values_[t[1]], c = values_[t[2]];
         const double v = a * at.weights.x + b * at.weights.y + c * at.weights.z;
         if (std::isnan(v)) return v;
-        // A weighted mean lies between its parts, also when rounded: equal corners give their number exactly.
+        // A weighted mean lies between its parts, even after rounding: equal corners give their number
+        // exactly.
         return std::min(std::max(v, std::min({a, b, c})), std::max({a, b, c}));
     }
 
     Interval of_triangle(std::uint32_t triangle) const {
         Interval range;
         for (const std::uint32_t v : mesh_.triangles[triangle]) {
-            range.lo = std::min(range.lo, values_[v]);  // a NaN does not compare
+            range.lo = std::min(range.lo, values_[v]);  // a NaN compares false
             range.hi = std::isnan(values_[v]) ? infinity : std::max(range.hi, values_[v]);
         }
         return range;
     }
 
-    /// How the attribute changes within a triangle.
+    /// Upper bound of the change of the attribute within a triangle.
     struct Slope {
-        double value;       ///< number per mm; infinite where the triangle has no area
-        double narrowness;  ///< 1 / height over the longest side, which magnifies color_rounding, 1/mm
+        double value;       ///< number per mm; infinite for a triangle without area
+        double narrowness;  ///< 1/mm; 1 / height over the longest side, which magnifies rounding errors
     };
 
     Slope slope(const std::array<std::uint32_t, 3>& t) const {
@@ -113,7 +114,7 @@ class AttributeGrading : public Grading {
         if (search.found.lo <= below.lo && below.hi <= search.found.hi) return;
         if (distance(search.box, node.box) > search.reach) return;
         const dvec3 size = node.box.size();
-        // What is small beside the box is not worth a closer look.
+        // Nodes that are small compared to the box are not worth descending into.
         if (glm::dot(size, size) * 64 < search.half * search.half) {
             widen(search.found, below);
         } else if (node.count == 0) {
@@ -145,8 +146,8 @@ class AttributeGrading : public Grading {
     TriangleMesh mesh_;
     std::vector<double> values_;
     TriangleTree tree_;
-    std::vector<Slope> slopes_;         ///< one a triangle
-    std::vector<Interval> over_nodes_;  ///< the attribute over all triangles of a node
+    std::vector<Slope> slopes_;         ///< by triangle
+    std::vector<Interval> over_nodes_;  ///< range of the attribute, by node
 };
 
 }  // namespace

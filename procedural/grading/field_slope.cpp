@@ -1,4 +1,4 @@
-// Crossings of a lattice's edges with the surface, and central differences there.
+// Finds where the edges of a lattice cross the surface, and takes central differences there.
 #include "procedural/grading/field_slope.h"
 
 #include <fmt/format.h>
@@ -13,9 +13,11 @@ namespace lamella {
 namespace {
 
 constexpr int slope_cells = 24;
-constexpr int halvings = 24;  // of an edge: the surface to 1e-7 of it
+constexpr int halvings = 24;  // of an edge: finds the surface to 1e-7 of it
 constexpr double step_in_cells = 1e-3;
-constexpr double jump = 4;  // of a slope measured over a quarter of the step: smooth values keep theirs
+// The slope is measured again over a step shorter by this factor. It stays the same for smooth values, and
+// grows by this factor at a jump.
+constexpr double jump = 4;
 
 double slope_at(const Field& field, dvec3 p, double step) {
     double square = 0;
@@ -28,7 +30,7 @@ double slope_at(const Field& field, dvec3 p, double step) {
     return std::sqrt(square);
 }
 
-/// A point of the surface between one inside and one outside.
+/// Returns a point of the surface between a point inside and one outside, by bisection.
 dvec3 crossing(const Field& field, dvec3 inside, dvec3 outside) {
     for (int i = 0; i < halvings; ++i) {
         const dvec3 middle = (inside + outside) * 0.5;
@@ -37,7 +39,7 @@ dvec3 crossing(const Field& field, dvec3 inside, dvec3 outside) {
     return (inside + outside) * 0.5;
 }
 
-/// Looks at the lattice's edges plane by plane.
+/// Visits the lattice's edges plane by plane.
 class SurfaceSlopes {
   public:
     SurfaceSlopes(const Field& field, const Box& box) : field_(field), box_(box) {
@@ -67,7 +69,7 @@ class SurfaceSlopes {
   private:
     dvec3 point(glm::ivec3 i) const { return box_.lo + box_.size() * dvec3(i) / dvec3(count_ - 1); }
 
-    /// The edge to a point from the one before it along an axis.
+    /// Measures the slope on the edge to a point from the previous one along an axis.
     void edge(glm::ivec3 to, double value, int axis, double value_before) {
         if ((value < 0) == (value_before < 0)) return;
         glm::ivec3 from = to;
@@ -114,7 +116,7 @@ class DividedSlice : public SliceField {
     double divisor_;
 };
 
-/// Another field with values divided by a number; the solid is the same.
+/// A field with values divided by a number; the solid is the same.
 class Divided : public Field {
   public:
     Divided(FieldPtr field, double divisor) : field_(std::move(field)), divisor_(divisor) {}

@@ -1,4 +1,4 @@
-// Quotients of ranges.
+// The quotient of two gradings and of their ranges.
 #include "procedural/grading/grading_quotient.h"
 
 #include <functional>

@@ -1,11 +1,12 @@
-// The quotient of two gradings: for limits on a length that are set by another length.
+// The quotient of two gradings, to limit one length by another.
 #pragma once
 
 #include "engine/field/grading.h"
 
 namespace lamella {
 
-/// numerator / denominator at every point; the denominator's range is positive wherever it is asked for.
+/// Returns numerator / denominator at every point. The denominator's range must be positive wherever it is
+/// evaluated.
 GradingPtr make_quotient_grading(GradingPtr numerator, GradingPtr denominator);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Means of two gradings by a smoothstep of a region's value, and their ranges.
+// Blends two gradings by the smoothstep of a region's value, and bounds the result.
 #include "procedural/grading/region_grading.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ class RegionGrading : public Grading {
         if (most == 0) return outside_->range(box);
         if (least == 1) return inside_->range(box);
         const Interval outside = outside_->range(box), inside = inside_->range(box);
-        // The mean is linear in the weight, so it is extreme at the ends.
+        // The mean is linear in the weight, so its extremes are at the ends.
         const double lo = std::min(mean(outside.lo, inside.lo, least), mean(outside.lo, inside.lo, most));
         const double hi = std::max(mean(outside.hi, inside.hi, least), mean(outside.hi, inside.hi, most));
         if (std::isnan(lo) || std::isnan(hi)) return {-infinity, infinity};

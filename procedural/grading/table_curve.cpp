@@ -1,4 +1,4 @@
-// Straight and monotone cubic pieces between rows.
+// Linear and monotone cubic interpolation between rows.
 #include "procedural/grading/table_curve.h"
 
 #include <algorithm>
@@ -23,9 +23,9 @@ void check(const Table& rows) {
     }
 }
 
-/// Slopes at the rows that keep every piece monotone: zero at local extremes, else the weighted harmonic mean
-/// of the slopes on both sides (Fritsch and Butland 1984), and a three-point slope kept within bounds at the
-/// ends.
+/// Returns slopes at the rows that keep every piece monotone: zero at local extremes, else the weighted
+/// harmonic mean of the slopes on both sides (Fritsch and Butland 1984); at the ends a three-point slope,
+/// limited.
 std::vector<double> monotone_slopes(const Table& rows) {
     const std::size_t n = rows.size();
     std::vector<double> slopes(n, 0.0), widths, chords;
@@ -64,7 +64,7 @@ TableCurve::TableCurve(Table rows, bool smooth) : rows_(std::move(rows)), smooth
 Interval TableCurve::range(Interval along) const {
     const double first = at(along.lo), last = at(along.hi);
     Interval range{std::min(first, last), std::max(first, last)};
-    Interval pieces = range;  // what rounding within the pieces of both ends cannot leave
+    Interval pieces = range;  // cannot be left by rounding within the pieces at both ends
     for (std::size_t i = behind(along.lo); i < rows_.size() && rows_[i].first <= along.hi; ++i) {
         range = {std::min(range.lo, rows_[i].second), std::max(range.hi, rows_[i].second)};
     }
@@ -77,7 +77,7 @@ Interval TableCurve::range(Interval along) const {
     return range;
 }
 
-/// The first row beyond a position.
+/// Returns the index of the first row beyond a position.
 std::size_t TableCurve::behind(double position) const {
     const auto beyond = [](double x, const std::pair<double, double>& row) { return x < row.first; };
     return static_cast<std::size_t>(std::upper_bound(rows_.begin(), rows_.end(), position, beyond) -
@@ -101,7 +101,7 @@ double TableCurve::at(double position) const {
     const double width = x1 - x0, t = (position - x0) / width;
     double y = y0 + (y1 - y0) * t;
     if (smooth_) {
-        // Hermite's cubic as the chord and what bends away from it at either end.
+        // Hermite's cubic as the chord plus the deviation due to the slopes at both ends.
         const double chord = y1 - y0, s = 1 - t;
         y += t * s * ((slopes_[i - 1] * width - chord) * s - (slopes_[i] * width - chord) * t);
     }

@@ -1,4 +1,4 @@
-// A number along another one, by rows of a table.
+// TableCurve: a function of one variable, interpolated between the rows of a table.
 #pragma once
 
 #include <utility>
@@ -8,23 +8,23 @@
 
 namespace lamella {
 
-/// The largest magnitude of a number in a table.
+/// Maximum magnitude of a number in a table.
 inline constexpr double max_table_number = 1e100;
 
 /// Rows of (position, number).
 using Table = std::vector<std::pair<double, double>>;
 
-/// A table of numbers with what lies between its rows: straight pieces, or smooth ones (the monotone cubic of
-/// Fritsch and Carlson 1980, which never leaves the span of its two rows); constant beyond the ends.
+/// A piecewise linear or smooth interpolation of a table: smooth is the monotone cubic of Fritsch and Carlson
+/// 1980, which never leaves the range of its two rows. Constant beyond the ends.
 class TableCurve {
   public:
-    /// Throws InputError for an empty table, for numbers beyond 1e100 and for positions that do not increase
-    /// strictly.
+    /// Throws InputError for an empty table, for numbers beyond 1e100, and for positions that are not
+    /// strictly increasing.
     TableCurve(Table rows, bool smooth);
 
-    /// NaN at NaN.
+    /// Returns the interpolated number; NaN at NaN.
     double at(double position) const;
-    /// Encloses the numbers at all positions of an interval.
+    /// Returns bounds of the numbers over an interval of positions.
     Interval range(Interval along) const;
     const Table& rows() const { return rows_; }
 

@@ -1,4 +1,4 @@
-// Curves along other gradings; rows read from text.
+// Table lookups along other gradings, and tables read from text.
 #include "procedural/grading/table_grading.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class TableGrading : public Grading {
     Interval range(const Box& box) const override {
         const Interval along = along_->range(box);
         Interval range = curve_.range(along);
-        if (along.hi == infinity) range.hi = infinity;  // may stand for NaN
+        if (along.hi == infinity) range.hi = infinity;  // the value may be NaN there
         return range;
     }
 
@@ -35,7 +35,7 @@ class TableGrading : public Grading {
     TableCurve curve_;
 };
 
-/// The row that the cells of a line give. `where` is "path:line: ".
+/// Returns the row given by the cells of a line. `where` is "path:line: ".
 std::pair<double, double> row_of(const std::vector<std::string_view>& cells, const std::string& where) {
     const std::vector<double> numbers = numbers_of(cells, where);
     if (numbers.size() != 2) {

@@ -1,4 +1,4 @@
-// A table of numbers along another grading: along z, a depth, a distance, a formula.
+// A grading that is a tabulated function of another one, such as z, a depth, a distance or a formula.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace lamella {
 
-/// The number that the table gives at the position `along` has; see TableCurve, and for what is thrown.
+/// Makes the grading that looks up the value of `along` in a table; see TableCurve, also for errors.
 GradingPtr make_table_grading(GradingPtr along, Table rows, bool smooth);
 
-/// Reads two numbers a line, parted by a comma, semicolon or white space; empty lines and what follows a # do
-/// not count, and one line of words may head the table. Throws InputError("path:line: what").
+/// Reads a table with two numbers per line, separated by a comma, semicolon or white space. Ignores empty
+/// lines and everything after a #; the first line may be a heading. Throws InputError("path:line: what").
 Table read_table(const std::string& path);
 
-/// The same for text at hand; `name` stands in messages.
+/// Reads a table from text; `name` is used in messages.
 Table read_table(std::string_view text, const std::string& name);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Lines and cells, one after the other.
+// Splits text into lines, and lines into cells.
 #include "procedural/grading/text_rows.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
 
-/// The cells of a line; two separators other than white space enclose an empty one.
+/// Returns the cells of a line. Between two separators other than white space there is an empty cell.
 std::vector<std::string_view> cells_of(std::string_view line) {
     std::vector<std::string_view> cells;
     std::size_t at = 0;
@@ -32,7 +32,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     return cells;
 }
 
-/// Takes the next line of a text away, without its end and what follows a #.
+/// Removes and returns the next line of a text, without its end and without what follows a #.
 std::string_view take_line(std::string_view& text) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view line = text.substr(0, end);

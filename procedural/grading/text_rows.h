@@ -1,4 +1,4 @@
-// Text that holds a table: rows of cells, as spreadsheets and people write them.
+// Parses text into rows of cells, as written by spreadsheets and by hand.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,17 @@
 
 namespace lamella {
 
-/// A row, with the number of its line, from 1. The cells are views of the text.
+/// A row and its line number, from 1. The cells are views into the text.
 struct TextRow {
     std::size_t number = 0;
     std::vector<std::string_view> cells;
 };
 
-/// The rows of a text: cells parted by a comma, semicolon or white space. Empty lines and what follows a # do
-/// not count, nor does the byte order mark of spreadsheets.
+/// Returns the rows of a text. Cells are separated by a comma, semicolon or white space. Ignores empty lines,
+/// everything after a #, and the byte order mark of spreadsheets.
 std::vector<TextRow> text_rows(std::string_view text);
 
-/// The numbers of a row. Throws InputError with `where` before it for what is none.
+/// Returns the numbers of a row. Throws InputError, with `where` in front, for a cell that is not a number.
 std::vector<double> numbers_of(const std::vector<std::string_view>& cells, const std::string& where);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Wishes of single coarse cubes first; then the balance, for which the cubes around suffice.
+// Divides each coarse cube by its own sizes first, then balances it against the cubes around it.
 #include "procedural/lattice/cell_octree.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace lamella {
 namespace {
 
 constexpr double root_half = 0.70710678118654757;
-constexpr double max_coarse_cubes = 1e9;  // that one query may visit
+constexpr double max_coarse_cubes = 1e9;  // maximum number for one query
 
 bool before(const glm::i64vec3& a, const glm::i64vec3& b) {
     if (a.z != b.z) return a.z < b.z;
@@ -32,7 +32,7 @@ glm::i64vec3 shifted_right(const glm::i64vec3& v, int bits) {
     return {v.x >> bits, v.y >> bits, v.z >> bits};
 }
 
-/// Calls visit for all whole coordinates from lo to hi, by z, y, x.
+/// Calls visit for all integer coordinates from lo to hi, by z, y, x.
 template <typename Visit>
 void for_each_index(const glm::i64vec3& lo, const glm::i64vec3& hi, const Visit& visit) {
     for (std::int64_t z = lo.z; z <= hi.z; ++z) {
@@ -49,7 +49,7 @@ CellOctree::CellOctree(GradingPtr size, const Box& region, std::size_t cache_byt
     const Interval sizes = positive_range(*size_, region, "the lattice's cell size");
     coarse_side_ = sizes.hi;
     min_size_ = sizes.lo;
-    // Sides are exact, so comparing them decides the same everywhere.
+    // Sides are exact, so the comparison has the same result on every machine.
     while (side(levels_) * root_half > sizes.lo) {
         if (++levels_ > max_halvings) {
             throw InputError(
@@ -106,9 +106,9 @@ CellOctree::DivisionsPtr CellOctree::balanced(glm::i64vec3 coarse) const {
                                   [&] { return balance(coarse); });
 }
 
-/// A divided cube has small cubes that touch all cubes of its own size around it, so the parents of those
-/// must be divided. What follows from a wish stays within the sum of all smaller sides, which is less than a
-/// coarse side: the wishes of the 27 coarse cubes around decide.
+/// A divided cube has children that touch all cubes of its own size around it, so the parents of those must
+/// be divided, too. Divisions that follow from one spread by less than the sum of all smaller sides, which is
+/// below one coarse side. So the sizes in the 27 coarse cubes around suffice.
 CellOctree::Divisions CellOctree::balance(glm::i64vec3 coarse) const {
     Divisions all = *wanted(coarse);
     for_each_index(coarse - std::int64_t{1}, coarse + std::int64_t{1}, [&](const glm::i64vec3& near) {
@@ -159,7 +159,7 @@ void CellOctree::for_each(const Box& where, const std::function<void(const Octre
         const dvec3 place = (p - region_.lo) / coarse_side_ + margin;
         return glm::i64vec3(glm::floor(glm::clamp(place, -farthest, farthest)));
     };
-    // A margin for rounding: cubes that do not meet the box are dropped by their own boxes.
+    // A margin for rounding. Cubes that do not meet the box are dropped later by their own boxes.
     constexpr double margin = 1e-6;
     const glm::i64vec3 first = index(where.lo, -margin), last = index(where.hi, margin);
     const dvec3 count(last - first + std::int64_t{1});

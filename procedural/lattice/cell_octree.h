@@ -1,5 +1,5 @@
-// CellOctree: space divided into cubes whose sizes follow a grading by halving, neighbours alike to one
-// halving.
+// CellOctree: an octree over all of space whose cube sizes follow a grading; adjacent cubes differ by at most
+// one level.
 #pragma once
 
 #include <cstdint>
@@ -11,43 +11,44 @@
 
 namespace lamella {
 
-/// A cube of the octree: cube `index` of the lattice of cubes of side coarse_side / 2^level.
+/// A cube of the octree: cube `index` in the lattice of cubes of side coarse_side / 2^level.
 struct OctreeCell {
     glm::i64vec3 index;
     int level;
     friend bool operator==(const OctreeCell&, const OctreeCell&) = default;
 };
 
-/// Cubes over all of space. The coarse ones have the largest size asked for over the region and a corner at
-/// the region's lower corner. A cube is divided in eight while some size asked for in it is below its side /
-/// sqrt(2), and where otherwise a cube that touches it (at a face, an edge or a corner) would be of less than
-/// half its side. Beyond the region the grading counts at the nearest point of it. Immutable to its callers
-/// and thread-safe; a pure function of the grading and the region.
+/// A balanced octree over all of space. Coarse cubes have the largest size that the grading takes over the
+/// region, and a corner at the region's lower corner. A cube is divided into eight if the size somewhere in
+/// it is below its side / sqrt(2), or if otherwise an adjacent cube (at a face, an edge or a corner) would
+/// have less than half its side. Outside the region the grading is evaluated at the nearest point of the
+/// region. Logically immutable and thread-safe; a pure function of the grading and the region.
 class CellOctree {
   public:
     static constexpr int max_halvings = 6;
 
-    /// Throws InputError where sizes are not positive and finite or differ by more than 2^max_halvings.
+    /// Throws InputError unless sizes are positive and finite and differ by at most a factor of
+    /// 2^max_halvings.
     CellOctree(GradingPtr size, const Box& region, std::size_t cache_bytes);
 
     double coarse_side() const { return coarse_side_; }
-    /// A corner of a coarse cube: the region's lower corner.
+    /// The region's lower corner, which is a corner of a coarse cube.
     dvec3 origin() const { return region_.lo; }
     const Box& region() const { return region_; }
-    /// Points farther from the origin along some axis, in coarse sides, belong to no cube.
+    /// Points farther from the origin along some axis, in coarse sides, are in no cube.
     static constexpr double farthest = 1e9;
-    /// The smallest cubes have side coarse_side / 2^levels at least.
+    /// Upper bound of the level of any cube: the smallest have side coarse_side / 2^levels or more.
     int levels() const { return levels_; }
     double side(int level) const { return coarse_side_ / static_cast<double>(1 << level); }
     Box box(const OctreeCell& cell) const;
-    /// The undivided cube that holds the point (its lower faces belong to it).
+    /// Returns the leaf cube that contains the point; a cube includes its lower faces.
     OctreeCell cell_at(dvec3 p) const;
-    /// Calls visit for every undivided cube that meets the closed box: coarse ones by z, y, x, inside them
-    /// depth first.
+    /// Calls visit for every leaf cube that meets the closed box: coarse cubes by z, y, x; inside them depth
+    /// first.
     void for_each(const Box& box, const std::function<void(const OctreeCell&)>& visit) const;
 
   private:
-    /// The divided cubes of one coarse cube, by level and sorted.
+    /// The divided cubes within one coarse cube, by level, sorted.
     struct Divisions {
         std::vector<std::vector<glm::i64vec3>> by_level;
         Interval z;

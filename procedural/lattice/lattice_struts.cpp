@@ -1,4 +1,4 @@
-// Cells of one size own what lies on their lower borders; of several sizes, equal struts are found by
+// If cells have one size, each owns the struts on its lower borders; otherwise equal struts are found by
 // sorting.
 #include "procedural/lattice/lattice_struts.h"
 
@@ -20,7 +20,7 @@ void sort_unique(std::vector<GridStrut>& struts) {
     struts.erase(std::unique(struts.begin(), struts.end()), struts.end());
 }
 
-/// A strut that lies in an upper face of its cell is the lower face's of the next cell.
+/// Moves a strut in an upper face of its cell to the lower face: it belongs to the next cell.
 void move_to_lower_border(GridStrut& strut) {
     for (int axis = 0; axis < 3; ++axis) {
         if (strut.a[axis] == cell_steps && strut.b[axis] == cell_steps) strut.a[axis] = strut.b[axis] = 0;

@@ -1,4 +1,5 @@
-// A unit cell laid out over an octree: struts with whole coordinates, so that cells that share one agree.
+// LatticeStruts: the struts of a unit cell in every cube of an octree, in integer coordinates, so that cells
+// that share a strut agree.
 #pragma once
 
 #include <memory>
@@ -9,7 +10,8 @@
 
 namespace lamella {
 
-/// A strut between two points of the grid of coarse_side / grid_steps; `a` comes first by z, y, x.
+/// A strut between two points of the grid of spacing coarse_side / grid_steps. `a` precedes `b` in the order
+/// z, y, x.
 struct GridStrut {
     glm::i64vec3 a;
     glm::i64vec3 b;
@@ -23,16 +25,16 @@ class LatticeStruts {
     LatticeStruts(std::shared_ptr<const CellOctree> cells, const std::vector<Strut>& unit_cell);
 
     const CellOctree& cells() const { return *cells_; }
-    /// The struts that cells own on average, at most.
+    /// Upper bound of the average number of struts that a cell owns.
     std::size_t per_cell() const { return cell_.size(); }
     dvec3 position(const glm::i64vec3& grid_point) const;
-    /// Every strut whose bounding box meets the closed box, once, in an order that does not depend on the
-    /// box.
+    /// Returns every strut whose bounding box meets the closed box, once, in an order that does not depend on
+    /// the box.
     std::vector<GridStrut> meeting(const Box& box) const;
 
   private:
     std::shared_ptr<const CellOctree> cells_;
-    std::vector<GridStrut> cell_;  ///< of one cell, in 2^-20 of its side
+    std::vector<GridStrut> cell_;  ///< of the unit cell, in 2^-20 of its side
     double step_;
 };
 

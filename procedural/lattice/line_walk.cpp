@@ -1,4 +1,4 @@
-// Stretches of many lines in step: all that is asked next is asked at once.
+// Walks intervals of many lines in step and evaluates all their next points in one batch.
 #include "procedural/lattice/line_walk.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ constexpr double stretch = 8 * run_unit;
 constexpr double smallest_step = run_unit / 4.0;
 constexpr double precise = 1.0 / 64;  // run units
 constexpr int max_rounds = 16;
-/// Borders of stretches that are asked for at once: enough for what asking costs to be shared.
+/// Points per batch: enough to amortise the cost of a call.
 constexpr std::size_t many_points = 1 << 14;
 
-/// Neighbouring points of a line, and what is there.
+/// Two neighbouring points of a line, and the values there.
 struct Pair {
     std::size_t line;
     double u0, v0, u1, v1;
@@ -26,7 +26,7 @@ struct Pair {
     double middle() const { return (u0 + u1) * 0.5; }
 };
 
-/// A pair that holds a turn while it is narrowed.
+/// A pair with a sign change between its points, under refinement.
 class Turn {
   public:
     explicit Turn(const Pair& pair) : pair_(pair) {}
@@ -36,7 +36,7 @@ class Turn {
     bool is_found() const { return found_ || pair_.gap() <= precise; }
     double at() const { return found_ ? at_ : pair_.middle(); }
 
-    /// Where to look next: secant steps while they close in, halvings otherwise.
+    /// Returns the next point to evaluate: by secant steps while they converge, else by bisection.
     double next(int round) {
         slope_ = (pair_.v1 - pair_.v0) / pair_.gap();
         const double secant = pair_.u0 - pair_.v0 / slope_;
@@ -62,7 +62,7 @@ class Turn {
     bool halves_ = false, found_ = false;
 };
 
-/// The walk of lines [first, last).
+/// Walks the lines [first, last).
 class ValueWalk {
   public:
     ValueWalk(const LineFunction& function, std::size_t first, std::size_t last, std::int32_t lo,
@@ -102,8 +102,8 @@ class ValueWalk {
         }
     }
 
-    /// Keeps a pair between whose points something turns, or may turn. All are of one length at a time, so
-    /// turns come in order.
+    /// Keeps a pair if there is, or may be, a sign change between its points. All pairs have the same length
+    /// at a time, so sign changes are found in order.
     void consider(const Pair& pair) {
         const bool turns = pair.turns();
         if (pair.gap() <= smallest_step) {
@@ -113,7 +113,8 @@ class ValueWalk {
         }
     }
 
-    /// Whether nothing can turn between points on one side; false where a value is NaN.
+    /// Returns whether there is certainly no sign change between two points on one side; false if a value is
+    /// NaN.
     bool is_proven(const Pair& pair) const {
         return std::abs(pair.v0) + std::abs(pair.v1) >= steepest_[pair.line - first_] * pair.gap();
     }
@@ -167,8 +168,8 @@ class ValueWalk {
     std::vector<LinePoint> points_;
     std::vector<double> values_;
     std::vector<bool> begins_solid_;
-    std::vector<Pair> pairs_;   // between whose points something may turn
-    std::vector<Pair> wholes_;  // those that pairs_ are halves of
+    std::vector<Pair> pairs_;   // with possible sign changes between their points
+    std::vector<Pair> wholes_;  // the pairs that pairs_ are halves of
     std::vector<Turn> turns_;
 };
 

@@ -1,4 +1,4 @@
-// The lattice as a field: settings checked, struts made into beams.
+// The lattice as a field: checks settings and turns struts into beams.
 #include "procedural/lattice/strut_lattice.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 constexpr double max_beams_per_slice = 5e7;
 constexpr double max_cells_per_side = 1e6;
 
-/// Keeps the radius to what the region asks for.
+/// Checks the settings, and clamps the radius to its range over the region.
 LatticeSettings checked(const LatticeSettings& settings) {
     check_unit_cell(settings.struts);
     if (!settings.cell || !settings.beam) throw InputError("the lattice needs a cell size and a beam radius");
@@ -48,7 +48,7 @@ void check_count(const LatticeSettings& settings, const LatticeStruts& struts) {
                     beams, least, longest, max_beams_per_slice, max_cells_per_side));
 }
 
-/// A grading that beyond a box has the number of the nearest point in it.
+/// A grading that is evaluated at the nearest point of a box.
 class WithinBox : public Grading {
   public:
     WithinBox(GradingPtr grading, const Box& box) : grading_(std::move(grading)), box_(box) {}

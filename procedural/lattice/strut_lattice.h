@@ -1,5 +1,4 @@
-// StrutLattice: a unit cell of struts repeated over space, in cells that are halved where finer ones are
-// asked.
+// StrutLattice: a unit cell of struts repeated over space; cells are halved where smaller ones are wanted.
 #pragma once
 
 #include <memory>
@@ -12,32 +11,33 @@
 
 namespace lamella {
 
-/// What a lattice of struts is made of.
+/// Parameters of a strut lattice.
 struct LatticeSettings {
-    std::vector<Strut> struts;                        ///< of the unit cell; ends count to 2^-20 of a cell
-    GradingPtr cell;                                  ///< side of a cell, mm
-    GradingPtr beam;                                  ///< radius of the beams, mm; less than half a cell
-    Box region;                                       ///< where the lattice is wanted, mm; finite
-    std::size_t cache_bytes = std::size_t{64} << 20;  ///< bound of the memory for cells, and for distances
+    std::vector<Strut> struts;  ///< of the unit cell; ends are rounded to 2^-20 of a cell
+    GradingPtr cell;            ///< side of a cell, mm
+    GradingPtr beam;            ///< radius of the beams, mm; less than half a cell
+    Box region;                 ///< where the lattice is wanted, mm; must be finite
+    /// memory bound for cached cells, and as much again for distances
+    std::size_t cache_bytes = std::size_t{64} << 20;
 };
 
-/// A lattice of round beams. Cells are the cubes of CellOctree: one size throughout when one is asked for,
-/// otherwise the largest size asked for, halved as often as needed, neighbours differing by one halving at
-/// most. The corners of a large cell are corners of the small ones beside it, so lattices whose struts meet
-/// the corners hang together across sizes. A cell's corner lies at the region's lower corner. The lattice
-/// fills space (beyond the region the gradings count at the nearest point of it); the region says where
-/// slices and bounds are wanted.
+/// A lattice of round beams. Cells are the cubes of CellOctree: one size throughout if `cell` is constant,
+/// otherwise the largest size, halved as often as needed; adjacent cells differ by at most one halving.
+/// Corners of a large cell are corners of the small cells next to it, so lattices whose struts meet the
+/// corners are connected across sizes. The region's lower corner is a corner of a cell. The lattice fills
+/// space (outside the region the gradings are evaluated at its nearest point); `region` only bounds slices.
 class StrutLattice : public BeamFoam {
   public:
     /// Throws InputError for settings out of range.
     explicit StrutLattice(const LatticeSettings& settings);
 
-    /// A strut along which the radius bends by more than 2 % is several beams end to end. The order does not
-    /// depend on the box.
+    /// Returns the beams that touch the box. A strut whose radius deviates from linear by more than 2 % is
+    /// split into several beams. The order does not depend on the box.
     std::vector<Beam> pieces_touching(const Box& box) const override;
-    /// NaN also where it lies 1e9 cells away.
+    /// NaN also at points 1e9 or more cells away from the region.
     double value(dvec3 p) const override;
-    /// The lattice with beams of radius + d, d >= 0; null for d < 0, where the joints have no closed form.
+    /// Returns the lattice with beams of radius + d, d >= 0; null for d < 0, where the joints have no closed
+    /// form.
     FieldPtr offset(double d) const override;
     const LatticeSettings& settings() const { return settings_; }
     const CellOctree& cells() const { return struts_->cells(); }

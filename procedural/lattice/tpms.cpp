@@ -1,4 +1,4 @@
-// The periodic solids as fields: settings checked, values and ranges from g, slices closed or sampled.
+// The periodic solids as fields: checks settings, computes values and ranges from g, and makes slices.
 #include "procedural/lattice/tpms.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ const char* name_of(TpmsKind kind) {
     return "Neovius surface";
 }
 
-/// Replaces the gradings by ones that keep to what the region asks for, so that all of space is defined.
+/// Checks the settings. Clamps the gradings to their ranges over the region, so that the solid is defined in
+/// all of space.
 TpmsSettings checked(const TpmsSettings& settings) {
     const char* name = name_of(settings.kind);
     const Box& region = settings.region;

@@ -1,4 +1,4 @@
-// One wave a line; where something is graded, a walk along the lines.
+// Runs from one wave per line; with gradings, from a walk along the lines.
 #include "procedural/lattice/tpms_slice.h"
 
 #include <array>
@@ -21,7 +21,7 @@ Rect region_at(const Box& region, double z) {
     return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
 }
 
-/// The solid along lines of a band.
+/// The solid's value along the lines of a band.
 class TpmsLines : public LineFunction {
   public:
     TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
@@ -96,7 +96,7 @@ void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
     const Interval levels = solid_.solid_levels(period, solid_.thickness_at(solid_.center()));
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const Interval lines = across(region_, band.axis), extent = along(region_, band.axis);
-    // A pixel more than the band, whose runs are cut after rounding.
+    // One pixel more than the band, because runs are clipped after rounding.
     const Interval wanted = along(grown(band.rect(), std::abs(band.along_pitch)), band.axis);
     const Interval clip{std::max(extent.lo, wanted.lo), std::min(extent.hi, wanted.hi)};
     std::vector<Interval> intervals;

@@ -1,4 +1,5 @@
-// The slice of a triply periodic solid: runs in closed form where period and thickness are constant.
+// TpmsSlice: the slice of a triply periodic solid, with runs in closed form if period and thickness are
+// constant.
 #pragma once
 
 #include "engine/field/tile_walk.h"
@@ -6,7 +7,7 @@
 
 namespace lamella {
 
-/// Runs lie within the solid's region. `field` is the field whose solid this is.
+/// The slice at height z. Runs are clipped to the solid's region. `field` is the field of the solid.
 class TpmsSlice : public SampledSlice {
   public:
     TpmsSlice(const Field& field, const TpmsSolid& solid, double z);
@@ -22,7 +23,7 @@ class TpmsSlice : public SampledSlice {
 
     const TpmsSolid& solid_;
     double z_;
-    Rect region_;  ///< empty off the region's heights
+    Rect region_;  ///< empty at heights outside the region
     SineCosine height_;
 };
 

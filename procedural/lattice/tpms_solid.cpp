@@ -1,4 +1,4 @@
-// Values scaled by the steepest gradient; ranges through the ranges of the angles.
+// Values scaled by the maximum gradient; ranges from the ranges of the angles.
 #include "procedural/lattice/tpms_solid.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 constexpr int survey_side = 16;
 constexpr double survey_safety = 1.5;
 
-/// Gradings are clamped to what they ask for, so that a constant's range is one number.
+/// Gradings are clamped to their ranges, so the range of a constant is a single number.
 bool is_constant_over(const Grading& grading, const Box& box) {
     const Interval range = grading.range(box);
     return range.lo == range.hi;
@@ -34,7 +34,7 @@ TpmsSolid::TpmsSolid(const TpmsSettings& settings)
 }
 
 dvec3 TpmsSolid::survey_gradings() const {
-    // Each point of the lattice with its neighbours along x, y and z.
+    // Each point of the lattice together with its neighbours along x, y and z.
     constexpr std::size_t group = 4;
     const dvec3 step = settings_.region.size() / static_cast<double>(survey_side);
     std::vector<dvec3> points;

@@ -1,4 +1,5 @@
-// A triply periodic solid at a point, over a box and along lines: the laws of tpms.h worked out.
+// TpmsSolid: evaluates a triply periodic solid at points, over boxes and along lines, by the formulas of
+// tpms.h.
 #pragma once
 
 #include "procedural/lattice/tpms_surface.h"
@@ -6,7 +7,7 @@
 
 namespace lamella {
 
-/// The solid of checked settings, whose gradings are positive and finite everywhere.
+/// A solid with valid settings, whose gradings are positive and finite everywhere.
 class TpmsSolid {
   public:
     explicit TpmsSolid(const TpmsSettings& settings);
@@ -15,7 +16,7 @@ class TpmsSolid {
     bool has_constant_period() const { return constant_period_; }
     TpmsKind kind() const { return settings_.kind; }
     const Box& region() const { return settings_.region; }
-    /// The place where all angles are 0.
+    /// The point where all angles are 0: the region's centre.
     dvec3 center() const { return center_; }
     /// The period at the region's centre, mm.
     double period() const { return period_; }
@@ -23,29 +24,29 @@ class TpmsSolid {
     double thickness_at(dvec3 p) const {
         return constant_thickness_ ? thickness_ : settings_.thickness->at(p);
     }
-    /// Those at many points, as many; and so with values().
+    /// Computes the thickness at many points; as many numbers as points, as in values().
     void thicknesses(std::span<const dvec3> points, std::span<double> out) const;
     Interval thickness_over(const Box& box) const {
         return constant_thickness_ ? Interval{thickness_, thickness_} : settings_.thickness->range(box);
     }
 
-    /// Sine and cosine of the angle at a distance from the centre along an axis, mm.
+    /// Returns sine and cosine of the angle at a distance (mm) from the centre along an axis.
     static SineCosine angle(double distance, double period) {
         return sine_cosine(angle_of(distance, period));
     }
-    /// That angle, as sine_cosine() takes it.
+    /// Returns that angle, in the unit of sine_cosine().
     static double angle_of(double distance, double period) { return distance * turn / period; }
-    /// The value where g is g, mm.
+    /// Returns the field's value for a value of g, mm.
     double value_of(double g, double period, double thickness) const;
-    /// How much the value changes per mm at most along a line in the direction of `axis` (0 to 2) on which g
-    /// changes by at most `change_of_g` per angle, as far as the gradings' differences on a lattice of the
-    /// region tell.
+    /// Returns an upper bound of the change of the value per mm along a line parallel to `axis` (0 to 2) on
+    /// which g changes by at most `change_of_g` per radian. The contribution of gradings is estimated from
+    /// their differences on a lattice over the region.
     double steepest(int axis, double change_of_g) const {
         return change_of_g / g_.steepest + graded_change_[axis];
     }
-    /// The same for any line in that direction.
+    /// Returns this bound for any line parallel to the axis.
     double steepest(int axis) const { return steepest(axis, g_.steepest_along); }
-    /// The values of g that are solid: strictly between these.
+    /// Returns the open interval of the values of g that are solid.
     Interval solid_levels(double period, double thickness) const;
 
     double value(dvec3 p) const;
@@ -63,7 +64,8 @@ class TpmsSolid {
     dvec3 center_;
     double period_, thickness_;
     bool constant_period_, constant_thickness_;
-    dvec3 graded_change_{0};  ///< what the gradings add to the change of the value per mm along each axis
+    /// estimated contribution of the gradings to the change of the value per mm along each axis
+    dvec3 graded_change_{0};
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Waves by collecting the terms in one angle; ranges by interval arithmetic and by the steepest gradient.
+// Waves by collecting the terms in one angle; ranges by interval arithmetic and by the maximum gradient.
 #include "procedural/lattice/tpms_surface.h"
 
 namespace lamella {
@@ -6,7 +6,7 @@ namespace {
 
 constexpr double root_2 = 1.4142135623730951;
 constexpr double root_3 = 1.7320508075688772;
-// Sines of angles of some thousand turns are off by less than this.
+// Upper bound of the error of sines of angles up to some thousand turns.
 constexpr double sine_error = 1e-11;
 
 Interval operator+(Interval a, Interval b) { return {a.lo + b.lo, a.hi + b.hi}; }
@@ -18,12 +18,12 @@ Interval operator*(Interval a, Interval b) {
 
 Interval operator*(double k, Interval a) { return Interval{k, k} * a; }
 
-/// Encloses the cosine over an interval of angles.
+/// Returns bounds of the cosine over an interval of angles.
 Interval cosine_range(Interval angles) {
     if (!(angles.width() < 2 * pi)) return {-1, 1};
     const double first = sine_cosine(angles.lo).cosine, last = sine_cosine(angles.hi).cosine;
     Interval range{std::min(first, last), std::max(first, last)};
-    // A crest at 2 pi n, a trough at pi + 2 pi n; taken along when the rounded quotients leave it in doubt.
+    // Maxima are at 2 pi n, minima at pi + 2 pi n. If rounding leaves it in doubt, the extremum is included.
     const auto holds_turn = [&](double at) {
         return std::floor((angles.hi - at) / (2 * pi) + sine_error) >=
                std::ceil((angles.lo - at) / (2 * pi) - sine_error);
@@ -81,7 +81,7 @@ Interval tpms_range(TpmsKind kind, const Box& angles) {
     Interval range = interval_range(kind, angles);
     const dvec3 half = angles.size() * 0.5;
     const double reach = std::sqrt(glm::dot(half, half));
-    // Beyond a quarter turn the interval arithmetic says more.
+    // Beyond a quarter turn, interval arithmetic is tighter.
     if (reach < pi / 2) {
         const dvec3 p = angles.center();
         const double g = tpms_wave(kind, Axis::x, sine_cosine(p.y), sine_cosine(p.z)).at(sine_cosine(p.x));

@@ -1,4 +1,5 @@
-// The functions g whose zero sets are the triply periodic surfaces: values, waves along lines, intervals.
+// The functions g whose zero sets are the triply periodic surfaces: values, waves along lines, and interval
+// bounds.
 #pragma once
 
 #include <cmath>
@@ -18,22 +19,22 @@ struct Wave {
     double at(const SineCosine& t) const { return sine * t.sine + cosine * t.cosine + constant; }
 };
 
-/// What the settings' laws need to know of a function g. All four are antisymmetric: shifted by half a period
-/// along some axes, g becomes -g.
+/// Constants of a function g that the formulas of tpms.h need. All four g are antisymmetric: shifted by half
+/// a period along some axes, g becomes -g.
 struct TpmsConstants {
-    double steepest;          ///< the largest gradient anywhere, angles
-    double steepest_along;    ///< the largest derivative along one axis
-    double steepest_surface;  ///< the largest gradient on g = 0
-    double joined;            ///< the least level at which g < level hangs together
-    double greatest;          ///< the largest |g|
+    double steepest;          ///< maximum gradient anywhere, with respect to the angles
+    double steepest_along;    ///< maximum derivative along one axis
+    double steepest_surface;  ///< maximum gradient on g = 0
+    double joined;            ///< lowest level at which g < level is connected
+    double greatest;          ///< maximum of |g|
 };
 TpmsConstants tpms_constants(TpmsKind kind);
 
-/// g along a line in the direction `axis` of a plane, from the sines and cosines of the angle across the line
-/// and of the plane's height.
+/// Returns g along a line in the direction `axis` of a plane, given the sines and cosines of the angle across
+/// the line and of that of the plane's height.
 Wave tpms_wave(TpmsKind kind, Axis axis, const SineCosine& across, const SineCosine& z);
 
-/// Encloses g over the box of angles; infinite sides are allowed.
+/// Returns bounds of g over a box of angles; infinite sides are allowed.
 Interval tpms_range(TpmsKind kind, const Box& angles);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The named cells, by which corners and centres of faces they join, and the check of a list.
+// The named cells, built from corners and face centres, and the check of a list.
 #include "procedural/lattice/unit_cells.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ constexpr std::size_t max_struts = 64;
 
 dvec3 corner(int i) { return dvec3(i & 1, (i >> 1) & 1, i >> 2); }
 
-/// The centre of the face at the lower (0) or upper (1) end of an axis.
+/// Returns the centre of the face at the lower (0) or upper (1) end of an axis.
 dvec3 face_center(int axis, int end) {
     dvec3 p(0.5);
     p[axis] = end;

@@ -1,4 +1,4 @@
-// An angle by one rational guess and one correction against its own sine; then periodic repetition.
+// Angles by a rational estimate and one correction against its sine; then periodic repetition.
 #include "procedural/lattice/wave_runs.h"
 
 namespace lamella {
@@ -6,20 +6,21 @@ namespace {
 
 constexpr double two_pi = 6.28318530717958647693;
 
-/// The arc cosine in turns, for -1 < k < 1.
+/// Returns the arc cosine in turns, for -1 < k < 1.
 double arc_cosine(double k) { return turns_of(k, std::sqrt((1 - k) * (1 + k))); }
 
 }  // namespace
 
 double turns_of(double cosine, double sine) {
-    // A guess within 0.005 radians in the first octant (Rajan et al., IEEE Signal Processing Magazine, 2006).
+    // An estimate within 0.005 radians in the first octant (Rajan et al., IEEE Signal Processing Magazine,
+    // 2006).
     const double x = std::abs(cosine), y = std::abs(sine);
     const double q = x < y ? x / y : y / x;
     double guess = q * (two_pi / 8 + 0.273 * (1 - q));
     if (x < y) guess = two_pi / 4 - guess;
     if (cosine < 0) guess = two_pi / 2 - guess;
     if (sine < 0) guess = -guess;
-    // The sine of what is missing is below 0.005, where three terms of the arc sine are exact.
+    // The sine of the remaining angle is below 0.005, where three terms of the arc sine are exact.
     const SineCosine g = sine_cosine(guess);
     const double d = sine * g.cosine - cosine * g.sine, d2 = d * d;
     return (guess + d * (1 + d2 * (1.0 / 6 + d2 * (3.0 / 40 + d2 * (15.0 / 336))))) / two_pi;
@@ -46,7 +47,7 @@ void append_wave_runs(const WaveRuns& runs, double origin, double period, Interv
         out.push_back(clip);
         return;
     }
-    // Parts lie within [-1, 3/2] turns.
+    // Intervals lie within [-1, 3/2] turns.
     for (double n = std::floor((clip.lo - origin) / period) - 2;; ++n) {
         for (int i = 0; i < runs.count; ++i) {
             const double lo = origin + (runs.part[i].lo + n) * period;

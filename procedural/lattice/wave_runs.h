@@ -1,5 +1,5 @@
-// Where along a line a cosine wave lies between two levels: closed forms, without arc functions of the
-// library.
+// Intervals of a line in which a cosine wave lies between two levels, in closed form and without the arc
+// functions of the C library.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,20 @@
 
 namespace lamella {
 
-/// The angle, in turns from -1/2 to 1/2, of the point (cosine, sine) of the unit circle; to 1e-16 turns.
+/// Returns the angle, in turns from -1/2 to 1/2, of the point (cosine, sine) of the unit circle, accurate to
+/// 1e-16 turns.
 double turns_of(double cosine, double sine);
 
 /// The turns t, within one period, in which a wave lies strictly between two levels: up to two intervals,
-/// ascending, disjoint, within [-1, 3/2]; an infinite one when the wave always does.
+/// ascending, disjoint, within [-1, 3/2]; one infinite interval if the wave is always between them.
 struct WaveRuns {
     Interval part[2];
     int count = 0;
 };
 WaveRuns wave_runs(const Wave& wave, Interval levels);
 
-/// Appends the intervals (mm, ascending) of a line on which the wave lies between the levels, cut to `clip`
-/// (finite). The wave's angle 0 lies at `origin`, mm.
+/// Appends the intervals (mm, ascending) of a line in which the wave lies between the levels, clipped to
+/// `clip` (finite). The wave has angle 0 at `origin`, mm.
 void append_wave_runs(const WaveRuns& runs, double origin, double period, Interval clip,
                       std::vector<Interval>& out);
 

@@ -1,5 +1,5 @@
-// Strips of elements; for each height that an element allows, every stretch of the strip that holds the
-// anchor.
+// Builds the strip of an element and tries, for each height that an element allows, every interval of the
+// strip that contains the anchor.
 #include "procedural/scaffold/bridge_sweep.h"
 
 #include <algorithm>
@@ -55,8 +55,8 @@ std::vector<std::size_t> BridgeSweep::near(dvec3 place) const {
     return numbers;
 }
 
-/// A connector rises at least as the shape asks, and leans no more than it allows. What stands on a bar as
-/// the end of another may be short: nothing has to be broken off there.
+/// A connector has at least the minimum height of the shape and leans no more than it allows. A connector
+/// between the end of one bar and another bar may be shorter, because it need not be broken off.
 std::int64_t BridgeSweep::level_of(const ScaffoldElement& element, double lateral) const {
     const double least = element.is_end ? 2 * shape_.layer_height : shape_.connector;
     const double top = element.touch.z - std::max(least, lateral / shape_.lean);
@@ -109,7 +109,7 @@ std::optional<BridgeCandidate> BridgeSweep::best(
                                        [&](const Crossing& c) { return c.element == element; });
         if (self == crossed.end() || crossed.size() < 2) continue;
         const auto middle = static_cast<std::size_t>(self - crossed.begin());
-        // Sums up to each crossing, and the longest connector between it and the anchor.
+        // Prefix sums, and the longest connector between each crossing and the anchor.
         saved.assign(crossed.size() + 1, 0);
         longest.assign(crossed.size(), 0);
         const auto connector = [&](std::size_t i) {

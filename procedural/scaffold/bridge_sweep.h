@@ -1,5 +1,5 @@
-// The sweep for bridges: where a bar would hold several places at once, and what it would be worth (Dumas,
-// Hergel and Lefebvre 2014, algorithms 2 and 3).
+// BridgeSweep: searches for bars that support several elements at once, and scores them (Dumas, Hergel and
+// Lefebvre 2014, algorithms 2 and 3).
 #pragma once
 
 #include <array>
@@ -12,31 +12,34 @@
 
 namespace lamella {
 
-/// Something that must be held from below: a point of the part, or the lower side of a bar's end.
+/// Something that needs support from below: a point of the part, or the underside of a bar's end.
 struct ScaffoldElement {
     dvec3 touch{0};
     double landing = 0;   ///< height at which a leg under it would stand, mm
-    bool is_end = false;  ///< of a bar
-    bool open = true;     ///< nothing holds it yet
+    bool is_end = false;  ///< end of a bar
+    bool open = true;     ///< not supported yet
 };
 
-/// A bar and what it would hold.
+/// A possible bar and the elements that it would support.
 struct BridgeCandidate {
     dvec3 a{0}, b{0};               ///< ends of its upper side
-    std::vector<std::size_t> held;  ///< elements from end to end
-    double gain = 0;   ///< length that it saves, mm: sum of the legs' parts below it, less its own
-                       ///< two legs and itself
+    std::vector<std::size_t> held;  ///< supported elements, from end to end
+    /// material saved, as a length of pillar, mm: the parts of the legs below the bar, less the bar's own two
+    /// legs and the bar
+    double gain = 0;
     double score = 0;  ///< gain less the longest connector for each held element, mm
-    std::array<std::int64_t, 3> key{};  ///< tells apart the candidates of one anchor: first, last, height
+    /// identifies the candidate among those of one anchor: first element, last element, layer
+    std::array<std::int64_t, 3> key{};
 };
 
-/// What lengths are worth. The published gain of a bar is the length of the legs' parts below it that it
-/// saves, less its own two legs and its length; the score takes off the longest connector for each element.
-/// Here bars and connectors count by their sections against a pillar's, so that what is saved is material.
+/// The score of a bar. The published gain is the total length of the elements' legs below the bar, less the
+/// bar's own two legs and its length; the score subtracts the longest connector once for each element. Here
+/// bars and connectors are weighted by their cross-section over a pillar's, so that what is saved is
+/// material.
 class BridgeScore {
   public:
-    /// A bar is charged for the whole of its legs, which bars below often take over: on real models it takes
-    /// least material in all to count the bars themselves for less than they are.
+    /// Weight of bars. A bar is charged for the whole of its legs, which bars below often take over; on real
+    /// models the total material is least if bars count for less than they are.
     static constexpr double share_of_bar = 0.75;
 
     explicit BridgeScore(const ScaffoldShape& shape);
@@ -49,8 +52,8 @@ class BridgeScore {
     double bar_, connector_;
 };
 
-/// Finds the best bar through an element for each direction of a half circle. A strip as wide as connectors
-/// reach runs along the direction, and the elements in it are what a sweep line there would cross.
+/// Finds the best bar through an element, for each direction of a half circle. The elements in a strip along
+/// the direction, as wide as connectors reach, are those that the paper's sweep line would cross.
 class BridgeSweep {
   public:
     static constexpr int directions = 8;
@@ -61,23 +64,24 @@ class BridgeSweep {
     void close(std::size_t element) { elements_[element].open = false; }
     const std::vector<ScaffoldElement>& elements() const { return elements_; }
 
-    /// The bar of best score among those that save length, run under the element, and are not refused.
+    /// Returns the bar of best score through the element, among those with a positive gain whose key is not
+    /// in `refused`.
     std::optional<BridgeCandidate> best(std::size_t element, int direction,
                                         const std::vector<std::array<std::int64_t, 3>>& refused) const;
-    /// Length of the connector from an element to the height `z` at a lateral distance, mm.
+    /// Returns the length of the connector from an element down to the height `z` at a lateral distance, mm.
     static double connector_length(const ScaffoldElement& element, double lateral, double z) {
         const double rise = element.touch.z - z;
         return std::sqrt(lateral * lateral + rise * rise);
     }
-    /// Open elements whose bars may change when something at this place does, ascending.
+    /// Returns the open elements, ascending, whose best bars may change when something at this place changes.
     std::vector<std::size_t> near(dvec3 place) const;
     static dvec2 along(int direction);
 
   private:
     /// An element in a strip.
     struct Crossing {
-        double along, across;  ///< from the strip's own element, mm
-        std::int64_t level;    ///< layers over the bed at which a bar may lie at most
+        double along, across;  ///< from the anchor, the element that the strip is centred on, mm
+        std::int64_t level;    ///< highest level of a bar under it, in layers above the bed
         std::size_t element;
     };
     std::vector<Crossing> strip(std::size_t element, dvec2 u) const;
@@ -92,7 +96,7 @@ class BridgeSweep {
 
     ScaffoldShape shape_;
     BridgeScore worth_;
-    double reach_;  ///< mm within which elements can share a bar
+    double reach_;  ///< distance within which elements can share a bar, mm
     std::vector<ScaffoldElement> elements_;
     std::unordered_map<std::int64_t, std::vector<std::size_t>> grid_;
 };

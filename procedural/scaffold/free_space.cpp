@@ -1,4 +1,4 @@
-// Sphere tracing with a least step.
+// Sphere tracing with a minimum step.
 #include "procedural/scaffold/free_space.h"
 
 #include <array>
@@ -6,13 +6,14 @@
 namespace lamella {
 namespace {
 
-constexpr double min_step = 0.1;  // mm; between two points so far apart the room is at most half less
+// mm; halfway between samples so far apart, the clearance is lower by at most half of this
+constexpr double min_step = 0.1;
 constexpr double far_enough =
-    4;  // mm of room beyond what is needed; to know of more costs more than it saves
+    4;  // mm of clearance beyond what is needed; querying more costs more than it saves
 constexpr double on_surface = 0.02;      // mm
 constexpr double deepest_contact = 0.5;  // mm; half a bead within a steep wall
 
-/// The corners, edges and faces of a cube as directions of length 1.
+/// Returns the directions to the corners, edges and faces of a cube, as unit vectors.
 const std::array<dvec3, 26>& directions_about() {
     static const std::array<dvec3, 26> list = [] {
         std::array<dvec3, 26> made{};
@@ -41,7 +42,7 @@ double FreeSpace::clearance(dvec3 p, double limit) const {
 }
 
 double FreeSpace::probed_room(dvec3 p, double limit) const {
-    constexpr double growth = 1.189207115002721;  // 2^(1/4), from shell to shell
+    constexpr double growth = 1.189207115002721;  // 2^(1/4), ratio of the radii of successive shells
     const bool inside = part_.value(p) <= 0;
     double same = on_surface;
     for (double radius = on_surface; same < limit; radius *= growth) {
@@ -67,7 +68,8 @@ bool FreeSpace::clear(dvec3 a, dvec3 b, double distance) const {
     }
 }
 
-/// The way to the surface from a contact within the part, mm; 0 from one on it.
+/// Returns the distance along `way` from a contact inside the part to the surface, mm; 0 for a contact on the
+/// surface; none if it exceeds deepest_contact.
 std::optional<double> FreeSpace::leaves_part(dvec3 contact, dvec3 way) const {
     double at = 0;
     for (double here = clearance(contact, deepest_contact); here < -2 * on_surface;

@@ -1,4 +1,4 @@
-// Free space: where supports have room beside a part, asked of the part's field itself.
+// FreeSpace: clearance queries around a part, answered by the part's field.
 #pragma once
 
 #include <optional>
@@ -7,30 +7,31 @@
 
 namespace lamella {
 
-/// The clearance about a part, found by stepping from value to value (sphere tracing, Hart 1996). What is
-/// proven holds to 0.05 mm. Of a part whose values tell the distance, exactly or as a bound, nothing is
-/// overlooked; of one with signs alone, points round about are asked, and what lies between them is not seen.
+/// The clearance around a part, found by sphere tracing (Hart 1996). Guarantees hold to within 0.05 mm. If
+/// the part's values are distances or bounds of them, no obstacle is missed. If only their signs are
+/// meaningful, probes on shells around each point are used, and obstacles between the probes are missed.
 class FreeSpace {
   public:
-    /// The part must outlive this. bed: height below which nothing is asked for, mm.
+    /// The part must outlive this object. `bed` is the height below which nothing is queried, mm.
     FreeSpace(const Field& part, double bed);
 
     double bed() const { return bed_; }
-    /// A lower bound of the distance to the part, mm, as far as `limit` (> 0); negative inside.
+    /// Returns a lower bound of the signed distance to the part, mm, at most `limit` (> 0); negative inside.
     double clearance(dvec3 p, double limit) const;
-    /// Whether the line from a to b stays `distance` (mm) away from the part.
+    /// Returns whether the segment from a to b keeps a distance of `distance` (mm) from the part.
     bool clear(dvec3 a, dvec3 b, double distance) const;
-    /// Whether a line that leaves the part at `contact` soon is `distance` away and stays so: near the
-    /// contact it need only have `slope` mm of room for each mm of its way. There are 0.4 beside a surface at
-    /// 24 degrees to it. A contact within the part counts from where the line comes out of it, if that is
-    /// within 0.5 mm.
+    /// Returns whether a segment that starts on the part at `contact` soon reaches a distance of `distance`
+    /// (mm) from the part and keeps it. Near the contact a clearance of `slope` mm for each mm along the
+    /// segment suffices. A segment at 24 degrees to a flat surface has a slope of 0.4. If the contact is
+    /// inside the part, the segment counts from where it leaves the part, which must be within 0.5 mm.
     bool clear_from_contact(dvec3 contact, dvec3 end, double distance, double slope = 0.4) const;
-    /// How far a line from p in a direction (of length 1, downward) goes.
+    /// How far a ray from p in a downward unit direction gets.
     struct Fall {
-        double clear = 0;  ///< mm of it that are `distance` away from the part
+        double clear = 0;  ///< length over which it keeps `distance` from the part, mm
         std::optional<double>
-            hits;            ///< mm to the part's surface, when it ends there; else it reaches the bed
-        bool passes = true;  ///< false where it comes too near to the part and then goes on beside it
+            hits;  ///< length to the part's surface if it ends there, mm; none if it reaches the bed
+        /// false if it comes closer than `distance` to the part and then goes on past it
+        bool passes = true;
     };
     Fall fall(dvec3 p, dvec3 direction, double distance) const;
 

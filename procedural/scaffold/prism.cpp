@@ -1,10 +1,11 @@
-// Distances and cuts of upright pieces.
+// Signed distances and line intersections of prisms.
 #include "procedural/scaffold/prism.h"
 
 namespace lamella {
 namespace {
 
-/// The part of a line (direction (1, 0) from (0, across), or crosswise) with |p . axis| <= half.
+/// Returns the part of a line with |p . axis| <= half. The line is (t, across) for lines along x, (across, t)
+/// for lines along y.
 Interval slab(Axis lines, dvec2 axis, double half, double across) {
     const double along_part = lines == Axis::x ? axis.x : axis.y;
     const double offset = across * (lines == Axis::x ? axis.y : axis.x);
@@ -13,7 +14,7 @@ Interval slab(Axis lines, dvec2 axis, double half, double across) {
     return {std::min(p, q), std::max(p, q)};
 }
 
-/// The cut with the line at `across`, both relative to the piece's centre.
+/// Returns the intersection with the line at `across`; both are relative to the prism's centre.
 Interval cut(const Prism& upright, Axis lines, double across) {
     if (upright.round) {
         const double h = upright.half.x * upright.half.x - across * across;

@@ -1,4 +1,4 @@
-// Prism pieces: rectangles and discs of one height, the pillars, bars and feet of scaffolds.
+// Prism: an upright box or cylinder, for the pillars, bars and feet of scaffolds.
 #pragma once
 
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace lamella {
 
-/// A rectangle, or a disc, from one height to another, mm.
+/// A rectangle or disc extruded from height `lo` to `hi`, mm.
 struct Prism {
     dvec2 center{0};
-    dvec2 direction{1, 0};  ///< of the rectangle's first side, of length 1
-    dvec2 half{0};          ///< half its sides; of a disc the radius, twice
+    dvec2 direction{1, 0};  ///< unit vector along the rectangle's first side
+    dvec2 half{0};          ///< half the side lengths; for a disc the radius, twice
     double lo = 0;
     double hi = 0;
     bool round = false;
 };
 
-/// Signed distance to the piece's surface, mm; exact.
+/// Returns the exact signed distance to the prism's surface, mm.
 double signed_distance(const Prism& upright, dvec3 p);
 Box bounds(const Prism& upright);
 
-/// The sections of upright pieces in one plane, and their runs.
+/// The sections of prisms in one plane, and their runs.
 class UprightRows {
   public:
-    /// All of these meet the plane.
+    /// All prisms must meet the plane.
     explicit UprightRows(const std::vector<Prism>& uprights);
 
-    /// Adds the runs of all that meet the band.
+    /// Adds the runs of all prisms that meet the band.
     void collect(const RowBand& band, RunCollector& runs) const;
     Rect bounds() const { return sections_.bounds(); }
 

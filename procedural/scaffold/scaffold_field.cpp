@@ -1,5 +1,5 @@
-// A tree of pieces for values, an index over the height for slices, and two kernels: beams and upright
-// pieces.
+// A bounding-volume tree for values, an interval index over heights for slices, and two kinds of pieces:
+// beams and prisms.
 #include "procedural/scaffold/scaffold_field.h"
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace lamella {
 namespace {
 
-/// Pieces by number: uprights first, then beams.
+/// Pieces by index: prisms first, then beams.
 class Pieces {
   public:
     Pieces(std::vector<Prism> uprights, std::vector<Beam> beams)
@@ -43,7 +43,7 @@ class Pieces {
         double best = limit;
         visit_nearest_first(
             nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
-            // Within a box of several pieces the deepest counts.
+            // Inside overlapping boxes the smallest distance counts, so do not prune them.
             [&](double near) { return near < best || near == 0; },
             [&](const Node& node) {
                 for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {

@@ -1,5 +1,5 @@
-// A queue of the best bar of every element and direction. A bar is checked against the part when its turn
-// comes; once it is made, only what lies near it is looked at again.
+// A priority queue of the best bar of every element and direction. A bar is checked against the part when it
+// is taken from the queue. Once a bar is made, only the elements near it are updated.
 #include "procedural/scaffold/scaffold_synthesis.h"
 
 #include <oneapi/tbb/info.h>
@@ -20,13 +20,13 @@
 namespace lamella {
 namespace {
 
-/// A bar that has room, with the legs of its ends.
+/// A bar with enough clearance, and the legs under its ends.
 struct CheckedBar {
     BridgeCandidate bar;
     Leg first, last;
 };
 
-/// An element with a direction: what the best bar is sought for.
+/// State of the search for the best bar through one element in one direction.
 struct Anchor {
     std::optional<BridgeCandidate> best;
     std::optional<CheckedBar> checked;
@@ -43,7 +43,7 @@ struct Entry {
     }
 };
 
-/// Where on a bar's upper side the connector to something above it stands.
+/// Returns the point on a bar's upper side where the connector to something above it stands.
 dvec3 nearest_on(const ScaffoldBar& bar, dvec3 above) {
     const dvec2 way = dvec2(bar.b) - dvec2(bar.a);
     const double share = glm::dot(dvec2(above) - dvec2(bar.a), way) / glm::dot(way, way);
@@ -102,7 +102,7 @@ class Synthesis {
     }
 
   private:
-    static constexpr std::size_t max_refused = 12;  // bars of an anchor; where so many fail, the rest will
+    static constexpr std::size_t max_refused = 12;  // bars per anchor; if so many fail, the rest will, too
     static constexpr auto directions = static_cast<std::size_t>(BridgeSweep::directions);
 
     bool cancelled() const { return options_.cancel && options_.cancel->cancelled(); }
@@ -140,9 +140,10 @@ class Synthesis {
     oneapi::tbb::task_arena arena_;
     Scaffold scaffold_;
     std::vector<std::optional<Leg>> leg_of_;  ///< by element
-    std::vector<Anchor> anchors_;             ///< by element, then direction
+    std::vector<Anchor> anchors_;             ///< index: element * directions + direction
     std::priority_queue<Entry> queue_;
-    std::map<std::array<double, 3>, std::optional<Leg>> legs_of_ends_;  ///< by place; bars are offered again
+    /// by position; ends are often tried again
+    std::map<std::array<double, 3>, std::optional<Leg>> legs_of_ends_;
 };
 
 void Synthesis::find_legs() {
@@ -155,7 +156,7 @@ void Synthesis::find_legs() {
     }
 }
 
-/// Finds the best bar of an anchor anew.
+/// Recomputes the best bar of an anchor.
 void Synthesis::look_again_at(std::size_t number) {
     Anchor& anchor = anchors_[number];
     anchor.best = sweep_.best(number / directions, static_cast<int>(number % directions), anchor.refused);
@@ -164,7 +165,7 @@ void Synthesis::look_again_at(std::size_t number) {
     if (anchor.best) queue_.push({anchor.best->score, number, anchor.version});
 }
 
-/// The same for all directions of some elements.
+/// Recomputes the best bars of some elements in all directions.
 void Synthesis::look_again(const std::vector<std::size_t>& elements) {
     anchors_.resize(sweep_.elements().size() * directions);
     in_parallel(elements.size() * directions, [&](std::size_t k) {
@@ -199,8 +200,9 @@ const std::optional<Leg>& Synthesis::leg_under(dvec3 end) {
     return found->second;
 }
 
-/// Whether the bar has room, its ends stand, and what it holds can be reached. Elements between the ends that
-/// cannot are left to others; gain and score become those of what is held by the legs there really are.
+/// Returns the bar if it has enough clearance, its ends have legs, and its connectors are free. Drops
+/// elements between the ends that its connectors cannot reach. Recomputes gain and score from the remaining
+/// elements and the actual legs.
 std::optional<CheckedBar> Synthesis::check(const BridgeCandidate& candidate) {
     const ScaffoldShape& shape = scaffold_.shape;
     CheckedBar checked{candidate, {}, {}};
@@ -255,7 +257,7 @@ void Synthesis::make_bars() {
                 if (anchor.refused.size() < max_refused) look_again_at(entry.anchor);
                 continue;
             }
-            // A bar worth less than it seemed has to wait for its turn.
+            // A bar that is worth less than estimated goes back into the queue.
             if (anchor.checked->bar.score < entry.score) {
                 queue_.push({anchor.checked->bar.score, entry.anchor, anchor.version});
                 continue;
@@ -294,7 +296,8 @@ void Synthesis::append_near(dvec3 place, std::vector<std::size_t>& elements) con
     elements.insert(elements.end(), found.begin(), found.end());
 }
 
-/// A connector from an open element down to the bar or pillar that takes least; none where its own leg does.
+/// Returns the shortest connector from an open element down to a bar or pillar; none if the element's own leg
+/// is shorter.
 std::optional<Beam> Synthesis::lean_on(std::size_t element) const {
     const ScaffoldShape& shape = scaffold_.shape;
     const ScaffoldElement& open = sweep_.elements()[element];
@@ -325,7 +328,8 @@ std::optional<Beam> Synthesis::lean_on(std::size_t element) const {
     return best;
 }
 
-/// Everything still open, the highest first, leans on what is there already or stands on a leg of its own.
+/// Supports each element that is still open, highest first, by a connector to an existing bar or pillar or by
+/// a leg of its own.
 void Synthesis::stand() {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < sweep_.elements().size(); ++i) {

@@ -1,4 +1,4 @@
-// Synthesis of a scaffold: bars by greatest score, then a leg under everything that no bar holds (Dumas,
+// Synthesis of a scaffold: bars in order of score, then a leg under each element that no bar supports (Dumas,
 // Hergel and Lefebvre 2014, algorithm 2).
 #pragma once
 
@@ -11,17 +11,20 @@
 namespace lamella {
 
 struct SynthesisOptions {
-    int threads = 0;                                 ///< 0: one per core
-    std::function<void(std::size_t)> on_progress{};  ///< bars made so far; may be empty
-    const CancelToken* cancel = nullptr;             ///< may be null
+    int threads = 0;  ///< 0: one per core
+    /// called with the number of bars made so far; may be empty
+    std::function<void(std::size_t)> on_progress{};
+    const CancelToken* cancel = nullptr;  ///< may be null
 };
 
-/// Returns the shape with the heights of bars and feet in whole layers, as `build_scaffold` uses it.
+/// Returns the shape with the heights of bars and feet rounded up to whole layers, as `build_scaffold` uses
+/// it.
 ScaffoldShape in_whole_layers(ScaffoldShape shape);
 
-/// Holds the points. The part is asked for the way (see FreeSpace); what is nearer to it than the clearance
-/// are contacts only. A pure function of points, part and shape, the same by any number of threads. Throws
-/// InputError for a shape or points that make no sense, Interrupted when cancelled.
+/// Synthesises a scaffold that supports the points. Clearances are queried from the part itself (see
+/// FreeSpace); only contacts come closer to it than `clearance`. A pure function of points, part and shape,
+/// the same with any number of threads. Throws InputError for invalid shapes or points, Interrupted when
+/// cancelled.
 Scaffold build_scaffold(std::span<const SupportPoint> points, const Field& part, const ScaffoldShape& shape,
                         const SynthesisOptions& options = {});
 

@@ -1,4 +1,4 @@
-// Ways down are tried ring by ring round the place, nearest first.
+// Tries routes in rings around a place, nearest first.
 #include "procedural/scaffold/support_router.h"
 
 #include <array>
@@ -9,17 +9,17 @@
 namespace lamella {
 namespace {
 
-/// Where detours are tried: so far away, in so many directions.
+/// Detours to try: their distance, and the number of directions.
 struct Ring {
     double share_of_reach;
     int ways;
 };
-/// A point has to be held. A bar may be made elsewhere; fewer of its detours are worth the time.
+/// A point must be supported. A bar may be placed elsewhere, so fewer of its detours are worth the time.
 constexpr std::array<Ring, 5> rings_about_points{{{0, 1}, {0.25, 8}, {0.5, 8}, {1, 16}, {2, 16}}};
 constexpr std::array<Ring, 3> rings_about_bars{{{0, 1}, {0.75, 8}, {1.5, 8}}};
 constexpr std::array<Ring, 4> leans_of_struts{
-    {{0, 1}, {0.35, 8}, {0.7, 8}, {1, 16}}};  // of the steepest allowed
-/// For points that these do not help.
+    {{0, 1}, {0.35, 8}, {0.7, 8}, {1, 16}}};  // as shares of the maximum lean
+/// For points that the rings above do not help.
 constexpr std::array<Ring, 10> many_leans{{{0, 1},
                                            {0.1, 8},
                                            {0.2, 16},
@@ -30,7 +30,7 @@ constexpr std::array<Ring, 10> many_leans{{{0, 1},
                                            {0.7, 32},
                                            {0.85, 32},
                                            {1, 32}}};
-constexpr double contact_slope = 0.4;  // of struts between what they touch, mm of room for each mm of way
+constexpr double contact_slope = 0.4;  // minimum clearance of struts near their ends, per mm of length
 constexpr dvec3 down{0, 0, -1};
 
 dvec2 direction(int k, int ways) {
@@ -47,7 +47,8 @@ dvec3 SupportRouter::tip_center(dvec3 point) const {
     return point - dvec3(0, 0, lower);
 }
 
-/// The foot shrinks where the part is near, and under what is low and cannot tip far.
+/// Returns the radius of a pillar's foot. The foot is smaller near the part, and under low pillars, which are
+/// not likely to tip over.
 double SupportRouter::foot_radius_on_bed(dvec2 at, double height) const {
     constexpr double slope = 0.25;  // of the line from the foot's border to the top
     const double wanted = std::min(shape_.foot / 2, shape_.pillar / 2 + slope * height);
@@ -55,21 +56,21 @@ double SupportRouter::foot_radius_on_bed(dvec2 at, double height) const {
     return space_.clearance(middle, wanted + shape_.clearance) - shape_.clearance;
 }
 
-/// Whether the part's surface at a place is a floor to stand on rather than a wall.
+/// Returns whether the part's surface at a place is level enough to stand on.
 bool SupportRouter::level_enough(dvec3 place) const {
     const double below = connector_radius();
     return space_.clearance(place - dvec3(0, 0, below), below) < -0.5 * below;
 }
 
-/// The nearest height between layers that is not above z.
+/// Returns the highest layer boundary that is not above z.
 double SupportRouter::layer_below(double z) const {
     constexpr double share_of_layer = 1e-6;
     const double layers = std::floor((z - shape_.bed) / shape_.layer_height + share_of_layer);
     return shape_.bed + layers * shape_.layer_height;
 }
 
-/// The radius at the foot of a leaning piece that is so thick at its upper end: a thin one, unless its lower
-/// side would then lean more than layers can follow.
+/// Returns the radius at the lower end of a leaning piece with radius `upper` at its upper end. Tapers to a
+/// thin end as far as its underside does not exceed the maximum lean.
 double SupportRouter::foot_radius(double upper, double length, dvec3 way) const {
     const double cosine = -way.z, sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     const double max_cosine = 1 / std::sqrt(1 + shape_.lean * shape_.lean);
@@ -78,7 +79,7 @@ double SupportRouter::foot_radius(double upper, double length, dvec3 way) const 
     return std::min(upper, std::max(shape_.tip / 2, thinnest));
 }
 
-/// A pillar straight down from a place that is clear of the part.
+/// Returns a pillar straight down from a place that is clear of the part.
 std::optional<Leg> SupportRouter::upright(dvec3 top) const {
     const double half = shape_.pillar / 2, needed = shape_.clearance + half;
     if (top.z <= shape_.bed) return std::nullopt;
@@ -95,8 +96,8 @@ std::optional<Leg> SupportRouter::upright(dvec3 top) const {
     }
     const double surface = top.z - *fall.hits;
     if (!level_enough({at, surface})) return std::nullopt;
-    // The cone on which the pillar stands widens no faster than layers can follow, and stands on what is
-    // level enough.
+    // The pillar stands on a cone. The cone widens no faster than the maximum lean, and needs a level
+    // surface.
     const double sine = shape_.lean / std::sqrt(1 + shape_.lean * shape_.lean);
     const double widening = std::max(shape_.connector, (half - shape_.tip / 2) / sine);
     const double bottom = layer_below(std::max(top.z - fall.clear, surface + widening)) + shape_.layer_height;
@@ -111,7 +112,7 @@ std::optional<Leg> SupportRouter::upright(dvec3 top) const {
     return leg;
 }
 
-/// A leaning piece and a pillar under it; straight down first.
+/// Returns the best leg of a leaning piece with a pillar under it. Tries straight down first.
 std::optional<Leg> SupportRouter::best_detour(dvec3 top, double min_rise, double top_radius,
                                               bool contact) const {
     const std::span<const Ring> rings =
@@ -144,7 +145,8 @@ std::optional<Leg> SupportRouter::best_detour(dvec3 top, double min_rise, double
     return best;
 }
 
-/// The way from a contact to where there is surely room; nothing where that does not come soon.
+/// Returns the distance from a contact at which there is certainly clearance; none if there is no such
+/// distance nearby.
 std::optional<double> SupportRouter::leaves_part(dvec3 contact, dvec3 way, double longest) const {
     for (const double left : {0.2, 0.5, 1.0}) {
         const double at = std::min(left, longest / 2);
@@ -153,7 +155,7 @@ std::optional<double> SupportRouter::leaves_part(dvec3 contact, dvec3 way, doubl
     return std::nullopt;
 }
 
-/// A thin piece from a place in a direction (of length 1, downward) to whatever comes first.
+/// Returns a thin strut from a place, in a downward unit direction, to the first thing it meets.
 std::optional<Leg> SupportRouter::strut_along(dvec3 top, dvec3 way, bool contact) const {
     const double radius = connector_radius(), away = shape_.clearance + radius;
     const double to_bed = (top.z - shape_.bed) / -way.z;
@@ -172,7 +174,7 @@ std::optional<Leg> SupportRouter::strut_along(dvec3 top, dvec3 way, bool contact
     if (!clear) return std::nullopt;
     Leg leg;
     const double top_radius = contact ? shape_.tip / 2 : radius;
-    const bool long_enough = length > 2 * shape_.connector;  // to be thicker midway
+    const bool long_enough = length > 2 * shape_.connector;  // long enough to be thicker halfway
     double end_radius = radius;
     if (fall.hits) {
         end_radius =
@@ -194,7 +196,8 @@ std::optional<Leg> SupportRouter::strut_along(dvec3 top, dvec3 way, bool contact
     return leg;
 }
 
-/// The shortest thin piece, straight or leaning, no longer than told; one that reaches the bed if any does.
+/// Returns the shortest thin strut, straight or leaning, no longer than `longest`; prefers one that reaches
+/// the bed.
 std::optional<Leg> SupportRouter::strut(dvec3 top, double longest, bool contact) const {
     std::optional<Leg> best;
     const std::span<const Ring> rings =
@@ -214,7 +217,7 @@ std::optional<Leg> SupportRouter::strut(dvec3 top, double longest, bool contact)
     return best;
 }
 
-/// Straight down to the bed from a layer or two above it, where nothing can be in between.
+/// Returns a post straight down to the bed from one or two layers above it, where nothing can be in between.
 Leg SupportRouter::post(dvec3 top) const {
     Leg leg;
     const dvec3 end(top.x, top.y, shape_.bed);
@@ -229,7 +232,7 @@ std::optional<Leg> SupportRouter::under_point(dvec3 point) const {
     if (top.z - shape_.bed < 2.5 * shape_.layer_height) return post(top);
     std::optional<Leg> leg = best_detour(top, shape_.connector, shape_.tip / 2, true);
     if (leg && leg->on_bed) return leg;
-    // Where short, thin struts leave smaller marks on the part than pillars.
+    // Short thin struts leave smaller marks on the part than pillars.
     std::optional<Leg> thin = strut(top, 2 * shape_.longest_connector, true);
     if (thin && (!leg || thin->length < shape_.longest_connector)) return thin;
     return leg ? leg : strut(top, infinity, true);

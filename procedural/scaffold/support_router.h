@@ -1,4 +1,4 @@
-// Legs: what leads from a place that must be held down to the bed or, where that cannot be reached, to the
+// SupportRouter: routes legs from what needs support down to the bed or, if that cannot be reached, to the
 // part.
 #pragma once
 
@@ -10,29 +10,29 @@
 
 namespace lamella {
 
-/// A way down for the load of one place.
+/// The pieces that carry the load of one place.
 struct Leg {
     std::vector<Beam> connectors;          ///< leaning and tapered pieces
-    std::optional<ScaffoldPillar> pillar;  ///< the upright piece; none where all is short
-    double landing = 0;                    ///< height at which it stands, mm
+    std::optional<ScaffoldPillar> pillar;  ///< the vertical piece; none for short legs
+    double landing = 0;                    ///< height at which the leg stands, mm
     bool on_bed = true;
-    double length = 0;  ///< of all pieces, mm
+    double length = 0;  ///< total length of the pieces, mm
 };
 
-/// Finds legs: straight down if that leads to the bed, else by a detour to it, else on the part below; where
-/// a pillar has no room, by a thin strut.
+/// Finds legs: straight down to the bed if possible, else by a detour to the bed, else onto the part below;
+/// where there is no room for a pillar, by a thin strut.
 class SupportRouter {
   public:
     SupportRouter(const FreeSpace& space, const ScaffoldShape& shape) : space_(space), shape_(shape) {}
 
-    /// For a point of the part; nothing when every way touches the part.
+    /// Returns a leg for a point of the part; none if every route touches the part.
     std::optional<Leg> under_point(dvec3 point) const;
-    /// For a place clear of the part, such as the lower side of a bar's end.
+    /// Returns a leg for a place clear of the part, such as the underside of a bar's end.
     std::optional<Leg> under_bar(dvec3 place) const;
 
-    /// Radius of connectors where they are thickest, mm.
+    /// The radius of connectors where they are thickest, mm.
     double connector_radius() const { return shape_.bar_width / 2; }
-    /// Where the tip of a connector to a point of the part is centred.
+    /// Returns the centre of the tip of a connector to a point of the part.
     dvec3 tip_center(dvec3 point) const;
 
   private:

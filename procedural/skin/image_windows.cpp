@@ -1,4 +1,4 @@
-// The picture's distance in the plane of the chart, and the strut along the seams.
+// The picture's distance in the plane of the chart, combined with the strut along the seams.
 #include "procedural/skin/image_windows.h"
 
 #include <algorithm>
@@ -9,9 +9,9 @@ namespace {
 
 constexpr double cubes_in_a_strut = 4;
 
-/// The place on the picture, mm: to the right and upward for who looks at the chart from outside.
+/// Returns the point on the picture, mm, rightward and upward as seen from outside the body.
 dvec2 on_picture(Chart chart, const Box& bounds, dvec3 p) {
-    // x goes to the right seen from -y and from above, y seen from +x.
+    // Seen from -y or from above, x points to the right; seen from +x, y does.
     const int right = chart.axis == 0 ? 1 : 0, up = chart.axis == 2 ? 1 : 2;
     const bool mirrored = chart.axis == 1 ? chart.positive : !chart.positive;
     return {mirrored ? bounds.hi[right] - p[right] : p[right] - bounds.lo[right], p[up] - bounds.lo[up]};
@@ -33,7 +33,7 @@ double ImageWindows::value_near(dvec3 p, std::uint32_t& /*hint*/) const {
     const double limit = std::abs(image) + half_strut_;
     const double seam = charts_.seam_distance(p, limit) - half_strut_;
     if (seam > 0 && image > 0) return std::min(seam, image);
-    // The way to another chart's windows leads across the whole strut on the seam.
+    // The path to another chart's windows crosses the whole strut along the seam.
     return -std::max(-seam, std::min(-image, seam + 2 * half_strut_));
 }
 

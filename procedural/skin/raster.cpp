@@ -1,4 +1,4 @@
-// Distances by lower envelopes of parabolas, components by flooding with the way counted.
+// Distance transform by lower envelopes of parabolas; components by flood fill with unwrapped coordinates.
 #include "procedural/skin/raster.h"
 
 #include <algorithm>
@@ -11,12 +11,13 @@ namespace {
 constexpr std::array<std::array<int, 2>, 8> neighbors{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// The lower envelope of parabolas (x - i)^2 + heights[i] over all i, taken at `count` places from `first`.
+/// Evaluates the lower envelope of the parabolas (x - i)^2 + heights[i], over all i, at `count` integers from
+/// `first`.
 void lower_envelope(const std::vector<std::int64_t>& heights, int first, int count,
                     std::vector<std::int64_t>& out) {
     const int n = static_cast<int>(heights.size());
     std::vector<int> apex;
-    std::vector<double> from;  // where each parabola begins to be the lowest
+    std::vector<double> from;  // where each parabola starts to be the lowest
     const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
     for (int i = 0; i < n; ++i) {
         if (height(i) >= no_pixel) continue;
@@ -52,7 +53,7 @@ std::size_t TiledMask::count() const {
 std::vector<std::int64_t> squared_distances(const TiledMask& mask) {
     const int w = mask.width, h = mask.height;
     std::vector<std::int64_t> squares(mask.marked.size(), no_pixel), line, found;
-    // Three copies of a line give its middle one the neighbours across both borders.
+    // Three copies of a line give the middle one its neighbours across both borders.
     for (int x = 0; x < w; ++x) {
         line.clear();
         for (int k = 0; k < 3 * h; ++k) line.push_back(mask.marked[mask.index(x, k % h)] ? 0 : no_pixel);

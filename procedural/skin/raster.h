@@ -1,4 +1,4 @@
-// Rasters of marked pixels that repeat over the plane: distances and components.
+// TiledMask: a bit mask that tiles the plane, with its distance transform and connected components.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,15 @@
 
 namespace lamella {
 
-/// Pixels of a tile that repeats in both directions, row by row.
+/// The pixels, row by row, of a mask that repeats in both directions.
 struct TiledMask {
     int width = 0, height = 0;
     std::vector<std::uint8_t> marked;  ///< 1 or 0
 
     TiledMask(int w, int h)
         : width(w), height(h), marked(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0) {}
-    /// The index of a pixel; coordinates wrap round once.
+    /// Returns the index of a pixel. Coordinates may exceed the tile by up to one width or height; they wrap
+    /// around.
     std::size_t index(int x, int y) const {
         x = x < 0 ? x + width : x >= width ? x - width : x;
         y = y < 0 ? y + height : y >= height ? y - height : y;
@@ -22,17 +23,18 @@ struct TiledMask {
     std::size_t count() const;
 };
 
-/// What no pixel is as far away as: the squared distance where nothing is marked.
+/// Larger than any squared distance between pixels; the result where nothing is marked.
 inline constexpr std::int64_t no_pixel = std::int64_t{1} << 40;
 
-/// The square of each pixel's distance to the nearest marked one, px^2, exact (Felzenszwalb and Huttenlocher
-/// 2012, Distance transforms of sampled functions), over all copies of the tile within one width and height.
+/// Returns the squared distance of each pixel to the nearest marked one, px^2, exact (Felzenszwalb and
+/// Huttenlocher 2012, Distance transforms of sampled functions). Copies of the tile within one width and
+/// height are included.
 std::vector<std::int64_t> squared_distances(const TiledMask& mask);
 
-/// Marked pixels that hang together over sides or corners, also across the tile's border.
+/// An 8-connected component of marked pixels, also across the tile's border.
 struct TiledComponent {
     std::vector<std::uint32_t> pixels;  ///< indices
-    bool goes_on = false;               ///< leads from a pixel to a copy of the same pixel
+    bool goes_on = false;               ///< connects a pixel to a copy of itself in another tile
 };
 std::vector<TiledComponent> components_of(const TiledMask& mask);
 

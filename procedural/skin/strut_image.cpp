@@ -1,4 +1,4 @@
-// Thresholding, widening what is too thin, leaving out what floats, and the signed distance to the rest.
+// Thresholds the picture, widens thin struts, drops loose components, and computes the signed distance.
 #include "procedural/skin/strut_image.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pixels_in_a_strut = 8;
 constexpr std::int64_t max_pixels = std::int64_t{1} << 24;
-constexpr double largest_picture = 8192;  // px along a side
+constexpr double largest_picture = 8192;  // px per side
 
 void check(const Volume& picture, const StrutImageSettings& s) {
     if (!(s.size > 0 && s.strut > 0 && std::isfinite(s.size) && std::isfinite(s.strut))) {
@@ -33,7 +33,7 @@ void check(const Volume& picture, const StrutImageSettings& s) {
     }
 }
 
-/// The pixel's grey, 0 to 1; rows from below.
+/// Returns the grey levels of the pixels, 0 to 1; lowest row first.
 std::vector<double> grey_of(const Volume& picture) {
     return std::visit(
         [&](const auto& samples) {
@@ -46,7 +46,8 @@ std::vector<double> grey_of(const Volume& picture) {
         picture.samples);
 }
 
-/// How many finer pixels a pixel is divided into along each axis: odd, so that their middles meet.
+/// Returns the refinement factor of pixels along each axis. It is odd, so that a coarse and a fine pixel
+/// centre coincide.
 int division(int width, int height, const StrutImageSettings& settings) {
     int times = 1;
     const double wanted = settings.size / width * pixels_in_a_strut / settings.strut;
@@ -55,7 +56,7 @@ int division(int width, int height, const StrutImageSettings& settings) {
     return times;
 }
 
-/// The picture between its pixels, tiled, on a raster `times` as fine.
+/// Returns the thresholded bilinear interpolation of the tiled picture, on a raster `times` as fine.
 TiledMask thresholded(const std::vector<double>& grey, int width, int height, int times,
                       const StrutImageSettings& settings) {
     TiledMask solid(width * times, height * times);
@@ -63,7 +64,7 @@ TiledMask thresholded(const std::vector<double>& grey, int width, int height, in
     const int half = times / 2;
     for (int y = 0; y < solid.height; ++y) {
         for (int x = 0; x < solid.width; ++x) {
-            const int u = x - half, v = y - half;  // from the middle of the first pixel
+            const int u = x - half, v = y - half;  // from the centre of the first pixel
             const int i = u < 0 ? -1 : u / times, j = v < 0 ? -1 : v / times;
             const double s = static_cast<double>(u - i * times) / times;
             const double t = static_cast<double>(v - j * times) / times;
@@ -76,7 +77,7 @@ TiledMask thresholded(const std::vector<double>& grey, int width, int height, in
     return solid;
 }
 
-/// The pixels whose number compares so.
+/// Returns the mask of the pixels for which keep(index) holds.
 template <typename Keep>
 TiledMask where(const TiledMask& like, const Keep& keep) {
     TiledMask mask(like.width, like.height);
@@ -84,13 +85,13 @@ TiledMask where(const TiledMask& like, const Keep& keep) {
     return mask;
 }
 
-/// All pixels at most `radius` px from a marked one.
+/// Dilates the mask by a disc of `radius` px.
 TiledMask dilated(const TiledMask& mask, double radius) {
     const auto squares = squared_distances(mask);
     return where(mask, [&](std::size_t i) { return static_cast<double>(squares[i]) <= radius * radius; });
 }
 
-/// Calls visit(index) for the eight pixels about one.
+/// Calls visit(index) for the eight neighbours of a pixel.
 template <typename Visit>
 void around(const TiledMask& mask, std::uint32_t pixel, const Visit& visit) {
     const int x = static_cast<int>(pixel) % mask.width, y = static_cast<int>(pixel) / mask.width;
@@ -101,7 +102,7 @@ void around(const TiledMask& mask, std::uint32_t pixel, const Visit& visit) {
     }
 }
 
-/// Whether a thin part touches the wide part in two places or more.
+/// Returns whether a thin component touches the wide part in at least two separate places.
 bool joins(const TiledComponent& thin, const TiledMask& wide) {
     TiledMask contact(wide.width, wide.height);
     std::vector<std::uint32_t> pixels;
@@ -129,8 +130,8 @@ bool joins(const TiledComponent& thin, const TiledMask& wide) {
     return reached < pixels.size();
 }
 
-/// Marks the pixels of a part that lie on its middle line: no nearer to its border than both
-/// neighbours along some direction, and farther than one.
+/// Marks the medial line of a component: pixels whose depth is no less than that of both neighbours along
+/// some direction, and greater than that of at least one of them.
 void mark_middle_line(const TiledComponent& part, const TiledMask& solid,
                       const std::vector<std::int64_t>& depth, TiledMask& line) {
     constexpr std::array<std::array<int, 2>, 4> ways{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
@@ -145,7 +146,7 @@ void mark_middle_line(const TiledComponent& part, const TiledMask& solid,
     }
 }
 
-/// The solid with every strut at least two radii wide, and corners rounded by the radius (px).
+/// Widens struts to at least twice `radius` and rounds corners by `radius` (px).
 TiledMask widened(const TiledMask& solid, double radius) {
     const auto depth = squared_distances(where(solid, [&](std::size_t i) { return !solid.marked[i]; }));
     const TiledMask deep =
@@ -164,14 +165,14 @@ TiledMask widened(const TiledMask& solid, double radius) {
     return where(solid, [&](std::size_t i) { return wide.marked[i] || struts.marked[i]; });
 }
 
-/// The pixels that discs of the radius within the marked ones cover.
+/// Opens the mask with a disc of `radius` px.
 TiledMask opened(const TiledMask& mask, double radius) {
     const auto depth = squared_distances(where(mask, [&](std::size_t i) { return !mask.marked[i]; }));
     return dilated(
         where(mask, [&](std::size_t i) { return static_cast<double>(depth[i]) > radius * radius; }), radius);
 }
 
-/// Notches of windows narrower than two radii are filled.
+/// Closes the mask with a disc of `radius` px: fills notches of windows narrower than twice the radius.
 TiledMask closed(const TiledMask& mask, double radius) {
     const auto unmarked = [](const TiledMask& of) {
         return where(of, [&](std::size_t i) { return !of.marked[i]; });
@@ -188,7 +189,7 @@ StrutImage::StrutImage(const Volume& picture, const StrutImageSettings& settings
     width_ = width * times;
     height_ = height * times;
     pixel_ = settings.size / width_;
-    // Discs of pixels are up to half a pixel narrower than discs.
+    // Discs of pixels are up to half a pixel narrower than true discs.
     const double radius = 0.5 * settings.strut / pixel_ + 0.5;
     TiledMask solid = widened(thresholded(grey_of(picture), width, height, times, settings), radius);
     solid = opened(closed(solid, 0.5 * radius), radius);
@@ -233,7 +234,7 @@ double StrutImage::value(double u, double v) const {
     };
     const double s = x - i, t = y - j;
     const double low = at(i, j) * (1 - s) + at(right, j) * s, high = at(i, up) * (1 - s) + at(right, up) * s;
-    // Interpolation along both axes may be steeper than the distance by sqrt(2).
+    // Bilinear interpolation may be steeper than the distance by sqrt(2).
     constexpr double evened = 0.7071067811865475;
     return (low * (1 - t) + high * t) * (pixel_ * evened);
 }

@@ -1,4 +1,4 @@
-// Cubes by level and index, and the faces between cubes of different charts.
+// Leaf cubes by level and index, and the faces between cubes of different charts.
 #include "procedural/skin/surface_charts.h"
 
 #include <fmt/format.h>
@@ -9,11 +9,11 @@
 namespace lamella {
 namespace {
 
-constexpr int levels = 5;  // of cubes: the largest_chart are 16 times as wide as the finest
+constexpr int levels = 5;  // of cubes: the largest are 16 times as wide as the finest
 constexpr int largest_chart = 1 << (levels - 1);
 constexpr double max_cubes = 1e5;  // along the body's diagonal
 constexpr std::size_t max_leaves = 20'000'000;
-constexpr double slope_step = 1e-3;  // of the finest cube
+constexpr double slope_step = 1e-3;  // share of the finest cube
 
 int level_of(double side, double finest) {
     int level = 0;
@@ -38,7 +38,7 @@ std::optional<Chart> chart_of(const Field& body, dvec3 p, double step) {
     return chart;
 }
 
-/// Whether corners and middle have one chart.
+/// Returns whether the corners and the centre have one chart.
 bool uniform(const Field& body, const Box& box, double step) {
     const auto middle = chart_of(body, box.center(), step);
     for (int corner = 0; corner < 8; ++corner) {
@@ -94,7 +94,8 @@ std::optional<Chart> SurfaceCharts::at(dvec3 p) const {
     return std::nullopt;
 }
 
-/// The faces of a cube beyond which the chart is another, in squares of the finest cube's side.
+/// Appends the centres of those faces of a cube that border another chart, in squares of the finest cube's
+/// side.
 void SurfaceCharts::collect_seams(const LatticeCube& cube, Chart chart, std::vector<dvec3>& seams) const {
     const Box box = cube.box();
     const int count = largest_chart >> level_of(cube.side, finest_);

@@ -1,4 +1,4 @@
-// SurfaceCharts: along which axis a body's surface is seen best, and how far the seams between are.
+// SurfaceCharts: divides a surface by the axis that it faces most, and measures distances to the seams.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,28 @@
 
 namespace lamella {
 
-/// The two coordinate directions, six in all, that a surface may be projected along.
+/// One of the six directions along which a surface may be projected.
 struct Chart {
     int axis = 0;          ///< 0 to 2
-    bool positive = true;  ///< the side the outward normal points to
+    bool positive = true;  ///< sign of the outward normal along the axis
     friend bool operator==(const Chart&, const Chart&) = default;
 };
 
-/// Divides the space about a body's surface into charts: cubes where one axis is the nearest to the
-/// direction in which the body's value rises. Cubes are halved, down to a stated size, where that axis
-/// changes between their corners and middle. Of axes equally near, within 1 %, z comes before y before x, so
-/// that a plane at 45 degrees has one chart. Immutable.
+/// Divides the space around a body's surface into charts: cubes in which one axis is nearest to the gradient
+/// of the body's value. Cubes are halved, down to a given size, where that axis differs between their corners
+/// and centre. If axes are equally near, within 1 %, z takes precedence over y over x, so that a plane at 45
+/// degrees has one chart. Immutable.
 class SurfaceCharts {
   public:
-    /// Cubes of `finest` mm at seams; wanted within `depth` mm of the surface. Throws InputError for a body
-    /// without an extent or an end, or far too large for cubes of this size.
+    /// `finest` is the size of cubes at seams, mm; `depth` the distance from the surface within which charts
+    /// are wanted, mm. Throws InputError for an empty or unbounded body, and for one far too large for cubes
+    /// of this size.
     SurfaceCharts(const Field& body, double finest, double depth);
 
-    /// The chart at p; null away from the surface.
+    /// Returns the chart at p; none away from the surface.
     std::optional<Chart> at(dvec3 p) const;
-    /// At most the distance to the nearest place where charts meet, mm, and less than that by 0.71 of the
-    /// finest cube at most; at most `limit`. Changes by at most 1 per mm.
+    /// Returns a lower bound of the distance to the nearest seam between charts, mm, at most `limit`. It is
+    /// too low by at most 0.71 of the finest cube. 1-Lipschitz.
     double seam_distance(dvec3 p, double limit) const;
 
   private:
@@ -50,7 +51,7 @@ class SurfaceCharts {
 
     double finest_;  ///< mm
     std::unordered_map<Key, Chart, Hash> leaves_;
-    std::unique_ptr<const PointTree> seams_;  ///< middles of the finest faces between charts
+    std::unique_ptr<const PointTree> seams_;  ///< centres of the finest faces between charts
 };
 
 }  // namespace lamella

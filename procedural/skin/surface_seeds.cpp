@@ -13,17 +13,17 @@
 namespace lamella {
 namespace {
 
-constexpr double scatter_spacing = 0.80;  // of a pitch: leaves one seed to a pitch^2, measured on a plane
-constexpr double lattice_spacing = 0.75;  // of a pitch
-constexpr double foot_precision = 1e-3;   // of a pitch
+constexpr double scatter_spacing = 0.80;  // in pitches; leaves one seed per pitch^2, measured on a plane
+constexpr double lattice_spacing = 0.75;  // in pitches
+constexpr double foot_precision = 1e-3;   // in pitches
 constexpr int cubes_per_pitch = 4;
 
-/// Seeds by place, for asking whether another fits.
+/// A hash grid of seeds, to test whether another one fits.
 class SeedGrid {
   public:
     explicit SeedGrid(double spacing) : spacing_(spacing) {}
 
-    /// Whether no seed is nearer than the spacing less `slack`, mm.
+    /// Returns whether all seeds are at least the spacing less `slack` away, mm.
     bool fits(const SurfaceFoot& foot, double slack = 0) const {
         const double least = (spacing_ - slack) * (spacing_ - slack);
         const glm::i64vec3 center = cell(foot.place);
@@ -52,7 +52,7 @@ class SeedGrid {
         const auto index = [&](double v) { return static_cast<std::int64_t>(std::floor(v / spacing_)); };
         return {index(p.x), index(p.y), index(p.z)};
     }
-    /// Two cells may share a key: they lie far apart, and distances are compared.
+    /// Cells far apart may share a key; distances are compared anyway.
     static std::uint64_t key(glm::i64vec3 c) { return CounterHash(0, 0, c.x, c.y, c.z).bits(0); }
 
     double spacing_;
@@ -60,7 +60,7 @@ class SeedGrid {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-/// Visits cubes of a pitch / cubes_per_pitch along the surface.
+/// Visits cubes of side pitch / cubes_per_pitch along the surface.
 void walk_small_cubes(const Field& body, double pitch, const std::function<void(const LatticeCube&)>& visit) {
     const double side = pitch / cubes_per_pitch, largest = 16 * side;
     const double volume = diagonal(body.bounds()) / side;
@@ -73,7 +73,8 @@ void walk_small_cubes(const Field& body, double pitch, const std::function<void(
         body, largest, 0, [&](const LatticeCube& cube) { return cube.side > 1.5 * side; }, visit);
 }
 
-/// The foot of a place, where a seed would fit; one step towards it tells most of those where none does.
+/// Returns the projection of a place onto the surface if a seed fits there. One step towards it rejects most
+/// of those that do not fit.
 std::optional<SurfaceFoot> fitting_foot(const Field& body, dvec3 place, double pitch, const SeedGrid& seeds) {
     const double precision = foot_precision * pitch;
     const auto normal = rising(body, place, precision);
@@ -84,21 +85,21 @@ std::optional<SurfaceFoot> fitting_foot(const Field& body, dvec3 place, double p
     return foot && seeds.fits(*foot) ? foot : std::nullopt;
 }
 
-/// A place where the lattice may go on.
+/// A place where the lattice may continue.
 struct Proposal {
-    double bend;  ///< how much the surface has bent on the way here
+    double bend;  ///< accumulated bend of the surface on the path to here
     std::uint64_t number;
     dvec3 place;
     dvec3 along;  ///< towards one of the six neighbours
 
-    /// The queue gives the least bend first, and of equal ones the last found, so that a face is filled from
-    /// one seed on.
+    /// The queue returns the least bend first, and among equal ones the last added, so that a face is filled
+    /// from one seed.
     bool operator<(const Proposal& other) const {
         return bend != other.bend ? bend > other.bend : number < other.number;
     }
 };
 
-/// The part of a direction that is at right angles to the normal, of length 1.
+/// Returns the unit tangential part of a direction.
 dvec3 tangent(dvec3 direction, dvec3 normal) {
     dvec3 flat = direction - normal * glm::dot(direction, normal);
     if (glm::dot(flat, flat) < 1e-2) {
@@ -113,7 +114,7 @@ class LatticeFront {
     LatticeFront(const Field& body, double pitch)
         : body_(body), pitch_(pitch), seeds_(lattice_spacing * pitch) {}
 
-    /// Begins at the foot of a place, unless there is a seed near.
+    /// Starts a lattice at the projection of a place, unless there is a seed nearby.
     void start(dvec3 place) {
         const auto foot = fitting_foot(body_, place, pitch_, seeds_);
         if (!foot) return;
@@ -157,7 +158,7 @@ class LatticeFront {
     double pitch_;
     SeedGrid seeds_;
     std::priority_queue<Proposal> open_;
-    std::unordered_map<std::uint64_t, SurfaceFoot> feet_;  ///< of the open proposals, by number
+    std::unordered_map<std::uint64_t, SurfaceFoot> feet_;  ///< seeds of the open proposals, by number
     std::uint64_t count_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Slopes by four differences, feet by Newton's steps, cubes by the bound that a value sets on the distance.
+// Gradients from four samples, projection by Newton's method, and cubes culled by bounds on the distance.
 #include "procedural/skin/surface_walk.h"
 #include "procedural/voronoi/rounding.h"
 
@@ -11,11 +11,11 @@ namespace {
 
 constexpr int max_steps = 8;
 
-/// The corners of a tetrahedron about the origin.
+/// The corners of a tetrahedron around the origin.
 constexpr std::array<std::array<double, 3>, 4> tetrahedron{
     {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
-/// Cubes that the surface may pass through, halved for as long as is asked.
+/// Recursion over cubes that the surface may pass through.
 struct SurfaceWalk {
     const Field& body;
     double margin;

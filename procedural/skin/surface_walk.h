@@ -1,4 +1,5 @@
-// Points on a body's surface: cubes that the surface may pass through, and feet of points near it.
+// Points on a body's surface: the projection of nearby points, and an octree walk over cubes near the
+// surface.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +10,30 @@
 
 namespace lamella {
 
-/// A point of a surface.
+/// A point on a surface.
 struct SurfaceFoot {
     dvec3 place{0};   ///< mm
-    dvec3 normal{0};  ///< of length 1, outward
+    dvec3 normal{0};  ///< unit vector, outward
 };
 
-/// The direction in which the body's value rises at p, of length 1, from differences over `step`, mm; null
-/// where it has none.
+/// Returns the unit gradient of the body's value at p, from differences over `step`, mm; none if the gradient
+/// is zero or not finite.
 std::optional<dvec3> rising(const Field& body, dvec3 p, double step);
 
-/// The point of the surface under (or above) p, found by following the value's slope, to within `precision`,
-/// mm. Null where that leads nowhere. For bodies whose value is a distance near their surface.
+/// Returns the projection of p onto the surface, found by following the gradient of the value, to within
+/// `precision`, mm. None if that does not converge. For bodies whose value is a distance near their surface.
 std::optional<SurfaceFoot> foot_on_surface(const Field& body, dvec3 p, double precision);
 
-/// A cube of a lattice whose cube (0, 0, 0) begins at the origin.
+/// A cube of a lattice; cube (0, 0, 0) has its lower corner at the origin.
 struct LatticeCube {
     glm::i64vec3 index{0};
     double side = 0;  ///< mm
     Box box() const { return {dvec3(index) * side, dvec3(index + std::int64_t{1}) * side}; }
 };
 
-/// Visits cubes that come within `margin` mm of the body's surface, largest first and halved for as long as
-/// `divide` says so; a cube that is not divided is visited. The largest are `largest` mm wide; the order is
-/// fixed. Throws InputError for a body without an extent or an end.
+/// Calls `visit` for cubes within `margin` mm of the body's surface. Starts with cubes of side `largest`, mm,
+/// and halves each as long as `divide` returns true. The order is fixed. Throws InputError for an empty or
+/// unbounded body.
 void walk_surface(const Field& body, double largest, double margin,
                   const std::function<bool(const LatticeCube&)>& divide,
                   const std::function<void(const LatticeCube&)>& visit);

@@ -1,4 +1,4 @@
-// Cells about seeds on a surface, and the distance to their rounded windows.
+// Builds cells around seeds on a surface, and computes the distance to their rounded windows.
 #include "procedural/skin/surface_windows.h"
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 namespace lamella {
 namespace {
 
-constexpr double reach_in_pitches = 1.5;  // no point of a surface is farther from all seeds
-constexpr double room_share = 0.05;       // of a window: half the width below which there is none
+constexpr double reach_in_pitches = 1.5;  // no point of a surface is farther from its nearest seed
+constexpr double room_share = 0.05;       // of a window: half the width below which a cell stays closed
 
 std::vector<dvec3> places(const std::vector<SurfaceFoot>& seeds) {
     std::vector<dvec3> places;
@@ -33,7 +33,7 @@ void check(const SurfaceWindowSettings& settings, bool seeded) {
     if (!seeded) throw InputError("windows need a surface to lie on; none was found");
 }
 
-/// The numbers of the seeds whose faces bound a cell.
+/// Returns the indices of the seeds whose bisectors bound a cell.
 std::vector<std::int32_t> planes_of(const VoronoiCell& cell) {
     std::vector<std::int32_t> planes;
     for (std::size_t v = 0; v < cell.vertex_count(); ++v) {
@@ -46,7 +46,7 @@ std::vector<std::int32_t> planes_of(const VoronoiCell& cell) {
     return planes;
 }
 
-/// Half the width of the struts at a seed.
+/// Returns half the width of the struts at a seed.
 double half_strut(const Grading& strut, dvec3 seed) {
     const double width = strut.at(seed);
     if (width > 0 && std::isfinite(width)) return 0.5 * width;
@@ -83,8 +83,7 @@ SurfaceWindows::SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const Surf
         if (cells_.back().closed) ++closed_;
     }
     faces_.shrink_to_fit();
-    // What lies beyond a wall is solid for half a strut at least, unless the other side of a thin wall is
-    // near.
+    // Beyond a wall at least half a strut is solid, unless the other side of a thin wall is near.
     for (Cell& cell : cells_) cell.beyond = min_inset_;
     std::vector<std::uint32_t> near;
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
@@ -146,13 +145,14 @@ SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& s
     return made;
 }
 
-/// How far a point (from the seed) lies outside the window shrunk by its corners' radius, mm; the distance to
-/// all wedges of two of its faces.
+/// Returns how far a point (relative to the seed) lies outside the window shrunk by its corners' radius, mm:
+/// the largest distance to any wedge of two of its faces.
 double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
-    constexpr std::size_t most = 32;  // faces whose edges are rounded: cells on a surface have about six
+    // maximum number of faces with rounded edges; cells on a surface have about six
+    constexpr std::size_t most = 32;
     struct Shrunk {
         dvec3 normal;
-        double by;  ///< how far the point lies beyond it, mm
+        double by;  ///< signed distance of the point beyond the face, mm
     };
     Shrunk shrunk[most];
     std::size_t count = 0;
@@ -173,7 +173,8 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
             if (b > a || (b == a && j <= i)) continue;
             const double cosine = glm::dot(shrunk[i].normal, shrunk[j].normal);
             const double sine_squared = 1 - cosine * cosine;
-            // Past the edge of the wedge both faces push; else the deeper one alone.
+            // Beyond the edge of the wedge the distance is to the edge; otherwise it is to the farther face
+            // alone.
             if (!(b > a * cosine) || sine_squared < 1e-9) continue;
             const double squared = (a * a + b * b - 2 * a * b * cosine) / sine_squared;
             if (squared > worst * worst) worst = std::sqrt(squared);

@@ -1,4 +1,4 @@
-// The walk along the shell's runs, in steps as long as the pattern's value allows.
+// Walks along the shell's runs, in steps as long as the pattern's value allows.
 #include "procedural/skin/window_pattern.h"
 
 #include "engine/base/error.h"
@@ -10,16 +10,16 @@ namespace lamella {
 namespace {
 
 constexpr int quarter = run_unit / 4;
-constexpr int cells_per_unit = 16;  // a crossing is found to 1/16 of a run unit
-constexpr int chords = 6;           // rounds of interpolation before plain halving
+constexpr int cells_per_unit = 16;  // resolution of a crossing, per run unit
+constexpr int chords = 6;           // rounds of interpolation before bisection
 
-/// Walks the lines of a band.
+/// Cuts the runs on the lines of a band.
 class LineWalk {
   public:
     LineWalk(const WindowPattern& pattern, const RowBand& band, double z)
         : pattern_(pattern), band_(band), z_(z), step_(std::abs(band.along_pitch) / 4) {}
 
-    /// Appends the solid part of the runs of a line.
+    /// Appends the solid parts of the runs of a line.
     void cut(int line, std::span<const Run> runs, RunRows& out) {
         across_ = band_.line(line);
         for (const Run& run : runs) cut(run, out);
@@ -34,7 +34,7 @@ class LineWalk {
     }
 
     void cut(const Run& run, RunRows& out) {
-        // Quarters are counted from the band's origin, so that runs do not depend on how lines are cut.
+        // Count quarters from the band's origin, so that runs do not depend on how lines are split.
         std::int32_t u = run.begin >= 0 ? run.begin / quarter * quarter
                                         : -((-run.begin + quarter - 1) / quarter * quarter);
         double v = value(u);
@@ -58,7 +58,7 @@ class LineWalk {
         out.push(std::max(begin, run.begin), std::min(end, run.end));
     }
 
-    /// Where the surface passes between two samples, in run coordinates.
+    /// Returns the position of the crossing between two samples, in run coordinates.
     double crossing(std::int32_t u, std::int32_t step, double v, double next) {
         Bracket bracket{0, step * cells_per_unit, v, next};
         const auto at = [&](int border) { return u + static_cast<double>(border) / cells_per_unit; };

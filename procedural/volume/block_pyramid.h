@@ -1,4 +1,4 @@
-// The extremes of a volume's samples over boxes, from those of blocks of blocks.
+// BlockPyramid: a hierarchy of block extremes, for the range of a volume's samples over boxes.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace lamella {
 
-/// A place in a volume, or its size: along x, y and z.
+/// A position in a volume, or its size: along x, y and z.
 using VoxelIndex = std::array<std::size_t, 3>;
 
-/// A span of indices along each axis, both ends included.
+/// A range of indices along each axis, both ends included.
 struct VoxelBox {
     VoxelIndex lo, hi;
 
@@ -28,7 +28,7 @@ struct VoxelBox {
     }
 };
 
-/// Calls visit(i, j, k) for every place of a box, x fastest.
+/// Calls visit(i, j, k) for every voxel of a box, x fastest.
 template <class Visit>
 void for_each_voxel(const VoxelBox& box, const Visit& visit) {
     for (std::size_t k = box.lo[2]; k <= box.hi[2]; ++k) {
@@ -38,11 +38,12 @@ void for_each_voxel(const VoxelBox& box, const Visit& visit) {
     }
 }
 
-/// Least and greatest sample; a NaN is kept apart because it has no place in an order.
+/// Minimum and maximum of samples. NaN is tracked separately, because it has no order.
 template <class T>
 struct SampleExtremes {
     T lo, hi;
-    bool undefined = false;  ///< a NaN or an infinity is among them, between which numbers are NaN
+    /// a NaN or an infinity is among them; interpolated numbers next to it may be NaN
+    bool undefined = false;
 
     void include(const SampleExtremes& other) {
         lo = std::min(lo, other.lo);
@@ -57,7 +58,7 @@ bool is_finite_sample(T value) {
     return true;
 }
 
-/// Nothing yet: what every sample widens.
+/// Returns the extremes of no samples.
 template <class T>
 SampleExtremes<T> no_extremes() {
     if constexpr (std::is_floating_point_v<T>) return {static_cast<T>(infinity), static_cast<T>(-infinity)};
@@ -71,7 +72,8 @@ void include_sample(SampleExtremes<T>& extremes, T sample) {
     if (sample > extremes.hi) extremes.hi = sample;
 }
 
-/// The samples' extremes over blocks of 8 x 8 x 8, over 8 of these, and so on up to one block.
+/// The extremes of the samples over blocks of 8 x 8 x 8, over 2 x 2 x 2 of these blocks, and so on up to a
+/// single block.
 template <class T>
 class BlockPyramid {
   public:
@@ -89,12 +91,12 @@ class BlockPyramid {
         }
     }
 
-    /// Encloses the samples of a box: exact where it is a few blocks long, within a quarter of its length
-    /// beyond where it is longer.
+    /// Returns bounds of the samples in a box. Exact if the box is up to four blocks long; otherwise they
+    /// include samples up to a quarter of its length beyond it.
     SampleExtremes<T> over(const VoxelBox& box) const {
         auto found = no_extremes<T>();
         const std::size_t top = levels_.size() - 1;
-        std::size_t finest = 0;  // the level whose blocks are not opened any more, counted as levels below
+        std::size_t finest = 0;  // blocks of levels below this one are not opened
         for (std::size_t side = block_side * coarse; side < box.longest(); side *= 2) ++finest;
         visit(found, box, top, {0, 0, 0}, finest);
         return found;
@@ -102,7 +104,7 @@ class BlockPyramid {
 
   private:
     static constexpr std::size_t block_side = 8;
-    /// Boxes of this many blocks a side are looked at sample by sample at their rim.
+    /// Boxes of up to so many blocks per side are evaluated sample by sample at their border.
     static constexpr std::size_t coarse = 4;
 
     struct Level {
@@ -122,7 +124,7 @@ class BlockPyramid {
         return extremes;
     }
 
-    /// The places of the level below that a block of `by` places a side covers.
+    /// Returns the indices, in the level below, of a block of `by` entries per side.
     static VoxelBox children(const VoxelIndex& block, std::size_t by, const VoxelIndex& below) {
         VoxelBox inside;
         for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Sheets are unpacked and decoded one by one.
+// Unpacks and decodes sheets one by one.
 #include "procedural/volume/image_stack_3mf.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@ namespace {
 
 constexpr int alpha = 3;
 
-/// Gathers one channel of sheets, one above the other.
+/// Collects one channel of the sheets, bottom to top.
 class SheetReader {
   public:
     SheetReader(const ImageStack& stack, int channel, const std::string& where)
         : stack_(stack), channel_(channel), where_(where) {}
 
-    /// False where the images have no such channel.
+    /// Returns false if the images have no such channel.
     bool add(const std::string& part, std::string_view bytes) {
         const auto fail = [&](const std::string& what) {
             throw InputError(where_ + ": sheet " + excerpt(part) + " " + what);
@@ -51,7 +51,7 @@ class SheetReader {
     }
 
   private:
-    /// The image's channel for the one that is wanted; below 0 when there is none.
+    /// Returns the image's channel that holds the requested one; negative if there is none.
     int place_of(int channels) const {
         const bool grey = channels <= 2;
         if (channel_ == alpha) return channels % 2 == 0 ? channels - 1 : -1;
@@ -79,7 +79,7 @@ class SheetReader {
             volume_.samples);
     }
 
-    /// Turns the rows round: the lowest comes first.
+    /// Reads a sheet and reverses its rows: the lowest comes first.
     template <class T, class Fail>
     void read_into(std::vector<T>& samples, ImageReader& input, int source, const Fail& fail) {
         const auto width = static_cast<std::size_t>(stack_.columns);

@@ -1,4 +1,4 @@
-// The sheets of a 3MF's image3d as a volume.
+// Reads the sheets of a 3MF's image3d as a volume.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace lamella {
 
-/// A channel, 0 to 3 for red, green, blue and alpha, of all sheets: x along the columns, y against the rows,
-/// z along the sheets. Grey images have the same number in red, green and blue; nothing where the images have
-/// no alpha, which is 1 then. Sizes are checked before there is room made for them. Throws InputError that
-/// begins with `where` for sheets that are missing, damaged, no PNG, or unlike what the stack or the first
-/// one says.
+/// Reads one channel (0 to 3 for red, green, blue and alpha) of all sheets: x along columns, y against rows,
+/// z along sheets. Grey images have equal red, green and blue. Returns none if alpha is requested and the
+/// images have none; the caller then takes 1. Sizes are checked before memory is allocated. Throws
+/// InputError, with `where` in front, for sheets that are missing, damaged, not PNG, or different from the
+/// stack's description or the first sheet.
 std::optional<Volume> read_image_stack(OpcPackage& package, const ImageStack& stack, int channel,
                                        const std::string& where);
 

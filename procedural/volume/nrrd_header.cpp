@@ -1,4 +1,4 @@
-// Lines of "field: value" into a checked header.
+// Parses lines of "field: value" into a checked header.
 #include "procedural/volume/nrrd_header.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace lamella {
 namespace {
 
-/// A field's value and the line it stands in.
+/// A field's value and its line number.
 struct Field {
     std::string value;
     std::size_t line = 0;
@@ -39,8 +39,8 @@ std::vector<std::string_view> words(std::string_view text) {
     return out;
 }
 
-/// All fields of the format in their spelling without spaces. Those that do not change which numbers lie
-/// where are read over.
+/// All fields of the format, spelt without spaces. Those that do not affect the samples or their positions
+/// are ignored.
 constexpr std::string_view fields[] = {
     "dimension",       "type",       "blocksize",   "encoding",       "endian",
     "content",         "min",        "max",         "oldmin",         "oldmax",
@@ -126,7 +126,7 @@ class HeaderReader {
         return *found;
     }
 
-    /// The next line without its end; false at the end of the file.
+    /// Reads the next line without its end; returns false at the end of the file.
     bool next_line(std::string& text) {
         constexpr std::size_t largest_header = std::size_t{1} << 20U;
         text.clear();
@@ -157,7 +157,7 @@ class HeaderReader {
         const std::size_t colon = text.find(':');
         if (colon == text.npos)
             fail(line_, excerpt(text) + " is neither a field (name: value) nor a comment (#)");
-        if (text.substr(colon, 2) == ":=") return true;  // a key of somebody's own
+        if (text.substr(colon, 2) == ":=") return true;  // a user-defined key
         std::string field = lower_case(trim_blanks(std::string_view(text).substr(0, colon)));
         field.erase(std::remove(field.begin(), field.end(), ' '), field.end());
         if (std::find(std::begin(fields), std::end(fields), field) == std::end(fields)) {
@@ -167,7 +167,7 @@ class HeaderReader {
         if (!fields_.insert({field, {value, line_}}).second) {
             fail(line_, "the field " + excerpt(text.substr(0, colon)) + " stands in the header twice");
         }
-        return !(field == "datafile" && value.starts_with("LIST"));  // which ends the header
+        return !(field == "datafile" && value.starts_with("LIST"));  // LIST ends the header
     }
 
     void interpret() {
@@ -262,7 +262,7 @@ class HeaderReader {
         return *number;
     }
 
-    /// True when all of the quoted words of a field are mm, or there is no such field.
+    /// Returns true if all quoted words of a field are "mm", or if there is no such field.
     bool is_millimetres(const std::string& field) const {
         const Field* found = find(field);
         if (!found) return true;
@@ -315,13 +315,13 @@ class HeaderReader {
                          static_cast<double>(header_.size[2]));
         const Box box{lowest, lowest + step * size};
         for (int i = 0; i < 3; ++i) {
-            // A spacing may be NaN where it is not known.
+            // A spacing may be NaN if it is unknown.
             if (!(step[i] > 0 && std::abs(box.lo[i]) < 1e9 && std::abs(box.hi[i]) < 1e9)) return;
         }
         header_.box = box;
     }
 
-    /// Vectors written "(x,y,z)", or "none".
+    /// Parses vectors written as "(x,y,z)" or "none".
     std::vector<std::optional<dvec3>> vectors_of(const Field& field) const {
         std::vector<std::optional<dvec3>> vectors;
         std::string_view rest = trim_blanks(field.value);

@@ -1,4 +1,4 @@
-// Sums and products, node by node.
+// Builds formulas from sums and products, node by node.
 #include "procedural/volume/platform_formula.h"
 
 #include "engine/formula/formula_inputs.h"

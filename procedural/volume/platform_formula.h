@@ -1,5 +1,5 @@
-// Parts of formulas about objects of a 3MF: places under transforms, boxes, and what to do where a number is
-// undefined.
+// Building blocks of formulas about objects in a 3MF: transformed points, boxes, and fallbacks for undefined
+// numbers.
 #pragma once
 
 #include <span>
@@ -11,25 +11,25 @@
 
 namespace lamella {
 
-/// The formula's inputs 0 to 2 as a place.
+/// Returns the formula's inputs 0 to 2 as a point.
 GraphValue platform(FormulaBuilder& f);
-/// The place under a map, taken apart; what is multiplied by zero is left out.
+/// Returns the point under a map, written out in components; terms with a zero factor are omitted.
 GraphValue mapped(FormulaBuilder& f, const GraphValue& place, const Transform3mf& map);
-/// The greater of a value and how far a place lies outside a box.
+/// Returns the maximum of a value and the distance of a point outside a box.
 FormulaBuilder::Node within_box(FormulaBuilder& f, FormulaBuilder::Node value, const GraphValue& place,
                                 const Box& box);
-/// The value, or the fallback where it is NaN.
+/// Returns the value, or the fallback where the value is NaN.
 FormulaBuilder::Node or_else(FormulaBuilder& f, FormulaBuilder::Node value, double fallback);
-/// Whether the formula may be NaN within 1 km of the origin, as far as ranges can tell.
+/// Returns whether the formula may be NaN within 1 km of the origin, as far as interval bounds can tell.
 bool maybe_undefined(const Formula& formula, std::span<const GradingPtr> others);
 
-/// The map, then a scaling.
+/// Returns the map followed by a scaling.
 Transform3mf scaled(Transform3mf map, double factor);
-/// Whether boxes stay boxes under the map.
+/// Returns whether the map sends axis-aligned boxes to axis-aligned boxes.
 bool keeps_axes(const Transform3mf& map);
-/// The box about a box's image.
+/// Returns the bounding box of a box's image.
 Box image_of(const Box& box, const Transform3mf& map);
-/// Whether a closed mesh is nothing but the box about it.
+/// Returns whether a closed mesh equals its bounding box.
 bool is_box(const TriangleMesh& mesh, const Box& box);
 
 }  // namespace lamella

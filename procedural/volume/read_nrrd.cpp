@@ -1,4 +1,4 @@
-// The samples of an NRRD file: raw, packed by gzip, or as text.
+// Reads the samples of an NRRD file: raw, gzip or text.
 #include <zlib.h>
 
 #include <algorithm>
@@ -21,11 +21,11 @@ namespace {
     throw InputError(name + ": " + what);
 }
 
-/// Bytes one block after the other.
+/// A stream of bytes, read block by block.
 class ByteStream {
   public:
     virtual ~ByteStream() = default;
-    /// Fills `out` as far as there are bytes; gives how many.
+    /// Reads up to `count` bytes into `out`; returns how many.
     virtual std::size_t read(char* out, std::size_t count) = 0;
 };
 
@@ -41,7 +41,7 @@ class PlainStream : public ByteStream {
     std::istream& in_;
 };
 
-/// One or more members of a gzip file.
+/// Decompresses one or more members of a gzip file.
 class GzipStream : public ByteStream {
   public:
     GzipStream(std::istream& in, const std::string& name)
@@ -66,7 +66,7 @@ class GzipStream : public ByteStream {
             const int status = inflate(&zlib_, Z_NO_FLUSH);
             got += block - zlib_.avail_out;
             if (status == Z_BUF_ERROR && got == 0) fail(name_, "the gzip data are cut off");
-            if (status == Z_BUF_ERROR) break;  // there is no more input
+            if (status == Z_BUF_ERROR) break;  // end of input
             at_end_ = status == Z_STREAM_END;
             if (!at_end_ && status != Z_OK) fail(name_, "the gzip data are damaged");
         }
@@ -87,12 +87,12 @@ class GzipStream : public ByteStream {
     bool at_end_ = false;
 };
 
-/// Tokens parted by white space or commas.
+/// Splits text into tokens separated by white space or commas.
 class TokenStream {
   public:
     explicit TokenStream(ByteStream& bytes) : bytes_(bytes), block_(std::size_t{1} << 16U) {}
 
-    /// The next token, empty at the end; no number is longer than what is kept of it.
+    /// Returns the next token, empty at the end. Tokens are truncated, but to more than any number needs.
     std::string_view next() {
         constexpr std::size_t longest = 400;
         token_.clear();
@@ -168,7 +168,7 @@ std::vector<T> read_binary(ByteStream& bytes, std::size_t count, bool big_endian
     return samples;
 }
 
-/// Bytes from here to the end of the file.
+/// Returns the number of bytes from here to the end of the file.
 std::uint64_t bytes_left(std::istream& in, const std::string& name) {
     const std::istream::pos_type here = in.tellg();
     in.seekg(0, std::ios::end);
@@ -195,9 +195,9 @@ void skip_lines(std::istream& in, std::int64_t count, const std::string& name) {
     }
 }
 
-/// Refuses a file too short for what its header announces, before memory is taken for it.
+/// Rejects a file that is too short for its header, before memory is allocated for it.
 void check_length(std::istream& in, const NrrdHeader& header, std::size_t count, const std::string& name) {
-    constexpr std::uint64_t max_packing = 1032;  // of deflate
+    constexpr std::uint64_t max_packing = 1032;  // maximum ratio of deflate
     const std::uint64_t left = bytes_left(in, name), size = count * sample_bytes(header.type);
     const bool possible = header.encoding == NrrdEncoding::raw    ? left >= size
                           : header.encoding == NrrdEncoding::gzip ? left * max_packing >= size

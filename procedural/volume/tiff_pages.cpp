@@ -1,4 +1,4 @@
-// The chain of a TIFF file's directories.
+// Follows the chain of a TIFF file's directories.
 #include "procedural/volume/tiff_pages.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace lamella {
 namespace {
 
-/// Numbers of a byte order at offsets of a file.
+/// Reads integers of a given byte order at file offsets.
 class OrderedBytes {
   public:
     OrderedBytes(std::istream& in, bool big_endian) : in_(in), big_endian_(big_endian) {}
 
-    /// Nothing beyond the end of the file.
+    /// Returns none beyond the end of the file.
     std::optional<std::uint64_t> number(std::uint64_t at, std::size_t bytes) {
         unsigned char raw[8] = {};
         in_.clear();
@@ -37,11 +37,11 @@ class OrderedBytes {
     bool big_endian_;
 };
 
-/// One number a strip or tile: where it begins, or how many bytes it has.
+/// A directory entry with one number per strip or tile: its offset or its number of bytes.
 struct Column {
     std::uint64_t at = 0;     ///< offset of the first number
-    std::uint64_t count = 0;  ///< 0 when the directory has no such column
-    std::size_t bytes = 0;    ///< of a number
+    std::uint64_t count = 0;  ///< 0 if the directory has no such entry
+    std::size_t bytes = 0;    ///< per number
 };
 
 /// The directories of one file.
@@ -50,13 +50,13 @@ class Directories {
     Directories(OrderedBytes bytes, bool wide) : bytes_(bytes), wide_(wide), file_size_(bytes_.size()) {}
 
     std::optional<std::uint64_t> first() { return bytes_.number(wide_ ? 8 : 4, offset_bytes()); }
-    /// The offset of the next directory, 0 at the end; nothing where this one is cut off.
+    /// Returns the offset of the next directory, 0 at the end; none if this directory is truncated.
     std::optional<std::uint64_t> next(std::uint64_t at) {
         const auto entries = bytes_.number(at, count_bytes());
         if (!entries || *entries > 0xffffU) return std::nullopt;
         return bytes_.number(at + count_bytes() + *entries * entry_bytes(), offset_bytes());
     }
-    /// Whether all strips and tiles of a directory lie within the file.
+    /// Returns whether all strips and tiles of a directory lie within the file.
     bool holds_its_samples(std::uint64_t at) {
         constexpr std::uint64_t strip_offsets = 273, strip_sizes = 279, tile_offsets = 324, tile_sizes = 325;
         return inside(column(at, strip_offsets), column(at, strip_sizes)) &&
@@ -79,7 +79,7 @@ class Directories {
             found.bytes = type == short_number ? 2 : type == long_number ? 4 : type == long8_number ? 8 : 0;
             found.count = found.bytes > 0 ? bytes_.number(entry + 4, offset_bytes()).value_or(0) : 0;
             found.at = entry + 4 + offset_bytes();
-            // What does not fit the entry stands elsewhere.
+            // Values that do not fit into the entry are stored elsewhere.
             if (found.count > offset_bytes() / std::max<std::size_t>(found.bytes, 1)) {
                 found.at = bytes_.number(found.at, offset_bytes()).value_or(file_size_);
             }

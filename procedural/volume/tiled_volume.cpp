@@ -1,4 +1,4 @@
-// Coordinates are brought into the cube first; neighbours beyond its border follow the style of the axis.
+// Maps coordinates into the cube first; neighbours beyond its border follow the axis's tile style.
 #include "procedural/volume/tiled_volume.h"
 
 #include <algorithm>
@@ -11,18 +11,18 @@
 namespace lamella {
 namespace {
 
-/// Voxels along an axis, both ends included.
+/// A range of voxels along an axis, both ends included.
 struct VoxelSpan {
     std::size_t lo, hi;
 };
 
-/// What a coordinate and an interval of them mean along one axis.
+/// Maps coordinates, and intervals of them, to voxels along one axis.
 class TiledAxis {
   public:
     TiledAxis(std::size_t size, TileStyle style, bool linear, bool upper_of_two)
         : size_(size), style_(style), linear_(linear), upper_of_two_(upper_of_two) {}
 
-    /// The two voxels that a coordinate lies between, and how far from the first to the second: 0 to 1.
+    /// The two voxels on either side of a coordinate, and its position between them, 0 to 1.
     struct Between {
         std::size_t lower, upper;
         double t;
@@ -33,17 +33,17 @@ class TiledAxis {
         return {voxel(lower), voxel(linear_ ? lower + 1 : lower), linear_ ? place - lower : 0.0};
     }
 
-    /// The voxels that coordinates from a to b can touch: at most two spans.
+    /// Returns the voxels that coordinates from a to b can touch: at most two ranges.
     std::vector<VoxelSpan> touched(double a, double b) const {
         if (!(std::isfinite(a) && std::isfinite(b))) return {{0, size_ - 1}};
         double first = tiled(a), last = tiled(b);
-        bool beyond = false;  // b lies in the tile after a's
+        bool beyond = false;  // b is in the tile after that of a
         if (style_ == TileStyle::wrap) {
             if (b - a >= 1) return {{0, size_ - 1}};
             beyond = std::floor(a) != std::floor(b);
         } else if (style_ == TileStyle::mirror) {
             if (b - a >= 1) return {{0, size_ - 1}};
-            // Turning points in between: the cube's ends.
+            // Turning points between a and b are ends of the cube.
             const double even = 2 * std::ceil(a / 2), odd = 2 * std::ceil((a - 1) / 2) + 1;
             if (first > last) std::swap(first, last);
             if (even <= b) first = 0;
@@ -71,7 +71,8 @@ class TiledAxis {
         }
     }
 
-    /// In voxels: from the first one's centre, or the number of the one that holds it. Monotone.
+    /// Returns the position in voxels: relative to the first centre, or the index of the voxel that contains
+    /// it. Monotone.
     double place_of(double s) const {
         const double n = static_cast<double>(size_), g = s * n;
         if (linear_) return g - 0.5;
@@ -115,7 +116,7 @@ class TiledVolume : public Grading {
         }
         for (std::size_t i = 0; i < 4; ++i) rows[i] = mix(corners[2 * i], corners[2 * i + 1], x.t);
         const double value = mix(mix(rows[0], rows[1], y.t), mix(rows[2], rows[3], y.t), z.t);
-        // A mean lies between its parts, also when rounded.
+        // A mean lies between its parts, even after rounding.
         const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
         return (value < *least ? *least : value > *most ? *most : value) / full_scale_;
     }
@@ -151,7 +152,7 @@ GradingPtr make_tiled_volume(Volume volume, ImageFilter filter, const std::array
     const bool held = std::all_of(tiles.begin(), tiles.end(), [](TileStyle tile) {
         return tile == TileStyle::clamp || tile == TileStyle::none;
     });
-    // What is held beyond the cube is a volume like any other, whose ranges are exact.
+    // If all axes are clamped, the result is an ordinary volume, whose ranges are exact.
     if (held && filter == ImageFilter::linear)
         return make_volume_grading(std::move(volume), Box{dvec3(0), dvec3(1)});
     return std::visit(

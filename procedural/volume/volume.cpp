@@ -1,4 +1,4 @@
-// Which reader a path leads to, and image stacks.
+// Selects the reader for a path, and reads image stacks.
 #include "procedural/volume/volume.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes the digits at the front away and gives them without leading zeros.
+/// Removes the leading digits and returns them without leading zeros.
 std::string_view take_number(std::string_view& text) {
     std::size_t end = 0, begin = 0;
     while (end < text.size() && is_digit(text[end])) ++end;
@@ -26,8 +26,8 @@ std::string_view take_number(std::string_view& text) {
     return number;
 }
 
-/// Orders names with their numbers by value: "2" before "10"; names that differ only in leading zeros by
-/// bytes.
+/// Natural order: numbers in names compare by value, "2" before "10"; names that differ only in leading zeros
+/// compare by bytes.
 bool natural_less(const std::string& a, const std::string& b) {
     std::string_view s = a, t = b;
     while (!s.empty() && !t.empty()) {
@@ -46,7 +46,7 @@ bool natural_less(const std::string& a, const std::string& b) {
     return a < b;
 }
 
-/// Whether a name fits a pattern in which * stands for any characters and ? for one.
+/// Returns whether a name matches a pattern in which * stands for any characters and ? for one.
 bool fits(std::string_view name, std::string_view pattern) {
     std::size_t n = 0, p = 0, star = pattern.npos, resume = 0;
     while (n < name.size()) {
@@ -67,7 +67,7 @@ bool fits(std::string_view name, std::string_view pattern) {
     return p == pattern.size();
 }
 
-/// The files of a folder whose name fits, hidden ones left out, in natural order.
+/// Returns the files of a folder whose names match, except hidden ones, in natural order.
 std::vector<std::string> files_in(const fs::path& folder, const std::string& pattern) {
     std::error_code error;
     std::vector<std::string> names, files;
@@ -87,7 +87,7 @@ std::vector<std::string> files_in(const fs::path& folder, const std::string& pat
     throw InputError(path + ": " + what);
 }
 
-/// Gathers the pages of a stack, one below the other in memory.
+/// Collects the pages of a stack, one after the other in memory.
 class StackReader {
   public:
     StackReader(int channel, std::size_t expected_pages) : channel_(channel), expected_(expected_pages) {}
@@ -145,7 +145,7 @@ class StackReader {
     Size volume_size() const { return {volume_.size[0], volume_.size[1]}; }
     static std::string text(Size size) { return std::to_string(size[0]) + " x " + std::to_string(size[1]); }
 
-    /// Takes over size and type of the first page.
+    /// Adopts the size and type of the first page.
     void start(const ImagePage& image, const std::string& path) {
         stored_as_ = image.stored_as;
         volume_.size = {size_of(image)[0], size_of(image)[1], 0};
@@ -169,7 +169,7 @@ class StackReader {
         check_volume_size({volume_.size[0], volume_.size[1], pages}, bytes_each, path);
     }
 
-    /// Reads one channel and turns its rows round: the lowest comes first.
+    /// Reads one channel and reverses its rows: the lowest comes first.
     template <class T, class Fail>
     void read_into(std::vector<T>& samples, ImageReader& input, const Fail& fail) {
         const std::size_t width = volume_.size[0], height = volume_.size[1], begin = samples.size();

@@ -23,36 +23,36 @@ using VolumeSamples =
 
 /// A grid of samples, x fastest, then y, then z.
 struct Volume {
-    /// The largest volume that is read.
+    /// The maximum size of a volume.
     static constexpr std::uint64_t max_voxels = std::uint64_t{1} << 31U;
     static constexpr std::uint64_t max_bytes = std::uint64_t{4} << 30U;
 
     std::array<std::size_t, 3> size{};  ///< samples along x, y and z, each at least 1
     VolumeSamples samples;
-    double full_scale = 1.0;  ///< what a sample is divided by: 255 or 65535 for integer images, else 1
-    std::optional<Box> box;   ///< where the file says it lies, mm: voxels are centred on their samples
+    double full_scale = 1.0;  ///< divisor of the samples: 255 or 65535 for integer images, else 1
+    std::optional<Box> box;   ///< its position according to the file, mm; samples are at voxel centres
 };
 
-/// Throws InputError("path: ...") for a volume beyond the limits.
+/// Throws InputError("path: ...") for a volume that exceeds the limits.
 void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes_each,
                        const std::string& path);
 
 /// Reads a volume. Throws InputError with the path.
-/// - a folder: all its files but hidden ones as pages; names sort naturally, 2 before 10
-/// - a pattern with * and ? in the last part of the path: the files whose name fits, sorted likewise
-/// - a file whose content is NRRD, attached (.nrrd) or detached (.nhdr)
-/// - any other file: one image, or all pages of a multi-page TIFF
-/// Pages are alike in size and type. Page 0 lies lowest in z; the top row of a picture lies highest in y, so
-/// that a page looks the same seen from above. `channel` counts from 0.
+/// - A folder: all its files except hidden ones are pages, in natural order of names (2 before 10).
+/// - A pattern with * and ? in the last part of the path: the matching files, in the same order.
+/// - A file whose content is NRRD, attached (.nrrd) or detached (.nhdr).
+/// - Any other file: one image, or all pages of a multi-page TIFF.
+/// Pages must have the same size and type. Page 0 is lowest in z. The top row of a picture is highest in y,
+/// so that a page looks the same seen from above. `channel` counts from 0.
 Volume read_volume(const std::string& path, int channel = 0);
 
-/// The pages of a stack, lowest first, as they are given.
+/// Reads the pages of a stack, lowest first, in the given order.
 Volume read_image_stack(std::span<const std::string> files, int channel = 0);
 
 /// Reads the NRRD format (teem.sourceforge.net/nrrd/format.html): dimension 3, or 4 with a leading axis of
-/// size 1; encodings raw, gzip and text; data attached or in one file of its own, which is looked for in
-/// `folder`. The box is known from `space directions` along +x, +y, +z with `space origin` (the centre of the
-/// first sample), or from `spacings` (then its lower corner is the origin). `name` stands in messages.
+/// size 1; encodings raw, gzip and text; data attached or in one separate file, which is looked up in
+/// `folder`. The box follows from `space directions` along +x, +y, +z with `space origin` (the centre of the
+/// first sample), or from `spacings` (its lower corner is the origin then). `name` is used in messages.
 Volume read_nrrd(std::istream& in, const std::string& name, const std::string& folder);
 
 }  // namespace lamella

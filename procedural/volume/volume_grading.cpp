@@ -1,4 +1,4 @@
-// Trilinear interpolation between voxels, and ranges from their extremes over blocks of blocks.
+// Trilinear interpolation between voxels, and ranges from a pyramid of block extremes.
 #include "procedural/volume/volume_grading.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-/// Where a coordinate lies between the centres of two neighbouring voxels.
+/// The position of a coordinate between the centres of two adjacent voxels.
 struct Between {
     std::size_t lower, upper;
     double t;  ///< 0 at the lower one, 1 at the upper one
@@ -49,16 +49,17 @@ class VolumeGrading : public Grading {
     }
 
   private:
-    /// Boxes over this many voxels a side are cut along the planes of the centres.
+    /// Boxes with up to so many voxel centres per side are evaluated at the planes of the centres.
     static constexpr std::size_t max_stops = 5;
 
-    /// In voxels from the first centre, kept between the outermost ones. Monotone, also when rounded.
+    /// Returns the position in voxels from the first centre, clamped to the outermost ones. Monotone, even
+    /// after rounding.
     dvec3 in_voxels(dvec3 p) const {
         dvec3 g;
         for (int i = 0; i < 3; ++i) {
             const double last = static_cast<double>(size_[static_cast<std::size_t>(i)] - 1);
             const double place = (p[i] - box_.lo[i]) / (box_.hi[i] - box_.lo[i]) * (last + 1) - 0.5;
-            g[i] = place >= last ? last : place > 0 ? place : 0.0;  // NaN lies at the first
+            g[i] = place >= last ? last : place > 0 ? place : 0.0;  // NaN becomes 0
         }
         return g;
     }
@@ -85,12 +86,12 @@ class VolumeGrading : public Grading {
         double rows[4];
         for (std::size_t i = 0; i < 4; ++i) rows[i] = mix(corners[2 * i], corners[2 * i + 1], x.t);
         const double value = mix(mix(rows[0], rows[1], y.t), mix(rows[2], rows[3], y.t), z.t);
-        // A mean lies between its parts, also when rounded: equal voxels give their number exactly.
+        // A mean lies between its parts, even after rounding: equal voxels give their number exactly.
         return value < limits.lo ? limits.lo : value > limits.hi ? limits.hi : value;
     }
 
-    /// The extremes over a box of few voxels: between the planes of the centres the number is linear along
-    /// each axis, so it is extreme at corners.
+    /// Returns the range over a box of few voxels. Between the planes of the centres the number is linear
+    /// along each axis, so its extremes are at corners.
     Interval at_stops(dvec3 lo, dvec3 hi, Interval samples) const {
         std::array<std::array<Between, max_stops + 2>, 3> stops;
         VoxelBox all{{0, 0, 0}, {0, 0, 0}};

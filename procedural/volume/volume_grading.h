@@ -1,4 +1,4 @@
-// A voxel volume as a number that varies in space.
+// A grading from a voxel volume.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace lamella {
 
-/// Where a volume comes from and where it lies.
+/// The file of a volume, and its position.
 struct VolumeSource {
     std::string path;             ///< see read_volume
-    std::optional<Box> box = {};  ///< mm; what the file says when not given
+    std::optional<Box> box = {};  ///< mm; that of the file if not given
     int channel = 0;              ///< of an image, from 0
 };
 
-/// The number at a point, trilinear between the centres of the voxels that fill the box, and constant beyond
-/// the outermost centres. Integer images give 0 to 1; everything else the numbers of the file. The range is
-/// exact for boxes over a few voxels, and found from a pyramid of block extremes for larger ones.
-/// Throws InputError with the path; a volume whose file does not say where it lies needs a box.
+/// Makes a grading from a volume: trilinear between the centres of the voxels that fill the box, constant
+/// beyond the outermost centres. Integer images give 0 to 1, other files their own numbers. Ranges are exact
+/// for boxes over a few voxels; for larger ones they are bounds from a pyramid of block extremes. Throws
+/// InputError with the path. If the file does not give a position, `source.box` is required.
 GradingPtr make_volume_grading(const VolumeSource& source);
 
-/// The same for a volume at hand. The box must have three positive, finite sides.
+/// Makes the grading for a given volume. The box must have three positive, finite sides.
 GradingPtr make_volume_grading(Volume volume, const Box& box);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Places are taken back from the platform to the object and on to the function, all within the formula.
+// Builds formulas that map points from the platform to the object and on to the function.
 #include "procedural/volume/volumetric_model.h"
 
 #include <algorithm>
@@ -25,10 +25,10 @@ using Node = FormulaBuilder::Node;
 constexpr std::string_view supported[] = {"/production/", "/material/", "/trianglesets/", "/volumetric/",
                                           "/implicit/"};
 constexpr std::size_t max_level_sets = 10'000;
-constexpr std::size_t max_objects = 1'000'000;  // that one name leads to
+constexpr std::size_t max_objects = 1'000'000;  // maximum number of objects that one name may lead to
 constexpr std::size_t max_triangles = 50'000'000;
 
-/// The component that a name ends in: 0 to 2 for .x to .z, which is taken off; below 0 for none.
+/// Removes the component at the end of a name and returns it: 0 to 2 for .x to .z; negative for none.
 int take_component(std::string_view& name) {
     for (int i = 0; i < 3; ++i) {
         const char ending[3] = {'.', "xyz"[i], '\0'};
@@ -118,7 +118,7 @@ class VolumetricModel::Impl {
         return parts_.emplace(&in, read_volumetric_part(model_, in)).first->second;
     }
 
-    /// -2 where it is another property, -1 where it is this one, 0 to 2 for a component of it.
+    /// Returns -2 for another property, -1 for this one, 0 to 2 for a component of this one.
     static int matches(const VolumeProperty& property, std::string_view name) {
         const auto same = [&](std::string_view wanted) {
             const std::string_view whole = property.name;
@@ -143,7 +143,7 @@ class VolumetricModel::Impl {
         return found->second;
     }
 
-    /// The object and its components wherever they are placed, or else as they stand.
+    /// Returns the object and its components at all their placements, or unplaced if there is none.
     std::vector<PlacedObject> objects_named(std::string_view which) {
         const auto is_meant = [&](const pugi::xml_node& object) {
             return which == object.attribute("id").value() || which == object.attribute("name").value();
@@ -187,7 +187,7 @@ class VolumetricModel::Impl {
             }
             return found;
         };
-        // The longest beginning that is a function's name; names may have dots of their own.
+        // Find the longest prefix that is a function's name; names may contain dots.
         for (std::size_t end = which.size(); end != which.npos && end > 0; end = which.rfind('.', end - 1)) {
             const CheckedFunction* found = find(which.substr(0, end));
             if (found == nullptr) continue;
@@ -217,7 +217,7 @@ class VolumetricModel::Impl {
                "there is no function " + excerpt(which) + "; it has " + (known.empty() ? "none" : known));
     }
 
-    /// One number of a function's output at a place.
+    /// Adds one number of a function's output at a point to the formula.
     Node lower(const VolumetricPart& resources, const ModelPart& in, const CheckedFunction& function,
                const std::string& output, int component, const GraphValue& place, FormulaBuilder& builder,
                std::vector<GradingPtr>& others) {
@@ -280,7 +280,7 @@ class VolumetricModel::Impl {
         Node value = lower(part(placed.part), placed.part, function, level_set.use.channel, -1, place,
                            builder, others);
         value = builder.binary(FormulaOp::mul, value, builder.constant(model_.unit_mm()));
-        // What is undefined is outside of a field, where a fallback of 0 or more puts it, too.
+        // Undefined values are outside, which a fallback of 0 or more also makes them.
         if (level_set.use.fallback < 0) value = or_else(builder, value, level_set.use.fallback);
         const TriangleMesh hull = mesh_of(placed.part, level_set.mesh, Transform3mf());
         const Box box = hull.bounds();
@@ -316,7 +316,7 @@ class VolumetricModel::Impl {
         return solids.size() == 1 ? solids.front() : make_union(std::move(solids));
     }
 
-    /// An object's triangles under a transform; those that name vertices that do not exist are left out.
+    /// Adds an object's triangles under a transform, without those that refer to missing vertices.
     void add(MeshWelder& welder, const ModelPart& in, const pugi::xml_node& node,
              const Transform3mf& transform) {
         const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
@@ -346,7 +346,7 @@ class VolumetricModel::Impl {
         return welder.finish(source_, {}).mesh;
     }
 
-    /// In the model's unit.
+    /// Returns the distance to a mesh, in the model's unit.
     GradingPtr distance_to(const ModelPart& in, std::int64_t id, bool with_sign) {
         GradingPtr& known = distances_[{&in, id, with_sign}];
         if (known) return known;
@@ -375,7 +375,7 @@ class VolumetricModel::Impl {
     Model3mf model_;
     std::map<const ModelPart*, VolumetricPart> parts_;
     std::vector<PlacedObject> placed_;
-    std::map<const void*, ObjectMesh> meshes_;  ///< by element
+    std::map<const void*, ObjectMesh> meshes_;  ///< by XML element
     std::map<DistanceKey, GradingPtr> distances_;
     std::map<SamplerKey, GradingPtr> samplers_;
 };

@@ -1,4 +1,5 @@
-// Solids and numbers that a 3MF file describes by functions: level sets, properties of volumes, functions.
+// VolumetricModel: solids and numbers that a 3MF file describes by functions: level sets, volume properties
+// and functions.
 #pragma once
 
 #include <memory>
@@ -12,37 +13,40 @@
 
 namespace lamella {
 
-/// A formula over a place (inputs 0 to 2: x, y, z, mm) and gradings there (others[i] feeds input 3 + i).
+/// A formula of a point (inputs 0 to 2: x, y, z, mm) and of gradings there (others[i] is input 3 + i).
 struct PlacedFormula {
     Formula formula;
     std::vector<GradingPtr> others;
 };
 
 /// A 3MF file with the volumetric and implicit extensions (1.0). Level sets, properties and functions become
-/// formulas; meshes and images that these ask for become gradings. Lengths are mm and places those of the
-/// build platform: the model's unit, items and components are applied. Colours, mixtures of materials and
-/// least sizes of features are not read. Names of things may be their numbers. Every mistake in the file is
-/// an InputError that begins with its name. Not thread-safe; what it makes is.
+/// formulas; the meshes and images that these need become gradings. Lengths are in mm and points in
+/// coordinates of the build platform: the model's unit, items and components are applied. Colours, material
+/// mixtures and minimum feature sizes are not read. An object may be named by its id. Every mistake in the
+/// file is an InputError that begins with the file's name. Not thread-safe; the fields and gradings that it
+/// makes are.
 class VolumetricModel {
   public:
-    /// Reads the file and checks all functions of its root part and of what it builds.
+    /// Reads the file, and checks all functions of its root part and of the objects in its build section.
     explicit VolumetricModel(const std::string& path);
-    /// The same for a file in memory.
+    /// Reads a file in memory.
     VolumetricModel(const std::string& name, std::string bytes);
     ~VolumetricModel();
     VolumetricModel(VolumetricModel&&) noexcept;
 
-    /// All that the build section places, level sets and meshes, united. Level sets know signs alone.
+    /// Returns the union of all that the build section places, level sets and meshes. For level sets only
+    /// signs are meaningful.
     FieldPtr built();
-    /// One object, wherever the build section places it; where it does not, in its own coordinates.
+    /// Returns one object at all places where the build section puts it; if there is none, in its own
+    /// coordinates.
     FieldPtr object(std::string_view which);
-    /// A function of the root part by name, with ".output" unless it has one scalar, and ".x", ".y" or
-    /// ".z" behind the name of a vector. It is asked at its input pos, in the function's own coordinates,
-    /// scaled by the model's unit; its number is as it is.
+    /// Returns a function of the root part by name. Append ".output" unless it has a single scalar output,
+    /// and ".x", ".y" or ".z" for a vector. The function is evaluated at its input pos, in its own
+    /// coordinates, scaled by the model's unit; its result is not scaled.
     PlacedFormula function(std::string_view which);
-    /// A property's number in the coordinates of the build platform, by its name with or without a prefix,
-    /// with ".x", ".y" or ".z" where it is a vector. The object may be left out where one alone has such a
-    /// property; InputError where it is placed several times.
+    /// Returns a property as a grading in coordinates of the build platform. `name` may omit the prefix;
+    /// append ".x", ".y" or ".z" for a vector. `object` may be empty if only one object has such a property.
+    /// Throws InputError if the object is placed several times.
     GradingPtr property(std::string_view name, std::string_view object);
 
   private:

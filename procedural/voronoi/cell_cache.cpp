@@ -1,4 +1,4 @@
-// The hash of a place, and the places of late.
+// The hash of a key, and the set of recent keys.
 #include "procedural/voronoi/cell_cache.h"
 
 #include <bit>

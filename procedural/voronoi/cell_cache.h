@@ -1,4 +1,5 @@
-// A bounded, thread-safe cache of what was computed once for a place: evicted by z distance, then age.
+// CellCache: a bounded, thread-safe cache of values computed per octree node. Evicts by z distance, then by
+// age.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace lamella {
 
-/// A place: a node of an octree over a lattice of coarse cells, and a part of it.
+/// Identifies a node of an octree over a lattice of coarse cells, and a part of that node.
 struct PlaceKey {
     std::int64_t x = 0;
     std::int64_t y = 0;
@@ -24,38 +25,41 @@ struct PlaceKey {
     friend bool operator==(const PlaceKey&, const PlaceKey&) = default;
 };
 
-/// A hash of the key, the same in every process.
+/// Returns a hash of the key, the same in every process.
 std::size_t hash_value(const PlaceKey& key);
 
-/// Places of late, by their hashes in a table where each has one slot: a newer place may take it over.
+/// A lossy set of recent keys: a table of hashes without collision resolution, where a newer key replaces an
+/// older one in its slot.
 class RecentPlaces {
   public:
-    /// Grows to at least so many slots.
+    /// Grows the table to at least so many slots.
     void make_room(std::size_t slots);
-    /// There has to be a slot.
+    /// Adds a key. The table must have at least one slot.
     void add(const PlaceKey& key);
-    /// Whether the place was there; it is no longer.
+    /// Removes a key and returns whether it was there.
     bool take(const PlaceKey& key);
 
   private:
     std::uint64_t& slot(std::uint64_t hash) { return slots_[hash & (slots_.size() - 1)]; }
 
-    std::vector<std::uint64_t> slots_;  ///< a power of two of them, or none; free ones are 0
+    std::vector<std::uint64_t> slots_;  ///< their number is 0 or a power of two; 0 marks a free slot
 };
 
-/// Values by place, shared by all threads. A value is a pure function of its key, so what the cache holds
-/// never shows in a result: two threads that miss the same key at once compute it twice and keep one. No lock
-/// is held while a value is computed.
+/// A cache of values by key, shared by all threads. A value is a pure function of its key, so results never
+/// depend on the state of the cache: two threads that miss the same key at once compute it twice and keep one
+/// copy. No lock is held while a value is computed.
 ///
-/// Value: `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights it serves,
-/// mm).
+/// Value must have `std::size_t bytes() const` (its memory) and `Interval z_extent() const` (the heights that
+/// it serves, mm).
 ///
-/// Bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below that,
-/// what is kept beyond `idle` bytes is at most twice what lay near the request in z that last met a limit, so
-/// that a job that goes upwards needs no more memory the higher it gets. Where most of what is made had just
-/// gone, as by rays that cross the part in any order, the limit doubles. When a limit is reached, the
-/// values farthest in z from the last request, and among those the least recently used, go first, until three
-/// quarters are left. Values still held by callers live on until released.
+/// Memory bound: the sum of bytes() never exceeds `capacity` by more than the values being inserted. Below
+/// `capacity` a soft limit holds, at least `idle` bytes. Each eviction sets it to twice the memory of the
+/// values near the requested height, but no lower than half the limit before, so that a job that proceeds
+/// upwards needs no more memory the higher it gets. If most of the values inserted since the last eviction
+/// had recently been evicted, as with rays that cross the part in any order, the limit doubles. When the
+/// limit is exceeded, the values farthest in z from the last request are evicted first, among those the least
+/// recently used, until three quarters of the limit are left. Values still held by callers live on until
+/// released.
 template <typename Value>
 class CellCache {
   public:
@@ -67,7 +71,7 @@ class CellCache {
         for (Shard& shard : shards_) shard.limit = shard_idle_;
     }
 
-    /// The value at the key, or null when it is not held. `z` is the height for which it is wanted.
+    /// Returns the value at the key, null if it is not cached. `z` is the height for which it is wanted, mm.
     Pointer find(const PlaceKey& key, double z) {
         Shard& shard = shard_of(key);
         const std::lock_guard lock(shard.mutex);
@@ -78,7 +82,7 @@ class CellCache {
         return found->second.value;
     }
 
-    /// Offers a value; returns the one that the cache keeps (an equal one when another thread was faster).
+    /// Inserts a value and returns the cached one (an equal one if another thread was faster).
     Pointer insert(const PlaceKey& key, double z, Pointer value) {
         Shard& shard = shard_of(key);
         const std::lock_guard lock(shard.mutex);
@@ -94,14 +98,14 @@ class CellCache {
         return value;
     }
 
-    /// The value at the key, computed by `make()` (returning a Value) when it is not held.
+    /// Returns the value at the key. If it is not cached, computes it with `make()`, which returns a Value.
     template <typename Make>
     Pointer find_or_make(const PlaceKey& key, double z, const Make& make) {
         if (Pointer held = find(key, z)) return held;
         return insert(key, z, std::make_shared<const Value>(make()));
     }
 
-    /// The memory of all values held.
+    /// Returns the memory of all cached values, bytes.
     std::size_t bytes() const {
         std::size_t sum = 0;
         for (Shard& shard : shards_) {
@@ -119,8 +123,8 @@ class CellCache {
         Pointer value;
         std::uint64_t used = 0;
     };
-    // What lives as long as an entry stands in blocks of its own: strewn between a layer's buffers, entries
-    // would pin the holes that these leave, and memory would grow with the number of layers.
+    // Entries get memory blocks of their own. Scattered between a layer's buffers they would pin the holes
+    // that these leave, and memory would grow with the number of layers.
     struct Shard {
         std::mutex mutex;
         std::pmr::unsynchronized_pool_resource nodes{
@@ -129,14 +133,15 @@ class CellCache {
         std::size_t bytes = 0;
         std::uint64_t clock = 0;
         double wanted_z = 0;
-        std::size_t limit = 0;      ///< of bytes
-        RecentPlaces gone;          ///< evicted of late, and not wanted since
+        std::size_t limit = 0;      ///< bytes
+        RecentPlaces gone;          ///< recently evicted and not requested since
         std::size_t made = 0;       ///< inserted since the last eviction
-        std::size_t came_back = 0;  ///< of these, how many had been evicted
+        std::size_t came_back = 0;  ///< how many of `made` had recently been evicted
     };
     static constexpr std::size_t shard_count = 16;
-    static constexpr std::size_t remembered = 8;  ///< of those gone, at most so many for each that is held
-    static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;  // and its node
+    static constexpr std::size_t remembered = 8;  ///< size of `gone`, per cached value
+    // including the map node
+    static constexpr std::size_t entry_bytes = sizeof(std::pair<const PlaceKey, Entry>) + 48;
 
     static std::size_t cost(const Value& value) { return value.bytes() + entry_bytes; }
 

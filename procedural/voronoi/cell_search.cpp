@@ -12,14 +12,14 @@ namespace lamella {
 namespace {
 
 constexpr int margin = 4;          // octants gathered beyond the box on every side
-constexpr int block_radius = 2;    // octants on each side that are visited by distance
-constexpr double nowhere = 1e150;  // where empty octants keep their seed; its squared_length is finite
+constexpr int block_radius = 2;    // octants on each side of the block that is visited by distance
+constexpr double nowhere = 1e150;  // coordinate of the seed of an empty octant; its squared length is finite
 
 double distance_squared(const Box& b, dvec3 p) {
     return squared_length(glm::max(glm::max(b.lo - p, p - b.hi), dvec3(0.0)));
 }
 
-/// Every point is within sqrt(3) coarse sides of a seed, hence every cell inside this cube.
+/// Every point is within sqrt(3) coarse sides of a seed, so every cell is inside this cube.
 double start_half_side(const SeedTree& tree) { return 2 * tree.coarse_side(); }
 
 }  // namespace
@@ -85,7 +85,7 @@ void TreeSearch::clip_leaf(const SeedBlock& block, const SeedNode& node, const S
     for (std::uint32_t i = node.first_seed; i < node.first_seed + node.seed_count; ++i) {
         const dvec3 offset = block.positions[i] - own.position;
         if (squared_length(offset) >= 4 * cell.reach_squared() * rounding_margin) continue;
-        // The cell's own seed lies at offset zero and never cuts.
+        // The cell's own seed has offset zero and never cuts.
         if (cell.clip(offset, static_cast<std::int32_t>(sites_.size()))) sites_.push_back(block.seed(i));
     }
 }
@@ -165,7 +165,7 @@ bool RingSearch::gather(const Box& box) {
     return true;
 }
 
-/// Collects the other seeds of the 5^3 block and sorts them by distance into buckets.
+/// Collects the other seeds of the 5^3 block and bucket-sorts them by distance.
 void RingSearch::collect_block(glm::ivec3 center, dvec3 own, double limit_squared) {
     constexpr std::size_t buckets = 64;
     constexpr int width = 2 * block_radius + 1;
@@ -194,7 +194,7 @@ void RingSearch::collect_block(glm::ivec3 center, dvec3 own, double limit_square
     }
 }
 
-/// Clips by the seeds outside the 5^3 block that the cell can still feel.
+/// Clips by the seeds outside the 5^3 block that can still cut the cell.
 bool RingSearch::clip_beyond_block(glm::ivec3 center, dvec3 own, VoronoiCell& cell) {
     const Box region = cell.region_of_influence();
     const dvec3 from = glm::floor((region.lo + own - origin_) / spacing_);
@@ -228,7 +228,7 @@ bool RingSearch::cell(std::size_t own, VoronoiCell& cell) {
         if (center[axis] < block_radius || center[axis] >= size_[axis] - block_radius) return false;
     }
     cell.start(start_half_side(*tree_));
-    // The farthest corners of the block lie 3 sqrt(3) octants away.
+    // The farthest corners of the block are 3 sqrt(3) octants away.
     collect_block(center, position, 27 * spacing_ * spacing_ * rounding_margin);
     for (const Candidate& candidate : sorted_) {
         if (candidate.distance_squared >= 4 * cell.reach_squared() * rounding_margin) continue;

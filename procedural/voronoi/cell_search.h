@@ -1,5 +1,5 @@
-// Which seeds clip a cell, and in which order: from a list, best first over the tree, or in rings of a
-// lattice.
+// TreeSearch, RingSearch: exact Voronoi cells, clipped by seeds from a list, from the tree best first, or
+// from rings of a lattice.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace lamella {
 
-/// The cell of seeds[own] within a cube of the given half side about it; identifiers are indices into
-/// `seeds`. Seeds are clipped by distance, then key. Of equal positions the lowest key has the cell; false
-/// (and no cell) for the others.
+/// Computes the cell of seeds[own], clipped to a cube of the given half side around it, mm. Plane identifiers
+/// are indices into `seeds`. Seeds clip in order of distance, then key. Among seeds at equal positions the
+/// one with the lowest key has the cell; for the others returns false and no cell.
 bool cell_among(std::span<const Seed> seeds, std::size_t own, double half_side, VoronoiCell& cell);
 
-/// Cells in any density. Visits the tree best first and skips every node that could not cut the cell so far.
-/// Not thread-safe; reuse one per thread.
+/// Computes cells for any density. Visits the tree best first and prunes every node that cannot cut the cell
+/// any more. Not thread-safe; use one per thread.
 class TreeSearch {
   public:
     explicit TreeSearch(const SeedTree& tree) : tree_(&tree) {}
-    /// The exact cell of a seed of the tree; identifiers are indices into sites().
+    /// Computes the exact cell of a seed of the tree. Plane identifiers are indices into sites().
     void cell(const Seed& own, VoronoiCell& cell);
-    /// The seeds that the last cell was clipped by.
+    /// The seeds that clipped the last cell.
     std::span<const Seed> sites() const { return sites_; }
 
   private:
@@ -43,20 +43,22 @@ class TreeSearch {
     const SeedTree* tree_;
     std::vector<Visit> heap_;
     std::vector<Seed> sites_;
-    std::vector<std::shared_ptr<const SeedBlock>> blocks_;  ///< seen since construction
+    std::vector<std::shared_ptr<const SeedBlock>> blocks_;  ///< all that were used since construction
 };
 
-/// Cells where all leaves about have one level: the octants of the leaves form a lattice with at most one
-/// seed each, gathered once for many cells; a cell visits the lattice's 5^3 block by distance, then what the
-/// balls at its vertices still reach. Gives the cells of TreeSearch, bit for bit. Not thread-safe.
+/// Computes cells where all leaves nearby have one level, so that their octants form a lattice with at most
+/// one seed each. The lattice is gathered once for many cells. A cell is clipped by the seeds in its 5^3
+/// block of octants in order of distance, then by farther seeds within the balls around its vertices. The
+/// cells equal those of TreeSearch bit for bit. Not thread-safe.
 class RingSearch {
   public:
     explicit RingSearch(const SeedTree& tree) : tree_(&tree) {}
-    /// Gathers the seeds about a box. False when leaves there have several levels.
+    /// Gathers the seeds around a box. Returns false if the leaves there differ in level.
     bool gather(const Box& box);
-    /// The gathered seeds, in the order of keys; identifiers are indices into this.
+    /// The gathered seeds, in the order of keys. Plane identifiers are indices into this list.
     std::span<const Seed> sites() const { return sites_; }
-    /// The exact cell of sites()[own]. False when it may reach beyond what was gathered.
+    /// Computes the exact cell of sites()[own]. Returns false if the cell may reach beyond the gathered
+    /// seeds.
     bool cell(std::size_t own, VoronoiCell& cell);
 
   private:
@@ -76,7 +78,7 @@ class RingSearch {
     double spacing_ = 1;  ///< side of an octant of a leaf, mm
     double octants_per_mm_ = 1;
     dvec3 origin_{0};                    ///< lower corner of octant (0, 0, 0)
-    glm::ivec3 size_{0};                 ///< octants per axis
+    glm::ivec3 size_{0};                 ///< by octant; very far away for an empty one
     std::vector<std::int32_t> site_at_;  ///< by octant, -1 for none
     std::vector<double> x_, y_, z_;      ///< by octant; far away for none
     std::vector<Seed> sites_;

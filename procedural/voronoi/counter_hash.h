@@ -1,12 +1,12 @@
-// Counter-based randomness: a hash of (recipe seed, level, ix, iy, iz, draw), made of integer operations
-// only.
+// CounterHash: counter-based random numbers, a hash of (recipe seed, level, ix, iy, iz, draw) in integer
+// arithmetic.
 #pragma once
 
 #include <cstdint>
 
 namespace lamella {
 
-/// The SplitMix64 finaliser (Steele, Lea, Flood 2014): a bijection of 64 bits in which every input bit moves
+/// The SplitMix64 finaliser (Steele, Lea, Flood 2014): a bijection of 64 bits in which every input bit flips
 /// about half of the output bits.
 constexpr std::uint64_t mix(std::uint64_t v) {
     v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -14,7 +14,8 @@ constexpr std::uint64_t mix(std::uint64_t v) {
     return v ^ (v >> 31);
 }
 
-/// The random numbers of one place: any draw can be asked for in any order, and none depends on who asks.
+/// The random numbers of one node. Draws may be requested in any order and by any thread; draw n is always
+/// the same.
 class CounterHash {
   public:
     constexpr CounterHash(std::uint64_t recipe_seed, int level, std::int64_t x, std::int64_t y,
@@ -25,10 +26,10 @@ class CounterHash {
         state_ = mix(state_ + golden * static_cast<std::uint64_t>(z));
     }
 
-    /// 64 random bits.
+    /// Returns 64 random bits.
     constexpr std::uint64_t bits(std::uint64_t draw) const { return mix(state_ + golden * (draw + 1)); }
 
-    /// A uniform number strictly between 0 and 1, at least 2^-33 away from both ends, so that sums of
+    /// Returns a uniform number strictly between 0 and 1, at least 2^-33 away from both ends, so that sums of
     /// integers with rounding errors cannot cross the next integer.
     constexpr double uniform(std::uint64_t draw) const {
         return (static_cast<double>(bits(draw) >> 32) + 0.5) * 0x1p-32;

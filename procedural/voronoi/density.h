@@ -1,4 +1,4 @@
-// Density: how many seeds a unit of volume holds, asked at the nodes of the seed tree only.
+// Density: the number of seeds per volume, evaluated at the nodes of the seed tree only.
 #pragma once
 
 #include <span>
@@ -7,22 +7,22 @@
 
 namespace lamella {
 
-/// Seeds per cubic millimetre as a function of place. Immutable and thread-safe; deterministic.
+/// Seeds per cubic millimetre as a function of position. Immutable, thread-safe and deterministic.
 class Density {
   public:
     virtual ~Density() = default;
-    /// Encloses the density over the box, seeds per mm^3.
+    /// Returns bounds of the density over the box, seeds per mm^3.
     virtual Interval range(const Box& box) const = 0;
-    /// The integral of the density over the box, seeds; positive. Asked for where range * volume is at most
-    /// 8.
+    /// Returns the integral of the density over the box, in seeds; positive. Called where range * volume is
+    /// at most 8.
     virtual double integral(const Box& box) const = 0;
-    /// The integrals over many boxes, those of `integral`, seeds.
+    /// Computes the integrals over many boxes, equal to those of `integral`.
     virtual void integrals(std::span<const Box> boxes, std::span<double> out) const {
         for (std::size_t i = 0; i < boxes.size(); ++i) out[i] = integral(boxes[i]);
     }
 };
 
-/// The same density everywhere.
+/// A uniform density.
 class ConstantDensity : public Density {
   public:
     explicit ConstantDensity(double seeds_per_mm3) : seeds_per_mm3_(seeds_per_mm3) {}

@@ -1,5 +1,4 @@
-// Numbers of twice the precision of a double, as unevaluated sums, for the rare places where a double is
-// short.
+// DoubleDouble: numbers with twice the precision of a double, as unevaluated sums of two doubles.
 #pragma once
 
 namespace lamella {
@@ -21,7 +20,7 @@ inline DoubleDouble two_sum(double a, double b) {
     return {s, (a - (s - t)) + (b - t)};
 }
 
-/// The exact product of two doubles.
+/// Returns the exact product of two doubles.
 inline DoubleDouble two_product(double a, double b) {
     constexpr double splitter = 134217729;  // 2^27 + 1
     const double ca = splitter * a, cb = splitter * b;

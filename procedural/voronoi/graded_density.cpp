@@ -1,4 +1,4 @@
-// Density from cell size, integrated by octants where the size changes.
+// Integrates the density that follows from a cell size, by octants where the size varies.
 #include "procedural/voronoi/graded_density.h"
 
 namespace lamella {
@@ -33,10 +33,10 @@ double GradedDensity::integral(const Box& box) const {
     return whole;
 }
 
-/// A leaf of the seed tree holds eight seeds at most: a reading for each will do.
+/// A leaf of the seed tree holds at most eight seeds, so eight samples are enough.
 void GradedDensity::integrals(std::span<const Box> boxes, std::span<double> out) const {
     std::vector<Box> parts;
-    std::vector<std::size_t> ends;  // of each box's parts
+    std::vector<std::size_t> ends;  // end of each box's parts
     for (const Box& box : boxes) {
         const Interval cell = cell_->range(box);
         if (cell.hi <= steady * cell.lo) {

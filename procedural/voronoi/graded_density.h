@@ -1,4 +1,4 @@
-// The density of seeds that gives cells of a graded size.
+// GradedDensity: the density of seeds that gives cells of a graded size.
 #pragma once
 
 #include "engine/field/grading.h"
@@ -6,11 +6,12 @@
 
 namespace lamella {
 
-/// One seed per cell^3, the cell's size being a grading, mm. The integral over a box reads the size at its
-/// centre; where the size may change by more than 5 % within the box, at the centres of its eight octants.
+/// One seed per cell^3, where the cell size (mm) is a grading. The integral over a box samples the size at
+/// the box's centre, or, if the size may vary by more than 5 % within the box, at the centres of its eight
+/// octants.
 class GradedDensity : public Density {
   public:
-    /// The sizes must be positive everywhere.
+    /// `cell` must be positive everywhere.
     explicit GradedDensity(GradingPtr cell) : cell_(std::move(cell)) {}
     Interval range(const Box& box) const override;
     double integral(const Box& box) const override;

@@ -1,4 +1,4 @@
-// Halved boxes, the nearer child first.
+// Median splits and a depth-first search that visits the nearer child first.
 #include "procedural/voronoi/point_tree.h"
 
 #include <numeric>

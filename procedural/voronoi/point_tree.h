@@ -1,4 +1,4 @@
-// PointTree: which of many points is nearest, and which lie within a distance.
+// PointTree: nearest-point and radius queries over a set of points.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,24 @@
 
 namespace lamella {
 
-/// A bounding-volume tree over points. Immutable and thread-safe; the same answers whatever the machine.
+/// A bounding-volume hierarchy over points. Immutable and thread-safe; answers are the same on every machine.
 class PointTree {
   public:
     struct Nearest {
-        std::uint32_t point = 0;    ///< its number
-        double squared = infinity;  ///< of the distance, mm^2
+        std::uint32_t point = 0;    ///< index of the point
+        double squared = infinity;  ///< squared distance, mm^2
     };
 
     explicit PointTree(std::vector<dvec3> points);
 
     bool empty() const { return points_.empty(); }
     std::span<const dvec3> points() const { return points_; }
-    /// The nearest point, of equally near ones the one with the lowest number. `guess` is the number of a
-    /// point: the nearer it is, the sooner the search ends. There must be points.
+    /// Returns the nearest point; among equally near ones the one with the lowest index. `guess` is the index
+    /// of a point: the nearer it is, the sooner the search ends. The tree must not be empty.
     Nearest nearest(dvec3 p, std::uint32_t guess = 0) const;
-    /// The lesser of `limit` and the distance to the nearest point, mm.
+    /// Returns the distance to the nearest point, at most `limit`, mm.
     double distance_within(dvec3 p, double limit) const;
-    /// Appends the numbers of all points at most `radius` away.
+    /// Appends the indices of all points at most `radius` away.
     void within(dvec3 p, double radius, std::vector<std::uint32_t>& out) const;
 
   private:
@@ -41,7 +41,7 @@ class PointTree {
 
     std::vector<dvec3> points_;
     std::vector<std::uint32_t> order_;
-    std::vector<dvec3> sorted_;  ///< the points in that order
+    std::vector<dvec3> sorted_;  ///< the points in the order of order_
     std::vector<Node> nodes_;
 };
 

@@ -1,4 +1,4 @@
-// Walking the trees about a box for the largest diagonal that matters to it.
+// Walks the trees around a box for the largest relevant diagonal.
 #include "procedural/voronoi/seed_reach.h"
 #include "procedural/voronoi/rounding.h"
 

@@ -1,4 +1,4 @@
-// Growing a coarse cell's octree: counts dealt downwards, jittered seeds in the leaves.
+// Builds a coarse cell's octree: distributes counts downwards and jitters seeds in the leaves.
 #include "procedural/voronoi/seed_tree.h"
 
 #include <array>
@@ -10,14 +10,15 @@
 namespace lamella {
 namespace {
 
-constexpr int coarse_bits = 38;    // integer positions per coarse side, as a power of two
+constexpr int coarse_bits = 38;    // log2 of the integer positions per coarse side
 constexpr int fraction_bits = 21;  // random bits per axis within an octant of a leaf
-constexpr int deepest_level = 15;  // leaf octants then have 22 bits: 21 random ones and the half step
-constexpr double leaf_seeds = 8;   // a leaf holds one seed per octant at most on average
+constexpr int deepest_level = 15;  // octants of its leaves have 22 bits: 21 random ones and the half step
+constexpr double leaf_seeds = 8;   // maximum expected seeds of a leaf: one per octant
 constexpr double seeds_of_bcc_leaf = 2;
-constexpr double bcc_leaf_seeds = 5.656854249492381;  // between the 2 of a leaf and the 16 of its children
+// geometric mean of the 2 seeds of a leaf and the 16 of its children
+constexpr double bcc_leaf_seeds = 5.656854249492381;
 constexpr double share_rounding =
-    1 + 1e-9;  // a share of exactly eight seeds must not split by a share_rounding error
+    1 + 1e-9;  // an expected count of exactly eight must not split because of a rounding error
 constexpr std::size_t max_nodes = std::size_t{1} << 22;
 constexpr std::int64_t index_limit = std::int64_t{1} << 24;
 constexpr std::size_t block_cache_bytes = std::size_t{256} << 20;
@@ -27,8 +28,8 @@ enum Draw : std::uint64_t { draw_count, draw_order, draw_offset, draw_first_seed
 
 using Order = std::array<std::uint8_t, 8>;
 
-/// A uniformly random order of the eight octants (Fisher-Yates; the bias of 56 bits modulo 8! is below
-/// 1e-12).
+/// Returns a uniformly random order of the eight octants (Fisher-Yates; the bias of 56 bits modulo 8! is
+/// below 1e-12).
 Order random_order(std::uint64_t bits) {
     Order order = {0, 1, 2, 3, 4, 5, 6, 7};
     for (std::uint64_t i = 7; i > 0; --i) {
@@ -55,7 +56,7 @@ std::size_t SeedBlock::bytes() const {
     return sizeof(SeedBlock) + nodes.capacity() * sizeof(SeedNode) + positions.capacity() * sizeof(dvec3);
 }
 
-/// A block while it grows.
+/// A block under construction.
 struct SeedTree::Growth {
     SeedBlock block;
     std::vector<double> integrals;  ///< of the density, by node
@@ -126,7 +127,7 @@ std::shared_ptr<const SeedBlock> SeedTree::block(glm::i64vec3 index) const {
 std::vector<Seed> SeedTree::seeds_in(const Box& box) const {
     std::vector<Seed> seeds;
     if (box.empty()) return seeds;
-    // A position on a coarse cell's border may round out of it, hence the margin of one cell.
+    // A position on a coarse cell's border may round out of the cell, hence the margin of one cell.
     const glm::i64vec3 lo = block_index(box.lo) - std::int64_t{1};
     const glm::i64vec3 hi = block_index(box.hi) + std::int64_t{1};
     for (std::int64_t z = lo.z; z <= hi.z; ++z) {
@@ -169,7 +170,7 @@ SeedBlock SeedTree::make_block(glm::i64vec3 index) const {
     return std::move(growth.block);
 }
 
-/// Divides a node until no leaf expects more seeds than it has room for.
+/// Splits a node until no leaf expects more seeds than it can hold.
 void SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) const {
     const Box box = growth.block.nodes[node].box;
     const int level = growth.block.nodes[node].level;
@@ -193,7 +194,7 @@ void SeedTree::split(Growth& growth, std::size_t node, glm::i64vec3 corner) cons
     }
 }
 
-/// The density's integral over every node: over the leaves at once, and their sums.
+/// Integrates the density over every node: over all leaves at once, then sums upwards.
 void SeedTree::integrate(Growth& growth) const {
     const std::vector<SeedNode>& nodes = growth.block.nodes;
     std::vector<std::size_t> leaves;
@@ -207,7 +208,7 @@ void SeedTree::integrate(Growth& growth) const {
     if (!is_patterned()) density_->integrals(boxes, seeds);
     growth.integrals.assign(nodes.size(), 0);
     for (std::size_t i = 0; i < leaves.size(); ++i) growth.integrals[leaves[i]] = seeds[i];
-    // Children come behind their parents.
+    // Children follow their parents.
     for (std::size_t i = nodes.size(); i-- > 0;) {
         if (nodes[i].first_child < 0) continue;
         for (std::size_t octant = 0; octant < 8; ++octant)
@@ -231,8 +232,8 @@ void SeedTree::deal(Growth& growth, std::size_t node, glm::i64vec3 corner, std::
         return;
     }
 
-    // Systematic sampling: octants laid end to end in a random order, every whole number plus one offset is a
-    // seed. The last end is `count` by definition, so the counts add up whatever the share_rounding.
+    // Systematic sampling: lay the octants end to end in a random order; every integer plus one offset is a
+    // seed. The last end is `count` by definition, so the counts add up despite rounding.
     const auto first_child = static_cast<std::size_t>(here.first_child);
     const Order order = random_order(hash.bits(draw_order));
     const double offset = hash.uniform(draw_offset), total = growth.integrals[node];
@@ -267,7 +268,7 @@ void SeedTree::place(Growth& growth, const CounterHash& hash, int level, glm::i6
     const int unit_shift = coarse_bits - (level + 1) - (fraction_bits + 1);
     for (std::uint32_t i = 0; i < count; ++i) {
         std::uint64_t bits = hash.bits(draw_first_seed + i);
-        // Two seeds of one octant differ in the lowest bits, so positions are all different.
+        // Seeds that share an octant differ in the lowest bits, so all positions are different.
         if (count > 8) bits = (bits & ~lap_mask) | (i / 8);
         const glm::i64vec3 fraction(bits & fraction_mask, (bits >> fraction_bits) & fraction_mask,
                                     (bits >> (2 * fraction_bits)) & fraction_mask);
@@ -278,7 +279,7 @@ void SeedTree::place(Growth& growth, const CounterHash& hash, int level, glm::i6
     }
 }
 
-/// Seeds in the middles of two opposite octants, moved by less than half an octant.
+/// Places seeds at the centres of two opposite octants, moved by less than half an octant.
 void SeedTree::place_bcc(Growth& growth, const CounterHash& hash, int level, glm::i64vec3 corner) const {
     constexpr std::int64_t fraction_half = std::int64_t{1} << (fraction_bits - 1);
     constexpr std::int64_t fraction_mask = 2 * fraction_half - 1;

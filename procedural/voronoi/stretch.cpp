@@ -1,4 +1,4 @@
-// The stretch's matrices, and boxes about mapped boxes.
+// Matrices of a stretch, and bounding boxes of mapped boxes.
 #include "procedural/voronoi/stretch.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ Box Stretch::image(const glm::dmat3& map, const Box& box) {
     const dvec3 center = map * box.center(), half = box.size() * 0.5;
     dvec3 reach(0.0);
     for (int i = 0; i < 3; ++i) reach += glm::abs(map[i]) * half[i];
-    // A hair more than the image, for the map rounds.
+    // Slightly more than the image, to cover the rounding of the map.
     const double slack = 1e-12 * std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z),
                                            reach.x, reach.y, reach.z});
     return {center - reach - slack, center + reach + slack};

@@ -5,23 +5,23 @@
 
 namespace lamella {
 
-/// Makes a foam orthotropic: its cells are round in the space of the seeds and stretched in the part's. Beams
-/// stay round: only their ends are mapped.
+/// Makes a foam orthotropic: cells are isotropic in seed space and stretched in part space. Beams stay round,
+/// because only their ends are mapped.
 class Stretch {
   public:
     Stretch() = default;
-    /// Stretches by factors along three axes at right angles, the columns of `axes`. InputError unless the
-    /// factors are positive and finite.
+    /// Stretches by `factors` along three orthonormal axes, the columns of `axes`. Throws InputError unless
+    /// the factors are positive and finite.
     Stretch(const glm::dmat3& axes, dvec3 factors);
 
     bool identity() const { return identity_; }
     dvec3 to_part(dvec3 seed_space) const { return identity_ ? seed_space : forward_ * seed_space; }
     dvec3 to_seeds(dvec3 part_space) const { return identity_ ? part_space : inverse_ * part_space; }
-    /// The box about the box's image.
+    /// Returns the bounding box of the box's image.
     Box to_part(const Box& box) const { return identity_ ? box : image(forward_, box); }
-    /// The box about the box's preimage.
+    /// Returns the bounding box of the box's preimage.
     Box to_seeds(const Box& box) const { return identity_ ? box : image(inverse_, box); }
-    /// How much longer a length can be among the seeds than in the part.
+    /// Returns the largest ratio of a length in seed space to its length in part space.
     double seeds_per_part() const { return seeds_per_part_; }
 
   private:
@@ -32,7 +32,7 @@ class Stretch {
     bool identity_ = true;
 };
 
-/// Axes turned by angles about x, then y, then z, degrees.
+/// Returns axes rotated about x, then y, then z, by angles in degrees.
 glm::dmat3 turned_axes(dvec3 degrees);
 
 }  // namespace lamella

@@ -12,7 +12,7 @@ constexpr double tie_tolerance = 1e-12;
 }  // namespace
 
 void VoronoiCell::start(double half_side) {
-    // Planes 0 and 1 bound x, 2 and 3 y, 4 and 5 z; the even ones from below.
+    // Planes 0 and 1 bound x, 2 and 3 y, 4 and 5 z; the even ones are the lower bounds.
     ids_.assign({-6, -5, -4, -3, -2, -1});
     border_at_.assign(6, -1);
     resize(8);
@@ -22,8 +22,8 @@ void VoronoiCell::start(double half_side) {
         x_[at] = bit_x ? half_side : -half_side;
         y_[at] = bit_y ? half_side : -half_side;
         z_[at] = bit_z ? half_side : -half_side;
-        // The edge on planes x and y leads to the corner across z, and so on; the order of the planes turns
-        // with the parity of the corner.
+        // The edge on planes x and y leads to the neighbour across z, and so on cyclically. The orientation
+        // alternates with the parity of the corner.
         const bool odd = (bit_x + bit_y + bit_z) % 2 != 0;
         const std::int32_t px = bit_x, py = 2 + bit_y, pz = 4 + bit_z;
         links_[at] =
@@ -49,8 +49,9 @@ bool VoronoiCell::clip(dvec3 offset, std::int32_t id) {
 
     double tolerance = tie_tolerance * (std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z)) *
                        std::sqrt(reach_squared_);
-    // Seeds within rounding of a tie can leave a hole that is not one loop. A plane moved outwards by
-    // rounding's measure cuts less, in the end nothing; what it should have cut has no extent.
+    // Nearly tied seeds can leave a hole that is not a single loop, because of rounding. Moving the plane
+    // outwards by the size of the rounding error cuts less, in the end nothing; the volume that is missed
+    // then is negligible.
     while (most > tolerance) {
         if (border_of_cut(tolerance)) {
             const auto plane = static_cast<std::int32_t>(ids_.size());
@@ -65,8 +66,8 @@ bool VoronoiCell::clip(dvec3 offset, std::int32_t id) {
     return false;
 }
 
-/// Finds the vertices beyond the plane and the loop of edges round them. False when the border is not one
-/// loop or the whole cell would go.
+/// Finds the vertices beyond the plane and the loop of edges around them. Returns false if the border is not
+/// a single loop or the whole cell would be cut off.
 bool VoronoiCell::border_of_cut(double tolerance) {
     cut_.clear();
     border_.clear();
@@ -103,7 +104,7 @@ bool VoronoiCell::border_of_cut(double tolerance) {
     return false;
 }
 
-/// Closes the hole with a fan of triangles about the new plane.
+/// Closes the hole with a fan of triangles around the new plane.
 void VoronoiCell::replace_cut_vertices(std::int32_t plane) {
     const std::size_t old_count = links_.size();
     slots_ = cut_;
@@ -128,7 +129,7 @@ void VoronoiCell::replace_cut_vertices(std::int32_t plane) {
         relink(edge.outside, edge.to, edge.from, slot);
     }
 
-    // Vertices left over are filled from the end; `cut_` is ascending, so the last holes go first.
+    // Fill surplus vertices from the end. `cut_` is ascending, so the last holes go first.
     std::size_t count = links_.size();
     for (std::size_t i = cut_.size(); i > border_.size(); --i) {
         --count;
