@@ -66,8 +66,8 @@ struct LinkStatus {
     double seconds = 0;  ///< time since the printer was connected
 };
 
-/// A print over a serial port. A thread of its own owns the port; all functions may be called from other
-/// threads.
+/// A print over a serial port. A thread of its own owns the port. `status` and the requests `pause`,
+/// `resume`, `choose`, `stop` and `halt` may be called from any thread.
 ///
 ///     LinkSettings settings;
 ///     settings.port = "/dev/ttyACM0";
