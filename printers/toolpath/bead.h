@@ -69,9 +69,8 @@ struct LineSettings {
 
     static constexpr double max_extra_flow = 1.3;  ///< more flow would make the bead bulge
     static constexpr double min_flow = 0.7;        ///< less flow would leave gaps
-    static constexpr double narrowest = 0.3;  ///< smallest width, in nominal widths; thinner threads tear
-    static constexpr double widest_tapered =
-        1.5;  ///< largest width, in nominal widths; thicker parts get two beads
+    static constexpr double narrowest = 0.3;       ///< in nominal widths; thinner threads tear
+    static constexpr double widest_tapered = 1.5;  ///< in nominal widths; thicker parts get two beads
 };
 
 }  // namespace lamella

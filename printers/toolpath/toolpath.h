@@ -31,13 +31,12 @@ struct Toolpaths {
     std::vector<Polygons>
         outlines;     ///< outlines of the islands with several beads, by Bead::island; within the tolerance
     int islands = 0;  ///< number of pieces of the layer
-    int islands_left_out =
-        0;  ///< number of islands without a bead: those smaller than a quarter of line_width^2
+    int islands_left_out = 0;  ///< islands smaller than a quarter of line_width^2: no bead
 };
 
 /// Plans the beads of a layer. Each island gets its walls, the outermost half a width inside its contours,
-/// then infill. At density 1 infill has the volume of the region inside the walls, and every island that
-/// consists of beads alone has its exact volume.
+/// then infill. At density 1 infill has the volume of the region inside the walls, and the beads of
+/// every island without sparse infill have the island's volume.
 ///
 /// Parts that one bead fills get one along their middle, of varying width (see find_thin_parts). Every other
 /// island of at least a quarter of the line width squared also gets a bead. Where a wall would vanish,

@@ -14,8 +14,7 @@ namespace lamella {
 struct BeamLatticeReport {
     std::size_t vertices = 0;  ///< nodes
     std::size_t beams = 0;
-    std::size_t dropped =
-        0;  ///< beams dropped because both ends round to one point, which the format forbids
+    std::size_t dropped = 0;  ///< beams whose ends round to one point, which the format forbids
 };
 
 /// Writes beams (mm) as a 3MF model: one object of nodes and beams with sphere caps, no triangles (3MF core
