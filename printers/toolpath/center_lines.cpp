@@ -265,8 +265,8 @@ void extend_end(std::size_t index, std::vector<CenterLine>& lines, double by, do
 
 /// Returns true if walls of this thickness around the ribbon make up the piece.
 bool is_even(const Polygons& piece, const Polygons& ribbon, double thickness, double tolerance) {
-    constexpr double widest_joint =
-        0.8;  // where walls cross at right angles the largest disc has a radius of 0.71 thicknesses
+    // Radius of the largest disc, in thicknesses: 0.71 where walls cross at right angles.
+    constexpr double widest_joint = 0.8;
     if (!offset_polygons(piece, -widest_joint * thickness).empty()) return false;
     const double grow = (0.5 - ribbon_share) * thickness + tolerance;
     const Polygons rest = subtract_polygons(piece, offset_polygons(ribbon, grow));

@@ -68,7 +68,7 @@ std::vector<Bead> concentric_loops(const Polygons& region, double density, const
     const double pitch = line.spacing() / density;
     const Role role = density < 1 ? Role::internal_infill : Role::solid_infill;
     std::vector<Bead> beads;
-    // Each loop is the offset of the one before it, because inner offsets soon become small.
+    // Each loop is offset from the one before, not from the border: the inner loops are soon small.
     Polygons loops = offset_polygons(region, -pitch / 2);
     while (!loops.empty()) {
         for (const ClipperLib::Path& loop : loops)

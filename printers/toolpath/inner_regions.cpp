@@ -8,9 +8,8 @@
 namespace lamella {
 namespace {
 
-constexpr double anchor = 3;  // overlap of bridges and solid parts with their surroundings, in widths
-constexpr double min_bridge =
-    9;  // in widths squared; smaller unsupported regions are filled as if they were supported
+constexpr double anchor = 3;       // overlap of bridges and solid parts with their surroundings, in widths
+constexpr double min_bridge = 9;   // in widths squared; smaller unsupported regions are no bridges
 constexpr double min_sparse = 64;  // in widths squared; smaller sparse regions become solid
 
 /// Returns the opening: removes everything narrower than `width` mm.

@@ -68,8 +68,8 @@ ClipperLib::Path bar(dvec2 a, dvec2 b, double width) {
     return to_polygon({a - side, b - side, b + side, a + side});
 }
 
-/// Among the samples of one piece, from `from` on, that face another piece at about the least distance,
-/// returns the middle one: a bar between straight borders should not overhang a corner.
+/// Among the samples of one piece near `from` that face another piece at about the least distance, returns
+/// the middle one: a bar between straight borders should not overhang a corner.
 dvec2 middle_of_facing(std::span<const dvec2> samples, const Polygons& other, dvec2 from, double width) {
     const auto distance = [](dvec2 a, dvec2 b) { return std::sqrt(dot(b - a, b - a)); };
     const double longest = distance(from, nearest_on(other, from)) + width / 8;
