@@ -27,26 +27,23 @@ struct GcodeProfile {
     double min_layer_time = 0;                  ///< least time of a layer, s; faster layers are slowed down
     double min_speed = 10;                      ///< speed below which no layer is slowed down
     double wall_speed = 0, inner_wall_speed = 0, infill_speed = 0, solid_speed = 0,
-           thin_speed = 0;    ///< speeds by role of the bead; 0: print_speed
-    double bridge_speed = 0;  ///< speed of bridging beads; 0: as for supported beads
-    double bridge_flow =
-        1;  ///< extruded volume of bridging beads, relative to the volume of their cross-section
+           thin_speed = 0;      ///< speeds by role of the bead; 0: print_speed
+    double bridge_speed = 0;    ///< speed of bridging beads; 0: as for supported beads
+    double bridge_flow = 1;     ///< extruded volume of bridging beads, relative to their cross-section
     double bridge_fan = 0;      ///< least fan speed while bridging, as a share of full speed
     bool travel_inside = true;  ///< travel between beads of one island inside the island where possible
     double retract_from = 2;    ///< least length of a travel outside the part that retracts the filament
-    double retract_inside_from =
-        10;                 ///< least length of a travel inside an island that retracts the filament
+    double retract_inside_from = 10;  ///< least length of a travel inside an island that retracts
     double wipe = 0;        ///< length of the last bead along which the nozzle is wiped during retraction
     double z_hop = 0;       ///< rise of the nozzle during a retracted travel
     double z_hop_from = 0;  ///< least length of a travel with z_hop
     double acceleration = 1000;  ///< default acceleration of the machine
-    double wall_acceleration = 0, travel_acceleration = 0,
-           first_layer_acceleration = 0;  ///< 0: the same as `acceleration`
-    double junction_deviation = 0.013;    ///< of corners; for classic jerk j: 0.4 j^2 / acceleration
-    int planner_blocks = 16;              ///< moves in the machine's look-ahead buffer
-    double lines_per_second = 0;          ///< highest rate of lines that the machine can take; 0: unlimited
-    bool thumbnails = false;  ///< embed pictures of the part for hosts; they must be rendered first
-    bool arcs = false;        ///< emit G2 and G3 where an arc fits within the tolerance
+    double wall_acceleration = 0, travel_acceleration = 0, first_layer_acceleration = 0;  ///< 0: default
+    double junction_deviation = 0.013;  ///< of corners; for classic jerk j: 0.4 j^2 / acceleration
+    int planner_blocks = 16;            ///< moves in the machine's look-ahead buffer
+    double lines_per_second = 0;        ///< highest rate of lines that the machine can take; 0: unlimited
+    bool thumbnails = false;            ///< embed pictures of the part for hosts; they must be rendered first
+    bool arcs = false;                  ///< emit G2 and G3 where an arc fits within the tolerance
 };
 
 /// How a GRBL laser cuts layers.

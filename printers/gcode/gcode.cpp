@@ -191,8 +191,7 @@ class Gcode : public Backend {
         }
         Toolpaths paths;
         paths.beads = skirt_beads(standing, profile_.toolpath, line());
-        if (!paths.beads.empty())
-            paths.outlines.emplace_back();  // an empty outline: travel need not stay inside
+        if (!paths.beads.empty()) paths.outlines.emplace_back();  // empty: travel is not confined
         return paths;
     }
 

@@ -45,7 +45,7 @@ double corner_speed(const MotionMove& before, const MotionMove& after, double ju
     const double acceleration = std::min(before.acceleration, after.acceleration);
     double square = acceleration * junction_deviation * sine / (1 - sine);
     for (const MotionMove* leg : {&before, &after}) {
-        // The tangent arc begins at the middle of a leg or later.
+        // The tangent arc covers at most half of a leg.
         if (leg->radius == 0) square = std::min(square, acceleration * leg->length / 2 * sine / cosine);
     }
     return std::min(most, std::sqrt(square));

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int display_width = 1280, display_height = 800;  // px
 
-/// Returns the layer height in whole micrometres, which the machine requires. Throws InputError if it is not,
-/// because the remainder would add up over the layers.
+/// Returns the layer height in whole micrometres, the unit of the machine. Throws InputError for any other
+/// height, because the rounding error would add up over the layers.
 int micrometres(double layer_height) {
     const double exact = layer_height * 1000;
     const double whole = std::round(exact);

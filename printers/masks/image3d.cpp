@@ -179,8 +179,7 @@ class Image3d : public Backend {
             "tilestylev=\"clamp\" tilestylew=\"clamp\"/>\n",
             function, xml_attribute(name), image);
         const Box box = grid();
-        const dvec3 scale = dvec3(1) / box.size(),
-                    shift = dvec3(0) - box.lo * scale;  // subtracted, to avoid minus zero
+        const dvec3 scale = dvec3(1) / box.size(), shift = dvec3(0) - box.lo * scale;  // no minus zero
         text += fmt::format(
             "<object id=\"{}\" type=\"{}\" name=\"{}\">\n<v:levelset functionid=\"{}\" channel=\"red\" "
             "meshid=\"{}\" meshbboxonly=\"true\" fallbackvalue=\"1\" transform=\"{} 0 0 0 {} 0 0 0 {} {} {} "

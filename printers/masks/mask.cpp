@@ -224,7 +224,7 @@ class SolidMask {
     std::vector<GreySum> sums_, next_sums_;
 };
 
-/// Returns the heights within a layer of the planes whose masks are averaged.
+/// Returns the heights of the averaged planes within a layer, as fractions of the layer height.
 std::vector<double> shares_of(const ImageProfile& profile) {
     std::vector<double> shares;
     shares.reserve(static_cast<std::size_t>(profile.sub_layers));

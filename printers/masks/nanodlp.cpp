@@ -86,8 +86,7 @@ class NanoDlp : public Backend {
         layout_.emplace(profile_.image, job.bounds);
         colors_ = png_colors(profile_.nanodlp.pixels);
         std::vector<std::byte> unused;
-        const PngWriter check(
-            header(), unused);  // reports an invalid width for the colours before any layer is rendered
+        const PngWriter check(header(), unused);  // rejects an invalid width before any layer is rendered
         if (range.count() > max_layers) {
             throw InputError(fmt::format("{} layers are too many for NanoDLP; accepted: {} or fewer",
                                          range.count(), max_layers));

@@ -17,8 +17,7 @@
 namespace lamella {
 
 struct SenderSettings {
-    std::size_t window =
-        127;  ///< most bytes that may be unanswered; one less than the printer's receive buffer
+    std::size_t window = 127;   ///< most bytes unanswered; one less than the printer's receive buffer
     bool ping_pong = false;     ///< send one line at a time
     bool within_slots = false;  ///< send no more lines than the printer reports free slots (ADVANCED_OK)
     double greeting = 3;        ///< time that a board reset by opening the port may stay silent, s

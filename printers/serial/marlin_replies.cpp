@@ -11,9 +11,8 @@ constexpr int max_askings = 10;              // resend requests for one line
 constexpr std::int64_t believable = 32;      // lines by which the count of oks may be ahead of the printer
 constexpr std::int64_t careful_lines = 256;  // after a resend
 constexpr double missing_ok = 0.5;           // s to wait for the ok of a resend request, which may not come
-constexpr double straggling =
-    0.05;  // s after its repetition from which a resend request refers to the repeated line
-constexpr double boot_quiet = 0.5;  // s from a board's first word until it is ready
+constexpr double straggling = 0.05;          // s after which a resend request refers to the repeated line
+constexpr double boot_quiet = 0.5;           // s from a board's first word until it is ready
 
 }  // namespace
 

@@ -45,8 +45,7 @@ class MarlinSender : public LineSender {
         std::int64_t job = 0;  ///< number of lines of the job up to and including this one
         bool marker = false;   ///< is an M105, whose ok reports temperatures
         bool slow = false;     ///< may take minutes
-        bool waits =
-            false;  ///< waits for heat or for a person: no line is sent after it until it is answered
+        bool waits = false;    ///< waits for heat or a person: nothing is sent after it until it is answered
         std::size_t size = 0;  ///< bytes on the wire
     };
 
@@ -120,9 +119,8 @@ class MarlinSender : public LineSender {
     bool dialog_shown_ = false;
 
     bool busy_seen_ = false;
-    double sign_of_work_ =
-        0;             // time of the last ok, busy or heating line, or of the first line after a pause
-    int tickles_ = 0;  // timeouts in a row without an ok
+    double sign_of_work_ = 0;  // last ok, busy or heating line, or first line after a pause
+    int tickles_ = 0;          // timeouts in a row without an ok
     double first_tickle_ = 0;
     std::int64_t tickled_ = -1;
     bool tells_temperatures_ = false;  // M105 is answered by "ok T:"

@@ -30,8 +30,7 @@ struct DryRun {
     std::int64_t lines = 0, bytes = 0;
     double seconds = 0;  ///< time of motion at the programmed speeds, without acceleration, s
     LinkNeed need;
-    double sending_seconds =
-        0;  ///< time that sending took on this computer, to a machine that answers at once
+    double sending_seconds = 0;  ///< time that sending took here, to a machine that answers at once, s
 };
 
 /// Makes an output that sends a job to a simulated machine, which answers at once. Fills `report`.

@@ -27,11 +27,10 @@ struct LayerNeighborhood {
 };
 
 struct Toolpaths {
-    std::vector<Bead> beads;  ///< in printing order
-    std::vector<Polygons>
-        outlines;     ///< outlines of the islands with several beads, by Bead::island; within the tolerance
-    int islands = 0;  ///< number of pieces of the layer
-    int islands_left_out = 0;  ///< islands smaller than a quarter of line_width^2: no bead
+    std::vector<Bead> beads;         ///< in printing order
+    std::vector<Polygons> outlines;  ///< of islands with several beads, by Bead::island; within tolerance
+    int islands = 0;                 ///< number of pieces of the layer
+    int islands_left_out = 0;        ///< islands smaller than a quarter of line_width^2: no bead
 };
 
 /// Plans the beads of a layer. Each island gets its walls, the outermost half a width inside its contours,
