@@ -88,7 +88,7 @@ std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> poi
 }  // namespace
 
 void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bead>& out) {
-    std::vector<dvec2> ends;  // two for each bead; a loop is represented by its first point
+    std::vector<dvec2> ends;  // two per bead; a loop may begin anywhere, its first point stands for it
     for (const Bead& bead : beads) {
         ends.push_back(bead.points.front());
         ends.push_back(bead.closed ? bead.points.front() : bead.points.back());

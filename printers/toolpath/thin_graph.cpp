@@ -165,7 +165,7 @@ void ThinGraph::pass_lines(const std::vector<std::uint32_t>& knot) {
             if (degree[node] == 1 && std::ranges::find(ends, node) == ends.end()) loose.push_back(node);
         }
     }
-    // Dead ends are removed edge by edge, as far as the round end of a line covers what they lead to.
+    // Dead ends become sides, edge by edge, as far as the round end of a line covers what they lead to.
     constexpr double covers = 1.5;  // radii
     std::vector<double> reach(axis_.nodes.size());
     while (!loose.empty()) {

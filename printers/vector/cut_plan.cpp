@@ -142,7 +142,7 @@ CutPlan plan_cuts(const Job& job, const Layer& layer, const CuttingProfile& prof
         }
     }
     for (const ClipperLib::Path& score : scores) planner.line(CutPurpose::score, to_points(score));
-    // Marks are placed on the part only, because the tie bars are cut off later.
+    // Marks are placed on the part only, because the tie bars are removed later.
     if (profile.ties == Ties::join && pieces.size() > 1) {
         section = unite_polygons(section, tie_bars(pieces, profile.tie_width));
     }
