@@ -1,4 +1,4 @@
-// Bits packed into bytes, the lowest first, as deflate sends them.
+// BitWriter: packs bits into bytes, the lowest first, in the order of deflate.
 #pragma once
 
 #include <bit>
@@ -9,19 +9,19 @@
 
 namespace lamella {
 
-/// Appends bits to a vector of bytes, which is as long as it should be after `finish`.
+/// Appends bits to a byte vector. The vector has its final size after `finish`.
 class BitWriter {
   public:
-    /// `most` bounds the bytes that will be written.
+    /// `most` is an upper bound of the bytes that will be written.
     BitWriter(std::vector<std::byte>& out, std::size_t most) : out_(out), start_(out.size()) {
         out_.resize(start_ + most + sizeof buffer_);
         next_ = out_.data() + start_;
     }
-    /// Appends the low `count` bits of `bits`, whose other bits are 0; count <= 48.
+    /// Appends the low `count` bits of `bits`; the other bits must be 0, count <= 48.
     void put(std::uint64_t bits, unsigned count) {
         buffer_ |= bits << filled_;
         filled_ += count;
-        // All eight bytes go out each time, though only the full ones count: one store and no branch.
+        // Always stores all eight bytes, although only the full ones count: one store and no branch.
         if constexpr (std::endian::native == std::endian::little) {
             std::memcpy(next_, &buffer_, sizeof buffer_);
         } else {

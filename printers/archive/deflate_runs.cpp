@@ -1,4 +1,4 @@
-// Runs to steps, steps to one dynamic Huffman block.
+// Encodes runs as steps, and steps as one dynamic Huffman block.
 #include "printers/archive/deflate_runs.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ constexpr std::size_t end_of_block = 256;
 constexpr std::size_t literal_symbols = 286;
 constexpr std::size_t distance_symbols = 30;
 
-/// A deflate symbol with the extra bits that follow it.
+/// A deflate symbol and its extra bits.
 struct Symbol {
     std::uint16_t symbol;
     std::uint8_t extra_bits;
     std::uint16_t extra;
 };
 
-/// Symbols of match lengths 3 to 258 (RFC 1951, section 3.2.5), indexed by the length.
+/// Symbols of match lengths 3 to 258 (RFC 1951, section 3.2.5), indexed by length.
 constexpr std::array<Symbol, max_match + 1> make_length_symbols() {
     std::array<Symbol, max_match + 1> table{};
     std::uint32_t length = min_match;
@@ -42,17 +42,17 @@ constexpr auto length_symbols = make_length_symbols();
 Symbol distance_symbol(std::uint32_t distance) {
     const std::uint32_t d = distance - 1;
     if (d < 4) return {static_cast<std::uint16_t>(d), 0, 0};
-    std::uint32_t bits = 1;  // extra bits: two less than the bits of d
+    std::uint32_t bits = 1;  // number of extra bits: two less than the bits of d
     while (d >> (bits + 2) != 0) ++bits;
     const std::uint32_t half = d >> bits & 1;
     return {static_cast<std::uint16_t>(2 * (bits + 1) + half), static_cast<std::uint8_t>(bits),
             static_cast<std::uint16_t>(d & ((1U << bits) - 1))};
 }
 
-/// The checksum of a row of `row_bytes` bytes: 0, then the runs.
+/// Returns the checksum of a row of `row_bytes` bytes: 0, then the runs.
 Adler sum_row(std::span<const GreyRun> runs, std::uint32_t row_bytes) {
-    // A byte counts as often in the second sum as there are bytes from it on: n bytes that begin where k are
-    // left count (2 k - n + 1) / 2 times on average.
+    // The second sum counts each byte as often as there are bytes from it to the end. For n bytes of which
+    // the first is followed by k - 1 others, that is (2 k - n + 1) / 2 times on average.
     std::uint64_t first = 0, twice_second = 0;
     std::uint64_t left = row_bytes - 1;
     for (const GreyRun& run : runs) {
@@ -64,7 +64,7 @@ Adler sum_row(std::span<const GreyRun> runs, std::uint32_t row_bytes) {
     return {first, twice_second / 2, row_bytes};
 }
 
-/// Calls row(runs) for each row, checking that each has `width` pixels.
+/// Calls row(runs) for each row. Throws FaultError unless each row has `width` pixels.
 template <typename Row>
 void visit_rows(std::span<const GreyRun> runs, std::uint32_t width, int rows, Row row) {
     std::size_t next = 0;
@@ -84,7 +84,7 @@ void visit_rows(std::span<const GreyRun> runs, std::uint32_t width, int rows, Ro
     }
 }
 
-/// One step of the code that sends the code lengths (RFC 1951, section 3.2.7).
+/// A symbol of the code that transmits the code lengths (RFC 1951, section 3.2.7).
 struct LengthStep {
     std::uint8_t symbol;
     std::uint8_t extra;
@@ -120,7 +120,7 @@ std::vector<LengthStep> length_steps(std::span<const std::uint8_t> lengths) {
     return steps;
 }
 
-/// Huffman codes of a block.
+/// The Huffman codes of a block.
 struct BlockCodes {
     std::array<std::uint8_t, literal_symbols> literal_lengths{};
     std::array<std::uint16_t, literal_symbols> literal_codes{};
@@ -164,7 +164,7 @@ void write_header(const BlockCodes& codes, BitWriter& bits) {
     }
 }
 
-/// How often each step comes.
+/// Number of occurrences of each step.
 using StepCounts = std::array<std::uint32_t, step_kinds>;
 
 StepCounts count_steps(std::span<const Step> steps) {
@@ -179,13 +179,13 @@ struct Match {
     Symbol distance;
 };
 
-/// Calls literal(step) and match(step, symbols) for the steps that come at all.
+/// Calls literal(step) and match(step, symbols) for all steps that occur.
 template <typename Literal, typename OnMatch>
 void visit_steps(const StepCounts& counts, std::uint32_t row_bytes, Literal literal, OnMatch match) {
     for (Step value = 0; value < 256; ++value) {
         if (counts[value] > 0) literal(value);
     }
-    // A row too long to be copied leaves the second distance unused.
+    // If a row is too long to be copied, the second distance stays unused.
     const Symbol byte_back = distance_symbol(1),
                  row_back = distance_symbol(std::min(row_bytes, max_distance));
     for (std::uint32_t length = min_match; length <= max_match; ++length) {
@@ -213,7 +213,7 @@ BlockCodes make_codes(const StepCounts& counts, std::uint32_t row_bytes) {
     return codes;
 }
 
-/// The bits that send a step.
+/// The bits that encode a step.
 struct StepBits {
     std::uint64_t bits = 0;
     unsigned count = 0;
@@ -224,7 +224,7 @@ struct StepBits {
     }
 };
 
-/// Of all steps that come; the others have none.
+/// Returns the bits of all steps that occur; the others have none.
 std::array<StepBits, step_kinds> step_bits(const StepCounts& counts, std::uint32_t row_bytes,
                                            const BlockCodes& codes) {
     std::array<StepBits, step_kinds> table{};
@@ -262,7 +262,7 @@ void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vect
     const StepCounts counts = count_steps(steps);
     const BlockCodes codes = make_codes(counts, row_bytes);
     const std::array<StepBits, step_kinds> table = step_bits(counts, row_bytes, codes);
-    std::uint64_t size = 0;  // in bits
+    std::uint64_t size = 0;  // bits
     for (std::size_t step = 0; step < step_kinds; ++step)
         size += std::uint64_t{counts[step]} * table[step].count;
     constexpr std::size_t header_bytes = 1024;
@@ -270,14 +270,14 @@ void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vect
     write_header(codes, bits);
     for (const Step step : steps) bits.put(table[step].bits, table[step].count);
     bits.put(codes.literal_codes[end_of_block], codes.literal_lengths[end_of_block]);
-    bits.put(0, 3);  // an empty stored block, which ends on a byte border
+    bits.put(0, 3);  // an empty stored block, which ends on a byte boundary
     bits.align();
     bits.put(0xffff0000, 32);
     bits.finish();
 }
 
 void deflate_end(std::vector<std::byte>& out) {
-    // The last block with the fixed codes: 1, then 01, then the seven zeros of the end of block.
+    // The final block with the fixed codes: 1, then 01, then the seven zeros of the end of block.
     out.push_back(std::byte{3});
     out.push_back(std::byte{0});
 }

@@ -1,4 +1,4 @@
-// Deflate straight from runs of grey values, without the pixels in between.
+// Deflate compression of grey runs, without expanding them into pixels.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 namespace lamella {
 
 /// Compresses `rows` PNG rows (a filter byte 0, then `width` grey values each) and appends the result to
-/// `out`: one deflate block with codes of its own and an empty stored block, so that it ends on a byte border
-/// and refers to nothing before it (RFC 1951; the flush of RFC 7692). Bands can hence be made anywhere and be
-/// joined in order; the stream is closed by deflate_end. Runs become distance-1 matches, rows that repeat the
-/// row before become matches one row back.
+/// `out`. The output is one deflate block with its own codes and an empty stored block. It ends on a byte
+/// boundary and refers to nothing before it (RFC 1951; the flush of RFC 7692), so bands can be compressed on
+/// any thread and be joined in order. deflate_end closes the stream. Runs become matches at distance 1; rows
+/// that repeat the row before become matches one row back.
 ///
 /// The runs of each row must sum to `width` (1 to 65535) and may have length 0; `rows` is 1 to 4096. Throws
-/// FaultError where they do not. The checksum of the uncompressed bytes is appended to `adler`.
+/// FaultError otherwise. Appends the checksum of the uncompressed bytes to `adler`.
 void compress_band(std::span<const GreyRun> runs, int width, int rows, std::vector<std::byte>& out,
                    Adler& adler);
 
-/// Appends an empty last block, which ends a deflate stream.
+/// Appends an empty final block, which ends a deflate stream.
 void deflate_end(std::vector<std::byte>& out);
 
 }  // namespace lamella

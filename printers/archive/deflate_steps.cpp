@@ -1,4 +1,4 @@
-// Runs written with hardly a branch on their lengths.
+// Encodes runs with almost no branches on their lengths.
 #include "printers/archive/deflate_steps.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-/// Calls match(length) for pieces of 3 to 258 bytes that sum to `count`, which is at least 3.
+/// Calls match(length) for pieces of 3 to 258 bytes that sum to `count` (at least 3).
 template <typename Match>
 void split_match(std::uint32_t count, Match match) {
     for (; count >= max_match + min_match; count -= max_match) match(max_match);
@@ -19,9 +19,9 @@ void split_match(std::uint32_t count, Match match) {
     match(count);
 }
 
-/// How a run ends, by the bytes that its longest matches leave: with a match, or with literals.
+/// End of a run, by the number of bytes left after its longest matches: a match, or literals.
 struct Tail {
-    Step match;         ///< 0: none
+    Step match;         ///< 0: no match
     Step literal_mask;  ///< all ones: the first step is a literal
     std::uint32_t steps;
 };
@@ -35,11 +35,12 @@ constexpr std::array<Tail, max_match> make_tails() {
 }
 constexpr std::array<Tail, max_match> tails = make_tails();
 
-/// Matches of the greatest length that are written whether or not a run has so many.
+/// Longest matches that are always written, whether or not the run has so many.
 constexpr std::uint32_t longest_at_once = 4;
 
-/// Writes `count` bytes of one value; returns where the next step goes. Nearly without a branch, for
-/// lengths are hard to foretell: steps are written that the next ones overwrite.
+/// Writes `count` bytes of one value and returns the position of the next step. Run lengths are
+/// unpredictable, so the function almost avoids branches: it writes surplus steps that the next ones
+/// overwrite.
 Step* write_run(std::uint32_t count, std::uint8_t value, Step* next) {
     if (count == 0) return next;
     const std::uint32_t rest = count - 1, longest = rest / max_match;
@@ -56,7 +57,8 @@ Step* write_run(std::uint32_t count, std::uint8_t value, Step* next) {
 }  // namespace
 
 void StepWriter::row(std::span<const GreyRun> runs) {
-    // A copied row costs its matches of 258 bytes; a row of few runs is no dearer written out.
+    // A copied row costs one match per 258 bytes. A row with fewer runs is no more expensive if it is encoded
+    // directly.
     const bool worth_copying = runs.size() > 4 + row_bytes_ / max_match;
     if (worth_copying && row_bytes_ <= max_distance && std::ranges::equal(runs, previous_)) {
         end_run();
@@ -76,7 +78,7 @@ std::span<const Step> StepWriter::finish() {
 
 void StepWriter::write_out(std::span<const GreyRun> runs) {
     make_room((longest_at_once + 2) * (runs.size() + 2) + (open_ + row_bytes_) / max_match);
-    // Locals, so that they stay in registers.
+    // Local copies, so that they stay in registers.
     Step* next = steps_.get() + count_;
     std::uint32_t open = open_;
     std::uint8_t value = value_;
@@ -88,7 +90,7 @@ void StepWriter::write_out(std::span<const GreyRun> runs) {
         }
         open += count;
     };
-    put(1, 0);  // the filter byte: none
+    put(1, 0);  // filter byte: none
     for (const GreyRun& run : runs) {
         if (run.length > 0) put(run.length, static_cast<std::uint8_t>(run.value));
     }

@@ -1,4 +1,4 @@
-// Pieces that end at a byte, and sums that are joined.
+// Compresses pieces that end on a byte boundary, and joins their checksums.
 #include "printers/archive/deflated_zip.h"
 
 #include <zlib.h>
@@ -11,7 +11,7 @@
 namespace lamella {
 namespace {
 
-/// A last block without anything in it: three bits of kind, seven of the end's code.
+/// An empty final block: three bits for its type, seven for the end-of-block code.
 constexpr std::string_view last_block("\x03\x00", 2);
 
 }  // namespace
@@ -27,7 +27,7 @@ DeflatedPiece deflate_piece(std::string_view text) {
     }
     DeflatedPiece piece;
     piece.size = text.size();
-    constexpr std::size_t flush = 16;  // bytes that ending at a byte may take
+    constexpr std::size_t flush = 16;  // bytes that the byte alignment may take
     piece.bytes.resize(deflateBound(&stream, text.size()) + flush);
     // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast, cppcoreguidelines-pro-type-const-cast): zlib's
     // input is not const, though it is never written to

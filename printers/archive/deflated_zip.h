@@ -1,4 +1,4 @@
-// DeflatedZip: an archive of files made of pieces that are compressed one by one.
+// DeflatedZip: a ZIP archive of files that are compressed piece by piece.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,23 @@
 
 namespace lamella {
 
-/// A piece of a file, compressed (RFC 1951) up to a whole byte, so that pieces can follow one another.
+/// A compressed piece of a file (RFC 1951). It ends on a byte boundary, so that pieces can be concatenated.
 struct DeflatedPiece {
     std::string bytes;
-    std::uint64_t size = 0;  ///< of the text
-    std::uint32_t crc = 0;   ///< of the text
+    std::uint64_t size = 0;  ///< size of the uncompressed text, bytes
+    std::uint32_t crc = 0;   ///< CRC-32 of the uncompressed text
 };
-/// Pure, so that pieces can be made by several threads. Equal texts give equal bytes with one build of zlib.
+/// Compresses a piece. Pure: several threads may compress pieces at once. Equal texts give equal bytes with
+/// one build of zlib.
 DeflatedPiece deflate_piece(std::string_view text);
 
 class DeflatedZip : public GrowingZip {
   public:
     DeflatedZip() : GrowingZip(ZipMethod::deflated_ahead) {}
-    /// The bytes of an entry of these pieces. Throws FaultError for a name of more than 1,024 bytes, or a
-    /// file of 4 GiB or more.
+    /// Returns the bytes of an entry that consists of these pieces. Throws FaultError for a name of more than
+    /// 1,024 bytes, or a file of 4 GiB or more.
     std::string entry(const std::string& name, std::span<const DeflatedPiece> pieces);
-    /// The same for a file in one piece.
+    /// Returns the bytes of an entry with a single piece.
     std::string entry(const std::string& name, std::string_view file);
 };
 

@@ -1,4 +1,4 @@
-// Rounding, and dropping what rounding has made one.
+// Rounds contours and drops points that coincide after rounding.
 #include "printers/archive/grid_polygon.h"
 
 #include <cmath>

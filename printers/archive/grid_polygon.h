@@ -1,4 +1,4 @@
-// Contours on a fine grid, as files with points of their own precision hold them.
+// GridPolygon: contours rounded to a fine grid, for file formats with a fixed precision.
 #pragma once
 
 #include <array>
@@ -9,21 +9,21 @@
 
 namespace lamella {
 
-/// Decimals of a mm that the grid keeps: 0.1 um.
+/// Decimals of a mm on the grid: 0.1 um.
 inline constexpr int grid_decimals = 4;
 inline constexpr double grid_units_per_mm = 1e4;
 
-/// A closed polygon without a repeated last point, in units of the grid; no two points in succession are
-/// equal.
+/// A closed polygon in grid units, without a repeated last point. No two successive points are equal.
 struct GridPolygon {
     std::vector<std::array<std::int64_t, 2>> points;
     bool hole = false;  ///< clockwise
 };
 
-/// The contours on the grid, halves away from zero. What has less than three points there is left out.
+/// Rounds contours to the grid, halves away from zero. Drops contours with fewer than three distinct
+/// successive points.
 std::vector<GridPolygon> on_grid(const std::vector<Contour>& contours);
 
-/// Area inside, mm^2: of outlines less their holes.
+/// Returns the area of the outer contours less that of the holes, mm^2.
 double total_area(const std::vector<Contour>& contours);
 
 }  // namespace lamella

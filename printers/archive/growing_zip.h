@@ -1,4 +1,4 @@
-// GrowingZip: an archive that is made front to back, and continued where it stopped.
+// GrowingZip: a ZIP archive that is produced front to back and can be resumed.
 #pragma once
 
 #include <filesystem>
@@ -9,23 +9,23 @@
 
 namespace lamella {
 
-/// What StoredZip and DeflatedZip have in common. They give the bytes of an archive in order; someone else
-/// writes them. Kept in memory is the directory: a few dozen bytes an entry. Equal entries give equal bytes.
+/// Common base of StoredZip and DeflatedZip. They return the bytes of an archive in order; the caller writes
+/// them. Only the directory is kept in memory: a few dozen bytes per entry. Equal entries give equal bytes.
 class GrowingZip {
   public:
-    /// The end of the archive.
+    /// Returns the directory, which ends the archive.
     std::string directory() const;
-    /// Takes up an archive of which this many bytes exist, all of them entries as made here. Throws
-    /// InputError when they are not.
+    /// Resumes an archive of which `size` bytes exist. They must be entries as made here; throws InputError
+    /// otherwise.
     void take_up(const std::filesystem::path& path, std::uint64_t size);
-    /// Bytes so far.
+    /// Returns the number of bytes so far.
     std::uint64_t size() const { return size_; }
 
   protected:
     explicit GrowingZip(ZipMethod method) : method_(method) {}
-    /// What stands before an entry's data, with room for these, which the caller appends. The entry's offset
-    /// is filled in here. Throws FaultError for a name that is empty or longer than 1,024 bytes, and for 4
-    /// GiB or more.
+    /// Returns the local header of an entry, with capacity reserved for its data, which the caller appends.
+    /// Sets the entry's offset. Throws FaultError for an empty name, a name longer than 1,024 bytes, and data
+    /// of 4 GiB or more.
     std::string begin_entry(ZipEntry entry);
 
   private:

@@ -1,4 +1,4 @@
-// Huffman code lengths in place over sorted frequencies, and the canonical codes.
+// Computes Huffman code lengths in place over sorted frequencies, and the canonical codes.
 #include "printers/archive/huffman.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t max_symbols = 288;
 constexpr int max_depth = 32;
 
-/// Turns ascending frequencies into the code lengths of an optimal prefix code, descending, in the same
-/// array (Moffat and Katajainen, "In-place calculation of minimum-redundancy codes", 1995).
+/// Replaces ascending frequencies by the code lengths of an optimal prefix code, in descending order, in the
+/// same array (Moffat and Katajainen, "In-place calculation of minimum-redundancy codes", 1995).
 void minimum_redundancy(std::span<std::uint64_t> a) {
     const std::size_t n = a.size();
     std::size_t root = 0;
@@ -19,7 +19,7 @@ void minimum_redundancy(std::span<std::uint64_t> a) {
     const auto smallest = [&](std::size_t next) {
         if (leaf >= n || (root < next && a[root] < a[leaf])) {
             const std::uint64_t weight = a[root];
-            a[root++] = next;  // from now on the place of the parent
+            a[root++] = next;  // from here on the index of the parent
             return weight;
         }
         return a[leaf++];
@@ -33,7 +33,7 @@ void minimum_redundancy(std::span<std::uint64_t> a) {
 
     std::size_t available = 1;
     std::uint64_t depth = 0;
-    std::size_t inner = n - 1;  // inner nodes not yet passed, counted from the root down
+    std::size_t inner = n - 1;  // inner nodes not yet visited, counted from the root down
     std::size_t next = n;
     while (available > 0) {
         std::size_t used = 0;
@@ -47,7 +47,7 @@ void minimum_redundancy(std::span<std::uint64_t> a) {
     }
 }
 
-/// Shortens the codes longer than `limit` and lengthens others until the Kraft sum is one again.
+/// Shortens codes longer than `limit` and lengthens others until the Kraft sum is one again.
 void enforce_limit(std::array<int, max_depth + 1>& count, int limit) {
     for (int depth = limit + 1; depth <= max_depth; ++depth) {
         count[static_cast<std::size_t>(limit)] += count[static_cast<std::size_t>(depth)];
@@ -72,7 +72,7 @@ void enforce_limit(std::array<int, max_depth + 1>& count, int limit) {
 
 void huffman_lengths(std::span<const std::uint32_t> frequencies, int limit, std::span<std::uint8_t> lengths) {
     std::fill(lengths.begin(), lengths.end(), std::uint8_t{0});
-    // Frequency and symbol share a key, so that equal frequencies come in the order of the symbols.
+    // A key holds frequency and symbol, so that equal frequencies are ordered by symbol.
     std::array<std::uint64_t, max_symbols> keys;
     std::size_t used = 0;
     for (std::size_t s = 0; s < frequencies.size(); ++s) {
@@ -91,7 +91,7 @@ void huffman_lengths(std::span<const std::uint32_t> frequencies, int limit, std:
     std::array<int, max_depth + 1> count{};
     for (std::size_t i = 0; i < used; ++i) ++count[std::min<std::size_t>(work[i], max_depth)];
     enforce_limit(count, limit);
-    std::size_t i = 0;  // the rarest symbols take the longest codes
+    std::size_t i = 0;  // the rarest symbols get the longest codes
     for (int depth = limit; depth > 0; --depth) {
         for (int k = count[static_cast<std::size_t>(depth)]; k > 0; --k) {
             lengths[keys[i++] & 0xffff] = static_cast<std::uint8_t>(depth);

@@ -1,4 +1,4 @@
-// Comparing the stamp of an unfinished output with that of the run that wants to continue it.
+// Compares the stamp of an unfinished output with that of the run that resumes it.
 #include "printers/archive/job_stamp.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Which job an unfinished output belongs to, so that only the same job continues it.
+// JobStamp: identifies the job of an unfinished output, so that only the same job resumes it.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace lamella {
 
-/// Two runs with equal stamps write the same bytes.
+/// Identity of a run. Two runs with equal stamps write the same bytes.
 struct JobStamp {
     std::string identity;  ///< Job::identity
-    std::string settings;  ///< what the back-end adds to it: its profile
+    std::string settings;  ///< settings of the back-end's profile that affect the bytes
     LayerRange range;
 };
 
@@ -22,7 +22,7 @@ nlohmann::ordered_json to_json(const JobStamp& stamp);
 void check_same_job(const nlohmann::ordered_json& found, const JobStamp& wanted,
                     const std::filesystem::path& where);
 
-/// What is wrong with a range that a job does not have; throws InputError.
+/// Throws InputError unless `range` is a valid range of the job's layers.
 void check_range(const Job& job, LayerRange range);
 
 }  // namespace lamella

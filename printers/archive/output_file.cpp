@@ -1,4 +1,4 @@
-// POSIX files.
+// OutputFile on POSIX file descriptors.
 #include "printers/archive/output_file.h"
 
 #include <fcntl.h>
@@ -85,7 +85,7 @@ void OutputFile::rewrite_start(std::string_view text) {
 }
 
 void OutputFile::sync() {
-    // Pipes and devices cannot be synced, and need not be.
+    // Pipes and devices cannot be synced, and do not need it.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) throw_errno("store", path_);
 }
 

@@ -1,4 +1,4 @@
-// Boxes, and characters of XML.
+// Box meshes and XML escaping.
 #include "printers/archive/package_3mf.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,8 @@
 namespace lamella {
 namespace {
 
-/// The bytes that begin a valid UTF-8 character of XML at the start of the text; 0 when there is none.
+/// Returns the length of the valid UTF-8 character at the start of the text, bytes; 0 if there is none that
+/// XML permits.
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned first = byte(0);
@@ -40,7 +41,7 @@ std::string box_mesh(const Box& box, int plane_decimals, int height_decimals) {
                             format_number(corner & 4U ? box.hi.z : box.lo.z, height_decimals));
     }
     text += "</vertices>\n<triangles>\n";
-    // Corners are numbered by their sides: 1 for the far one in x, 2 in y, 4 in z.
+    // Bits of a corner's number: 1 for the far side in x, 2 in y, 4 in z.
     for (const char* triangle :
          {"023", "031", "457", "476", "015", "054", "267", "273", "046", "062", "137", "175"}) {
         text +=

@@ -1,4 +1,4 @@
-// What every 3MF package holds: its list of content types, the way to its model, and text in attributes.
+// Common parts of 3MF packages: content types, relationships, box meshes, escaped attributes.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lamella {
 
-/// [Content_Types].xml
+/// [Content_Types].xml of a package without images.
 inline constexpr std::string_view package_content_types =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
@@ -23,7 +23,7 @@ inline constexpr std::string_view package_relationships =
     "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
     "</Relationships>\n";
 
-/// The same of a package with PNG images.
+/// [Content_Types].xml of a package with PNG images.
 inline constexpr std::string_view package_content_types_with_png =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
@@ -32,10 +32,11 @@ inline constexpr std::string_view package_content_types_with_png =
     "<Default Extension=\"png\" ContentType=\"image/png\"/>\n"
     "</Types>\n";
 
-/// A box as a <mesh> of 12 triangles, its coordinates with so many decimals in the plane and along z.
+/// Returns a box as a <mesh> of 12 triangles. Coordinates have `plane_decimals` decimals in x and y and
+/// `height_decimals` in z.
 std::string box_mesh(const Box& box, int plane_decimals, int height_decimals);
 
-/// The text as the value of an XML attribute: what no attribute can hold is left out.
+/// Escapes a text for the value of an XML attribute. Drops characters that XML cannot represent.
 std::string xml_attribute(std::string_view text);
 
 }  // namespace lamella

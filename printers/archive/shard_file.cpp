@@ -1,4 +1,4 @@
-// A line that says what it is, then each layer behind its number, size and checksum.
+// Format of a shard: a line of description, then each layer after its index, size and checksum.
 #include "printers/archive/shard_file.h"
 
 #include <fmt/format.h>

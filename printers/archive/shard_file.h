@@ -1,4 +1,4 @@
-// Shards: layers of a job that were rendered by themselves, packed into a file, to be joined with others.
+// Shards: files with some rendered layers of a job, to be joined with the other layers later.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,23 @@
 
 namespace lamella {
 
-/// A back-end that packs what `renderer` renders into a file, which `settings` (what decides the layers'
-/// bytes besides the job) is noted in. It is continued as other files are.
+/// Makes a back-end that packs the layers rendered by `renderer` into a shard. `settings` (everything besides
+/// the job that decides the layers' bytes) is recorded in the shard. An interrupted shard can be resumed like
+/// any other output.
 std::unique_ptr<Backend> make_shard_writer(std::unique_ptr<Backend> renderer,
                                            const std::filesystem::path& path, std::string settings,
                                            bool force);
 
-/// A finished shard. Any thread may read layers.
+/// A finished shard, open for reading. Any thread may read layers.
 class ShardFile {
   public:
-    /// Finds the layers. Throws InputError for a file that is no shard, or a damaged one.
+    /// Opens a shard and indexes its layers. Throws InputError if the file is not a shard or is damaged.
     explicit ShardFile(std::filesystem::path path);
 
     const std::filesystem::path& path() const { return path_; }
     const JobStamp& stamp() const { return stamp_; }
-    /// The packed product of a layer of its range. Throws InputError where its bytes are damaged.
+    /// Returns the packed product of a layer of the shard's range. Throws InputError if its bytes are
+    /// damaged.
     std::string layer(int index) const;
 
   private:
@@ -41,13 +43,13 @@ class ShardFile {
 
     std::filesystem::path path_;
     JobStamp stamp_;
-    std::vector<Place> places_;  ///< by layer, from the range's first
+    std::vector<Place> places_;  ///< indexed by layer, from the first of the range
     mutable std::mutex reading_;
     mutable std::ifstream file_;
 };
 
-/// The shards of one job in order: each layer of `range` is in exactly one. Throws InputError for shards of
-/// another job than the stamp's, and for layers that none has or several have.
+/// Opens the shards of one job and sorts them. Each layer of `wanted.range` is in exactly one of them. Throws
+/// InputError for a shard of another job, and for a layer that no shard or several shards have.
 std::vector<std::unique_ptr<ShardFile>> open_shards(const std::vector<std::string>& paths,
                                                     const JobStamp& wanted);
 

@@ -1,4 +1,4 @@
-// Entries as they are.
+// Uncompressed entries.
 #include "printers/archive/stored_zip.h"
 
 #include <libdeflate.h>

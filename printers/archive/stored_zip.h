@@ -1,4 +1,4 @@
-// StoredZip: an archive of files that are compressed already.
+// StoredZip: a ZIP archive of files that are already compressed.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace lamella {
 class StoredZip : public GrowingZip {
   public:
     StoredZip() : GrowingZip(ZipMethod::stored) {}
-    /// The bytes of an entry. Throws FaultError for a name of more than 1,024 bytes, or a file of 4 GiB or
-    /// more.
+    /// Returns the bytes of an entry. Throws FaultError for a name of more than 1,024 bytes, or a file of 4
+    /// GiB or more.
     std::string entry(const std::string& name, std::string_view file);
 };
 

@@ -1,4 +1,4 @@
-// Headers in octal digits, compression by libdeflate.
+// Tar headers with octal fields; compression by libdeflate.
 #include "printers/archive/tar_gzip.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t tar_block = 512;
 
-/// Puts a number into a field of a header: octal digits and a zero byte.
+/// Writes a number into a field of a header: octal digits and a zero byte.
 void put_octal(std::string& header, std::size_t at, std::size_t size, std::uint64_t value) {
     header.replace(at, size - 1, fmt::format("{:0{}o}", value, size - 1));
 }
@@ -32,7 +32,7 @@ std::string tar_member(const std::string& name, std::string_view content) {
     put_octal(member, 116, 8, 0);     // group
     put_octal(member, 124, 12, content.size());
     put_octal(member, 136, 12, begin_of_1980);
-    member.replace(148, 8, 8, ' ');  // the checksum's own place counts as blanks
+    member.replace(148, 8, 8, ' ');  // the checksum field itself counts as blanks
     member[156] = '0';               // a plain file
     member.replace(257, 8, std::string_view("ustar\00000", 8));
     std::uint64_t sum = 0;

@@ -1,4 +1,4 @@
-// Pieces of a compressed tape archive, each a whole number of tape blocks and a gzip stream of its own.
+// Pieces of a tar.gz archive: each is a whole number of tar blocks and a gzip member of its own.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,16 @@
 
 namespace lamella {
 
-/// A file of an archive: header (POSIX.1-1988, ustar), content, filling up to a block of 512 bytes. The file
-/// dates from 1980-01-01. Throws FaultError for a name of more than 99 bytes or a content of 8 GiB or more.
+/// Returns a file of a tar archive: header (POSIX.1-1988, ustar), content, padding to a block of 512 bytes.
+/// The file is dated 1980-01-01. Throws FaultError for a name of more than 99 bytes or a content of 8 GiB or
+/// more.
 std::string tar_member(const std::string& name, std::string_view content);
 
-/// Two empty blocks, which end an archive.
+/// Returns the two empty blocks that end an archive.
 std::string tar_end();
 
-/// A gzip member (RFC 1952) without name and time. Members that follow each other are one stream, the
-/// concatenation of what they hold, so an archive can be made piece by piece.
+/// Compresses bytes into a gzip member (RFC 1952) without name and time. Concatenated members decompress to
+/// the concatenation of their contents, so an archive can be made piece by piece.
 std::string gzip_member(std::string_view bytes);
 
 }  // namespace lamella

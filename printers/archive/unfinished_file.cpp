@@ -1,4 +1,4 @@
-// The journal of a growing file.
+// UnfinishedFile and its journal.
 #include "printers/archive/unfinished_file.h"
 
 #include <fstream>
@@ -32,7 +32,7 @@ bool UnfinishedFile::read_journal(const JobStamp& stamp, int& next, std::uint64_
     check_same_job(nlohmann::ordered_json::parse(line, nullptr, false), stamp, partial_);
     const std::uint64_t have = fs::file_size(partial_);
     bool found = false;
-    // A last line that was cut off does not parse; a size beyond the file's was never reached.
+    // A truncated last line does not parse; a size beyond the file's end was never reached.
     while (std::getline(in, line)) {
         const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
         if (!record.is_object() || !record.contains("next") || !record.contains("size")) break;
@@ -69,13 +69,13 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
                              " is left from a run that was stopped; continue it with --resume, or discard it "
                              "with --force");
         } else {
-            std::error_code ignored;  // creating the files below reports what matters
+            std::error_code ignored;  // creating the files below reports the errors that matter
             fs::remove(partial_, ignored);
             fs::remove(journal_path_, ignored);
         }
     }
-    // The journal is written anew, so that a broken line in its middle cannot hide the lines to come; and
-    // first, so that no file is ever without one.
+    // The journal is rewritten, so that a broken line in its middle cannot hide later lines. This happens
+    // first, so that no file is ever without a journal.
     const std::string journal = to_json(stamp).dump() + "\n" + std::exchange(records_, {});
     write_whole_file(journal_path_, journal);
     file_ = OutputFile::continue_at(partial_, size);
@@ -101,7 +101,7 @@ void UnfinishedFile::end(std::string_view text) {
     if (names_standard_output(path_)) return;
     journal_.close();
     rename_output(partial_, path_);
-    std::error_code ignored;  // a journal that stays behind harms nobody
+    std::error_code ignored;  // a journal that stays behind does no harm
     fs::remove(journal_path_, ignored);
 }
 

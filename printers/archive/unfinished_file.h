@@ -1,4 +1,4 @@
-// A single output file that grows under the name NAME.partial and gets its own name when complete.
+// UnfinishedFile: an output file that grows as NAME.partial and is renamed when complete.
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 
 namespace lamella {
 
-/// Writes NAME.partial layer by layer, and beside it NAME.partial.journal: the job's stamp on the first line,
-/// then a line for each complete layer with the size of the file behind it. A run that stops anywhere, in the
-/// middle of a layer included, is continued from the last complete one.
+/// Writes NAME.partial layer by layer, and a journal NAME.partial.journal: the job's stamp on the first line,
+/// then a line per complete layer with the size of the file after it. An interrupted run is resumed after the
+/// last complete layer, even if it stopped in the middle of one.
 ///
-/// The path "-" is standard output: nothing but the bytes themselves, no journal, nothing to continue.
+/// The path "-" is standard output: only the file's bytes, no journal, no resumption.
 class UnfinishedFile {
   public:
-    /// `force` lets a finished file of that name be replaced and an unfinished one be discarded.
+    /// `force` allows a finished file of that name to be replaced and an unfinished one to be discarded.
     UnfinishedFile(std::filesystem::path path, bool force);
 
     /// Opens the file and returns the first missing layer. With `resume`, an unfinished file of the same job
-    /// is cut behind its last complete layer. Throws InputError when the output exists, finished or not, and
-    /// may not be replaced or continued; FaultError when it cannot be made.
+    /// is truncated after its last complete layer. Throws InputError if the output exists, finished or not,
+    /// and may not be replaced or resumed; FaultError if it cannot be created.
     int begin(const JobStamp& stamp, bool resume);
-    /// True when begin found an unfinished file whose prologue is complete.
+    /// Returns true if `begin` found an unfinished file whose prologue is complete.
     bool resumed() const { return resumed_; }
-    /// Calls read(state) with what the last complete layer (or the prologue) handed to `commit`, null when
-    /// there is none. Throws InputError where `read` does not find what it wants there.
+    /// Calls read(state) with the state that the last complete layer (or the prologue) passed to `commit`, or
+    /// with null if there is none. Throws InputError if `read` fails to parse it.
     template <typename Read>
     void restore(const Read& read) const {
         try {
@@ -39,16 +39,15 @@ class UnfinishedFile {
             throw damaged_journal();
         }
     }
-    /// What to say of a journal that does not hold what it should.
+    /// Returns the error for a journal whose content is invalid.
     InputError damaged_journal() const;
-    /// What was handed to every `commit` before the place where begin continues, in order.
+    /// Returns the states passed to all calls of `commit` before the point of resumption, in order.
     const std::vector<nlohmann::ordered_json>& history() const { return history_; }
-    /// Appends the text of what lies before layer `next`, which is complete with it. `state` is what a run
-    /// that continues here has to know.
+    /// Appends the text of everything before layer `next`. `state` holds what a run resumed here must know.
     void commit(std::string_view text, int next, const nlohmann::ordered_json& state = nullptr);
-    /// Replaces bytes at the beginning by as many others, once all layers are there.
+    /// Overwrites bytes at the beginning of the file with as many others, after the last layer.
     void rewrite_start(std::string_view text) { file_.rewrite_start(text); }
-    /// Appends the end of the file and gives it its name.
+    /// Appends the end of the file and renames the file.
     void end(std::string_view text);
 
   private:
@@ -60,7 +59,7 @@ class UnfinishedFile {
     bool force_;
     bool resumed_ = false;
     std::vector<nlohmann::ordered_json> history_;
-    std::string records_;  // of the journal that is continued
+    std::string records_;  // records of the resumed journal
     OutputFile file_;
     OutputFile journal_;
 };

@@ -1,4 +1,4 @@
-// Making, continuing, replacing and completing a folder of layers.
+// UnfinishedFolder: creates, resumes, replaces and completes a folder of layers.
 #include "printers/archive/unfinished_folder.h"
 
 #include <fmt/format.h>
@@ -23,14 +23,14 @@ nlohmann::ordered_json read_json(const fs::path& path) {
     return nlohmann::ordered_json::parse(in, nullptr, false);
 }
 
-/// Whether a run died before it could even say which job the folder is for.
+/// Returns true if a run died before it could record which job the folder belongs to.
 bool holds_nothing(const fs::path& folder) {
     return fs::is_directory(folder) &&
            std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
                        [](const auto& entry) { return entry.path().extension() == ".tmp"; });
 }
 
-/// Whether a folder has the description that marks it as complete.
+/// Returns true if a folder has the description that marks it as complete.
 bool is_ours_whole(const fs::path& folder) {
     const nlohmann::ordered_json job = read_json(folder / job_file);
     return job.is_object() && job.value("format", "") == "lamella-layers";
@@ -60,7 +60,7 @@ bool UnfinishedFolder::is_ours(const fs::path& file) const {
     std::string_view stem = name;
     if (stem.ends_with(".tmp")) stem.remove_suffix(4);
     if (stem == job_file || stem == stamp_file) return true;
-    // Of whatever kind: a folder of one format may replace one of another.
+    // Files of every format count: a folder of one format may replace one of another.
     stem = stem.substr(0, stem.find('.'));
     const bool sheet = stem.starts_with(sheet_prefix);
     if (sheet) stem.remove_prefix(sheet_prefix.size());
@@ -87,7 +87,7 @@ void UnfinishedFolder::check_replaceable() const {
 }
 
 void UnfinishedFolder::remove_ours(const fs::path& folder) const {
-    std::error_code ignored;  // what stays keeps the folder from being removed, which is reported
+    std::error_code ignored;  // a file that stays prevents the folder's removal, which is reported
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!entry.is_directory() && is_ours(entry.path())) files.push_back(entry.path());
@@ -105,8 +105,8 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     }
     nlohmann::ordered_json state;
     if (is_present(path_)) check_replaceable();
-    // A run that died between taking its stamp away and giving the folder its name leaves a job.json: made
-    // anew.
+    // A run that died after removing its stamp and before renaming the folder leaves a job.json. The folder
+    // is made anew.
     if (resume && !is_present(partial_ / stamp_file) && is_ours_whole(partial_)) remove_ours(partial_);
     if (is_present(partial_) && !holds_nothing(partial_)) {
         if (resume) {
@@ -151,14 +151,14 @@ int UnfinishedFolder::begin(const JobStamp& stamp, bool resume) {
     }
     open(stamp, resume);
     read_journal(stamp);
-    // Written anew, so that no half a line is left in it.
+    // Rewritten, so that it contains no partial line.
     journal_ = OutputFile::create(partial_ / journal_file);
     for (std::size_t i = 0; i < areas_.size(); ++i)
         journal_.write(journal_line(areas_[i], support_areas_[i]));
     return stamp.range.first + static_cast<int>(areas_.size());
 }
 
-/// Takes over the layers whose files and areas are both there.
+/// Takes over the layers that have both a file and recorded areas.
 void UnfinishedFolder::read_journal(const JobStamp& stamp) {
     areas_.clear();
     support_areas_.clear();
@@ -195,11 +195,11 @@ void UnfinishedFolder::end(nlohmann::ordered_json job) {
         job["support_areas"] = support_areas_;
     write_whole_file(partial_ / job_file, job.dump(2) + "\n");
     journal_.close();
-    std::error_code ignored;  // what stays behind harms nobody
+    std::error_code ignored;  // files that stay behind do no harm
     fs::remove(partial_ / stamp_file, ignored);
     fs::remove(partial_ / journal_file, ignored);
     if (is_present(path_)) {
-        // The old folder steps aside first and goes last, so that at no time both are gone.
+        // The old folder is renamed first and removed last, so that one of the two always exists.
         fs::path old = path_;
         old += ".replaced";
         rename_output(path_, old);

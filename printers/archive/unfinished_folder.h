@@ -1,4 +1,4 @@
-// A folder with one file a layer that grows under the name NAME.partial and gets its own name when complete.
+// UnfinishedFolder: a folder with one file per layer that grows as NAME.partial and is renamed when complete.
 #pragma once
 
 #include <cstddef>
@@ -14,32 +14,32 @@
 
 namespace lamella {
 
-/// Writes NAME.partial/00000.png and so on, each file whole or absent, the layers' areas in a journal beside
-/// them, and job.json at the end. Files are
-/// numbered by the layer's index, so that the folders of two ranges hold the files of the whole.
+/// Writes NAME.partial/00000.png and so on, each file complete or absent, a journal with the layers' areas
+/// beside them, and job.json at the end. Files are numbered by layer index, so that the folders of two ranges
+/// together hold the files of the whole job.
 ///
 /// The path "-" is standard output: the files one after another, without job.json.
 class UnfinishedFolder {
   public:
-    /// `extension` includes the dot. `force` lets a finished folder that holds nothing but a job of ours be
-    /// replaced, and an unfinished one be discarded.
+    /// `extension` includes the dot. `force` allows a finished folder to be replaced if it holds nothing but
+    /// one of our jobs, and an unfinished one to be discarded.
     UnfinishedFolder(std::filesystem::path path, std::string extension, bool force);
 
-    /// Makes the folder and returns the first missing layer. Throws as UnfinishedFile::begin does.
+    /// Creates the folder and returns the first missing layer. Throws as UnfinishedFile::begin does.
     int begin(const JobStamp& stamp, bool resume);
-    /// Writes the file of a layer, the next one.
+    /// Writes the file of the next layer.
     void write(int layer, std::span<const std::byte> bytes, const LayerProduct& product);
 
-    /// For folders whose files are not one a layer: makes the folder and returns what the last `commit` noted
-    /// down, null when there is none. Throws as begin does.
+    /// Creates or resumes a folder whose files do not correspond to layers. Returns the state of the last
+    /// `commit`, or null if there is none. Throws as begin does.
     nlohmann::ordered_json open(const JobStamp& stamp, bool resume);
-    /// Writes a file, and then notes down what a run that continues here has to know.
+    /// Writes a file, then records the state that a resumed run must know.
     void commit(const std::string& file, std::string_view text, const nlohmann::ordered_json& state);
     bool has(const std::string& file) const;
-    /// Writes job.json, which marks the folder complete, with the areas of layers that were written one by
-    /// one, and gives the folder its name.
+    /// Writes job.json, which marks the folder as complete and includes the areas of layers that were written
+    /// one by one. Then renames the folder.
     void end(nlohmann::ordered_json job);
-    /// Name of a layer's file, "00042.png".
+    /// Returns the name of a layer's file, such as "00042.png".
     std::string file_name(int layer) const;
 
   private:
@@ -54,12 +54,13 @@ class UnfinishedFolder {
     std::string extension_;
     bool force_;
     OutputFile journal_;
-    std::vector<double> areas_, support_areas_;  ///< of the layers that are there, mm^2
-    OutputFile pipe_;                            ///< standard output where that is asked for
+    std::vector<double> areas_, support_areas_;  ///< of the layers written so far, mm^2
+    OutputFile pipe_;                            ///< standard output, if the path is "-"
     JobStamp stamp_;
 };
 
-/// What every job.json says: format, name, identity, layers, range, file names, heights, bounds.
+/// Returns the fields common to every job.json: format, name, identity, layers, range, file names, heights,
+/// bounds.
 nlohmann::ordered_json describe_job(const Job& job, LayerRange range, const std::string& extension);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// From one local header to the next.
+// Walks from one local header to the next.
 #include "printers/archive/zip_readback.h"
 
 #include <array>

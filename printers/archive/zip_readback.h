@@ -1,4 +1,4 @@
-// Reading the entries of an unfinished archive from what stands before their data.
+// Reads the entries of an unfinished ZIP archive from its local headers.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@ namespace lamella {
 
 inline constexpr std::size_t longest_zip_name = 1024;
 
-/// The entries of an archive that was begun here and of which this many bytes exist, all of them whole
-/// entries whose sizes stand before the data. Throws InputError when they are not.
+/// Returns the entries of an unfinished archive made here, whose first `size` bytes exist. They must be
+/// complete entries with the sizes before the data; throws InputError otherwise.
 std::vector<ZipEntry> read_back_entries(const std::filesystem::path& path, std::uint64_t size);
 
 }  // namespace lamella

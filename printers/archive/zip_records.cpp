@@ -1,4 +1,4 @@
-// Headers, directory, and the 64-bit records for what the plain ones have no room for.
+// Local headers, directory, and ZIP64 records for values that do not fit the plain ones.
 #include "printers/archive/zip_records.h"
 
 namespace lamella {
@@ -12,7 +12,8 @@ constexpr std::uint32_t utf8_names = 0x0800;  // flags
 constexpr std::uint32_t sizes_follow = 0x0008;
 constexpr std::uint32_t first_day = 0x0021;  // 1980-01-01
 
-/// What local headers and the directory have in common, from the version needed to the length of the name.
+/// Writes the fields common to local headers and directory entries, from the required version to the length
+/// of the name.
 void put_common(std::string& out, const ZipEntry& entry, ZipMethod method, std::uint32_t version,
                 bool with_sizes) {
     put_little(out, version, 2);
@@ -66,7 +67,7 @@ void put_directory(std::string& out, std::span<const ZipEntry> entries, std::uin
     if (large) {
         const std::uint64_t record = start + length;
         put_little(out, 0x06064b50, 4);
-        put_little(out, 44, 8);  // bytes of the record behind this number
+        put_little(out, 44, 8);  // size of the rest of the record
         put_little(out, long_version, 2);
         put_little(out, long_version, 2);
         put_little(out, 0, 4);  // this disk

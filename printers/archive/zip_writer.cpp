@@ -1,4 +1,4 @@
-// Deflated data and the descriptors behind it.
+// Compressed entries and the data descriptors after them.
 #include "printers/archive/zip_writer.h"
 
 #include <zlib.h>
@@ -40,7 +40,7 @@ ZipWriter::ZipWriter(std::filesystem::path path)
 
 ZipWriter::~ZipWriter() {
     if (finished_) return;
-    std::error_code ignored;  // the error that brought us here is the one to report
+    std::error_code ignored;  // the original error is the one to report
     std::filesystem::remove(unfinished_, ignored);
 }
 

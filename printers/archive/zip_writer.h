@@ -1,4 +1,4 @@
-// ZipWriter: an archive written front to back, its entries compressed as they come.
+// ZipWriter: a ZIP archive that is written front to back and compresses its entries as they arrive.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace lamella {
 
-/// Writes PATH.tmp and renames it when finished, so that PATH is whole or absent; an archive that is not
-/// finished is removed. Equal entries give equal bytes (with one build of zlib): all entries are dated
-/// 1980-01-01. Memory does not depend on the size of the entries. Entries and the whole stay below 4 GiB, the
-/// limit of the plain format (PKWARE APPNOTE 6.3, sections 4.3 and 4.4); beyond, and when the disk is full, a
-/// FaultError.
+/// Writes PATH.tmp and renames it when finished, so that PATH is complete or absent; an unfinished archive is
+/// removed. Equal entries give equal bytes (with one build of zlib): all entries are dated 1980-01-01. Memory
+/// does not depend on the size of the entries. Each entry and the archive must stay below 4 GiB, the limit of
+/// the plain format (PKWARE APPNOTE 6.3, sections 4.3 and 4.4); throws FaultError beyond it, and when the
+/// disk is full.
 class ZipWriter {
   public:
     explicit ZipWriter(std::filesystem::path path);
@@ -25,11 +25,12 @@ class ZipWriter {
     ZipWriter(const ZipWriter&) = delete;
     ZipWriter& operator=(const ZipWriter&) = delete;
 
-    /// Begins an entry: its name in the archive, with '/' between folders. Ends the one before.
+    /// Begins an entry and ends the one before. The name is the path in the archive, with '/' between
+    /// folders.
     void begin_entry(std::string name);
-    /// Appends to the entry.
+    /// Appends to the current entry.
     void write(std::string_view text);
-    /// Ends the last entry, writes the directory and gives the file its name.
+    /// Ends the last entry, writes the directory and renames the file.
     void finish();
 
   private:

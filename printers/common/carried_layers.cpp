@@ -1,4 +1,4 @@
-// Packing where layers are rendered, unpacking where they are written.
+// Back-ends Fetching and Sending: unpack received layers, pack rendered layers.
 #include "printers/common/carried_layers.h"
 
 namespace lamella {

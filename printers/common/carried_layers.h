@@ -1,4 +1,4 @@
-// Layers that are rendered in one process and written in another.
+// Back-ends for distributed runs: layers are rendered in one process and written in another.
 #pragma once
 
 #include <functional>
@@ -10,18 +10,19 @@
 
 namespace lamella {
 
-/// The packed product of a layer that was rendered elsewhere; nothing where it is to be rendered here. Called
-/// by several threads at once.
+/// Returns the packed product of a layer that was rendered elsewhere, or nothing if the layer is to be
+/// rendered here. Called by several threads at once.
 using FetchLayer = std::function<std::optional<std::string>(int layer)>;
 
-/// A back-end that fetches its layers and hands them to `outputs` as if these had rendered them.
+/// Makes a back-end that fetches rendered layers and passes them to `outputs` as if these had rendered them.
 std::unique_ptr<Backend> make_fetching(std::unique_ptr<Backend> outputs, FetchLayer fetch);
 
-/// Takes the packed product of a layer; called by one thread, layers in order.
+/// Receives the packed product of a layer. Called by one thread, layers in order.
 using SendLayer = std::function<void(int layer, std::string bytes)>;
 
-/// A back-end that renders layers as `renderer` does in a run of all layers of `whole`, whichever of them are
-/// asked for, in one run or several, and sends them instead of writing them.
+/// Makes a back-end that renders layers and sends them instead of writing them. It renders each layer as
+/// `renderer` would in a run over all layers of `whole`, whichever layers are requested, in one run or
+/// several.
 std::unique_ptr<Backend> make_sending(std::unique_ptr<Backend> renderer, LayerRange whole, SendLayer send);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// What a profile says of print checks: what its machine can make, and which faults matter.
+// CheckProfile: limits and severities of the print checks of a machine.
 #pragma once
 
 #include <array>
@@ -7,32 +7,32 @@
 
 namespace lamella {
 
-/// How a machine makes parts, as far as checks go.
+/// Manufacturing process of a machine, as far as checks depend on it.
 enum class Process : unsigned char {
-    from_backend,  ///< as the profile's back-end does, see process_of
-    filament,      ///< beads of molten plastic on each other
+    from_backend,  ///< derived from the profile's back-end, see process_of
+    filament,      ///< beads of molten plastic stacked on each other
     resin,         ///< layers cured in a vat, the part hanging from a plate
-    powder,        ///< layers of powder bound, sintered or melted
-    cutting        ///< layers cut out of sheets, and stacked
+    powder,        ///< layers of powder that are bound, sintered or melted
+    cutting        ///< layers cut out of sheets and stacked
 };
 
-/// What a fault comes to: as usual for the process, or as the profile says.
+/// Severity of a fault: the default of the process (none), or the one given here.
 enum class SeverityOverride : unsigned char { none, off, warn, fail };
 
-/// Sizes in mm; a negative one is the usual one of the process (see default_limits).
+/// Limits of the checks, in mm. A negative value selects the default of the process (see default_limits).
 struct CheckProfile {
     Process process = Process::from_backend;
-    double pitch = 0;              ///< from row to row of the check; 0: what suits the other sizes
-    int places = 10;               ///< faults of each kind that are told of
-    double min_thickness = -1;     ///< of walls and struts, within layers
-    double min_thickness_up = -1;  ///< the same upright; 0: layers are looked at one by one
-    double min_gap = -1;           ///< width of void, within layers
-    double min_gap_up = -1;        ///< the same upright; 0: layers are looked at one by one
-    double min_neck = -1;          ///< thickness of what joins large parts
-    double large_part = -1;        ///< volume from which a part is large, mm^3
-    double min_cavity = -1;        ///< volume from which a closed void matters, mm^3
-    double min_cup = -1;           ///< volume from which a suction cup matters, mm^3
-    std::array<SeverityOverride, check_count> concerns{};  ///< by Check
+    double pitch = 0;              ///< distance between sampled rows; 0: chosen from the other limits
+    int places = 10;               ///< number of faults of each kind that are listed
+    double min_thickness = -1;     ///< thickness of walls and struts, within layers
+    double min_thickness_up = -1;  ///< thickness along z; 0: layers are checked one by one
+    double min_gap = -1;           ///< width of gaps, within layers
+    double min_gap_up = -1;        ///< width of gaps along z; 0: layers are checked one by one
+    double min_neck = -1;          ///< thickness of necks between large parts
+    double large_part = -1;        ///< least volume of a large part, mm^3
+    double min_cavity = -1;        ///< least volume of a closed void that matters, mm^3
+    double min_cup = -1;           ///< least volume of a suction cup that matters, mm^3
+    std::array<SeverityOverride, check_count> concerns{};  ///< indexed by Check
 };
 
 }  // namespace lamella

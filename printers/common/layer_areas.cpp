@@ -1,4 +1,4 @@
-// Islands by the components of the rows' runs, areas by the greys within them.
+// Connected components of a mask's runs, and the sum of greys of each.
 #include "printers/common/layer_areas.h"
 
 #include <algorithm>

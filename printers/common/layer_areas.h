@@ -1,4 +1,4 @@
-// LayerAreas: what a layer's mask lights, island by island.
+// LayerAreas: areas of the islands of a layer's mask.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,25 @@
 
 namespace lamella {
 
-/// Areas in pixels; a grey pixel counts by its grey.
+/// Areas and extent of a mask. Areas in pixels; a grey pixel counts in proportion to its grey.
 struct LayerFigures {
     double total = 0;
-    double largest = 0;   ///< of one island
-    double smallest = 0;  ///< of one island
-    int islands = 0;      ///< sets of pixels that light up and touch, be it by a corner
-    /// What lights up lies in columns [min_x, max_x) and rows [min_y, max_y); all 0 where nothing does.
+    double largest = 0;   ///< area of the largest island
+    double smallest = 0;  ///< area of the smallest island
+    int islands = 0;      ///< number of 8-connected components of pixels that are not black
+    /// Bounding box of the pixels that are not black: columns [min_x, max_x), rows [min_y, max_y). All 0 if
+    /// every pixel is black.
     int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
 };
 
-/// Takes a mask's runs from the top and tells the areas of its islands. Memory: the runs that light up.
+/// Computes the areas of a mask's islands from its runs, from the top row down. Memory: the runs that are not
+/// black.
 class LayerAreas {
   public:
     explicit LayerAreas(int width) : width_(width) {}
-    /// The next runs; those of a row sum to the width.
+    /// Appends the next runs. The runs of each row sum to the width.
     void add(std::span<const GreyRun> runs);
-    /// What the rows so far make.
+    /// Returns the figures of all rows so far.
     LayerFigures figures() const;
 
   private:
@@ -34,10 +36,10 @@ class LayerAreas {
 
     int width_;
     int column_ = 0;
-    int lit_begin_ = 0;                 ///< of the run that lights up and is not yet ended
-    std::uint64_t lit_grey_ = 0;        ///< its sum of greys; 0 where there is none
+    int lit_begin_ = 0;                 ///< start of the current run of lit pixels
+    std::uint64_t lit_grey_ = 0;        ///< sum of the greys of that run; 0 if there is none
     RunRows lit_;                       ///< in pixels
-    std::vector<std::uint64_t> greys_;  ///< sums, of each run of lit_
+    std::vector<std::uint64_t> greys_;  ///< sum of greys of each run of lit_
 };
 
 }  // namespace lamella

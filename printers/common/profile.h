@@ -1,4 +1,4 @@
-// What a recipe says about the machine: one plain struct that every back-end reads its part of.
+// PrinterProfile: the settings of a machine, as plain structs. Each back-end reads its own part.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace lamella {
 
-/// How grey values of an image stack are made.
+/// Antialiasing: how the grey values of an image stack are computed.
 enum class Antialiasing : unsigned char {
-    off,   ///< black and white, by the pixel's centre
-    rows,  ///< sub_rows lines per pixel row, exact along each
-    exact  ///< area under the contour's chords
+    off,   ///< black and white, sampled at the pixel's centre
+    rows,  ///< mean of sub_rows lines per pixel row, each exact along its length
+    exact  ///< exact area inside the polygonal contour
 };
 
-/// File format of an image stack. PNG is written straight from runs; the others go through pixels.
+/// File format of an image stack. PNG is encoded directly from runs; the other formats are encoded from
+/// pixels.
 enum class ImageFormat : unsigned char { png, tiff, bmp, pgm };
 
 struct ImageProfile {
@@ -31,157 +32,160 @@ struct ImageProfile {
     bool portrait = false;  ///< image columns run along +y of the plate
     Antialiasing antialiasing = Antialiasing::rows;
     int sub_rows = 4;
-    int bits = 8;          ///< of a pixel in PNG stacks: 1, 8 or 16
-    int sub_layers = 1;    ///< planes a layer whose images are averaged
-    double gamma = 1;      ///< grey is coverage to this power
-    double min_grey = 0;   ///< of a pixel that is touched at all, 0 to 1
-    double full_grey = 1;  ///< of a pixel that is covered wholly, 0 to 1
-    double margin = 0;     ///< at the display's edge, that a part must stay clear of, mm
+    int bits = 8;          ///< bits per pixel of PNG stacks: 1, 8 or 16
+    int sub_layers = 1;    ///< planes per layer; their images are averaged
+    double gamma = 1;      ///< exponent: grey = coverage ^ gamma
+    double min_grey = 0;   ///< grey of the faintest touched pixel, 0 to 1
+    double full_grey = 1;  ///< grey of a fully covered pixel, 0 to 1
+    double margin = 0;     ///< strip along the display's edge that a part must keep clear of, mm
 };
 
-/// How a display's pixels stand in the colours of an archive's images.
+/// How the pixels of a display are stored in the colour channels of an archive's images.
 enum class PanelPixels : unsigned char {
-    rgb,     ///< one pixel each, its grey in all three colours
-    packed,  ///< three pixels side by side are red, green and blue of one: panels without colour filters
-    grey     ///< grey images
+    rgb,     ///< one display pixel per image pixel, its grey in all three channels
+    packed,  ///< three adjacent display pixels per image pixel, as its red, green and blue: for displays
+             ///< without colour filters
+    grey     ///< grey images, one display pixel per image pixel
 };
 
 struct NanoDlpProfile {
     PanelPixels pixels = PanelPixels::rgb;
 };
 
-/// How a resin is cured.
+/// Curing of a resin: exposures, moves, light.
 struct ResinProfile {
-    std::string machine;  ///< model that a file is for; SL1 machines refuse those for another one
+    std::string machine;  ///< model that a file is made for; SL1 machines refuse files for another model
     std::string material = "resin";
-    double exposure = 2.5;       ///< of a layer, s
-    double first_exposure = 25;  ///< of the first layers, s
-    int first_layers = 4;        ///< exposed like the first one; SL1 machines take 3 whatever is said
-    int fade_layers = 10;        ///< over which the one becomes the other
-    double moves = 6;            ///< s that a layer takes besides its exposure
-    double lift = 6;  ///< by which the plate rises after each layer, mm; SL1 machines know by themselves
+    double exposure = 2.5;       ///< exposure of a layer, s
+    double first_exposure = 25;  ///< exposure of the first layers, s
+    int first_layers = 4;        ///< number of layers exposed like the first; SL1 machines always take 3
+    int fade_layers = 10;        ///< layers over which the exposure then falls to `exposure`
+    double moves = 6;            ///< time of a layer besides its exposure, s
+    double lift = 6;             ///< rise of the plate after each layer, mm; SL1 machines use their own value
     double lift_speed = 60;      ///< mm/min
     double retract_speed = 150;  ///< mm/min
-    std::uint8_t light = 255;    ///< share of the full power, 255 all of it
-    bool preview = true;         ///< files carry a picture of the part
+    std::uint8_t light = 255;    ///< power of the light source; 255 is full power
+    bool preview = true;         ///< embed a picture of the part
     std::string notes;           ///< keywords for converters to other formats, such as FILEFORMAT_goo
 };
 
 struct VectorProfile {
-    double tolerance = 0.025;  ///< mm between contour and surface
-    bool one_file = true;      ///< one file with a group a layer; otherwise a folder of files
-    double margin = 1;         ///< mm round the part
+    double tolerance = 0.025;  ///< largest distance between contour and surface, mm
+    bool one_file = true;      ///< one file with a group per layer; otherwise a folder with a file per layer
+    double margin = 1;         ///< margin around the part, mm
 };
 
-/// How contours are written for other programs and powder-bed machines.
+/// Encoding of CLI files (Common Layer Interface).
 enum class CliFormat : unsigned char { binary, ascii };
 
 struct ExchangeProfile {
     CliFormat cli_format = CliFormat::binary;
-    double cli_units = 1;         ///< of coordinates in CLI files, mm
-    bool cli_empty_layer = true;  ///< begin CLI files with an empty layer at the height of the plate
-    int package_layers = 50;      ///< slices in each file inside a 3MF package
+    double cli_units = 1;         ///< unit of the coordinates in CLI files, mm
+    bool cli_empty_layer = true;  ///< begin CLI files with an empty layer at the plate's height
+    int package_layers = 50;      ///< slices in each file of a 3MF package
 };
 
-/// Whose software reads the strokes of a cutting sheet.
+/// Laser software that the stroke colours and widths of a sheet are chosen for.
 enum class Laser : unsigned char { none, generic, lightburn, trotec, epilog, glowforge, xtool };
 
-/// What becomes of a layer that would fall into loose pieces.
+/// Treatment of a layer that would fall into loose pieces: leave it, join the pieces with ties, or refuse the
+/// job.
 enum class Ties : unsigned char { none, join, refuse };
 
-/// Which reader an SVG file is for.
+/// Reader that an SVG file is written for.
 enum class SvgDialect : unsigned char { plain, slic3r };
 
-/// How layers are cut out of sheets, as thick as a layer is high. Lengths in mm.
+/// How layers are cut out of sheets whose thickness is the layer height. Lengths in mm.
 struct CuttingProfile {
     Laser laser = Laser::none;
     SvgDialect dialect = SvgDialect::plain;
-    double kerf = 0;  ///< width of what the cutter takes away
+    double kerf = 0;  ///< width of the material that the cutter removes
     Ties ties = Ties::none;
     double tie_width = 2;
     bool numbers = false;       ///< engrave each layer's number
-    double number_height = 5;   ///< at most
-    bool next_outline = false;  ///< score where the layer above comes to lie
+    double number_height = 5;   ///< largest height of the number
+    bool next_outline = false;  ///< score the outline of the layer above
     std::vector<std::vector<double>>
-        sheet;                ///< a row, width and height of a sheet that layers share; empty: one layer each
-    double sheet_margin = 5;  ///< free at a sheet's edges and between layers
-    int dowels = 0;           ///< holes through all layers
-    double dowel_diameter = 3;  ///< of such a hole
-    double dowel_margin = 2;    ///< of material about it
-    double dowel_height = 0;    ///< how far up the holes reach from the bed; 0: through the part
-    std::vector<std::vector<double>> dowel_at;  ///< x and y of each; empty: where there is room
+        sheet;  ///< one row: width and height of a sheet shared by several layers; empty: one sheet per layer
+    double sheet_margin = 5;    ///< strip kept free along a sheet's edges and between layers
+    int dowels = 0;             ///< number of dowel holes through all layers
+    double dowel_diameter = 3;  ///< diameter of a dowel hole
+    double dowel_margin = 2;    ///< least width of material around a dowel hole
+    double dowel_height = 0;  ///< height up to which the holes reach, from the bed; 0: through the whole part
+    std::vector<std::vector<double>> dowel_at;  ///< x and y of each hole; empty: chosen where there is room
 };
 
 struct FilamentProfile {
     double bed_x = 220, bed_y = 220, bed_z = 250;  ///< mm
-    double nozzle = 0.4;                           ///< mm
+    double nozzle = 0.4;                           ///< diameter of the nozzle, mm
     double filament = 1.75;                        ///< diameter, mm
     double line_width = 0.45;                      ///< mm
-    double infill_density = 1;                     ///< share of the inside that is filled, 0 to 1
+    double infill_density = 1;                     ///< filled share of the interior, 0 to 1
     double nozzle_temperature = 210;               ///< degrees Celsius
     double bed_temperature = 60;                   ///< degrees Celsius
     double print_speed = 40, first_layer_speed = 20, travel_speed = 150;  ///< mm/s
     double retraction = 0.8, retraction_speed = 35;                       ///< mm, mm/s
-    double tolerance = 0.025;                                             ///< mm between contour and surface
+    double tolerance = 0.025;  ///< largest distance between contour and surface, mm
 };
 
-/// How the inside of an island is filled.
+/// Pattern of an island's infill.
 enum class InfillPattern : unsigned char {
-    lines,      ///< straight, at +45 degrees on even layers and -45 on odd ones
-    concentric  ///< loops within one another
+    lines,      ///< straight lines, at +45 degrees on even layers and -45 on odd ones
+    concentric  ///< nested loops
 };
 
-/// Where loops begin and end.
+/// Where closed beads start and end.
 enum class Seam : unsigned char {
-    nearest,  ///< where the way to them is short
-    rear,     ///< at their largest y
-    corner    ///< at their sharpest corner
+    nearest,  ///< at the point that is nearest to the nozzle
+    rear,     ///< at the largest y
+    corner    ///< at the sharpest corner
 };
 
-/// How an extruder's paths are planned. Lengths in mm.
+/// Planning of an extruder's paths. Lengths in mm.
 struct ToolpathProfile {
-    int walls = 2;          ///< beads round each island, the outermost included
-    int top_layers = 4;     ///< solid ones under what is open above, where infill is sparse
-    int bottom_layers = 3;  ///< solid ones over what is open below
+    int walls = 2;          ///< perimeters per island, the outermost included
+    int top_layers = 4;     ///< solid layers below an upward-facing surface, where infill is sparse
+    int bottom_layers = 3;  ///< solid layers above a downward-facing surface, where infill is sparse
     InfillPattern infill = InfillPattern::lines;
     Seam seam = Seam::nearest;
-    double brim = 0;  ///< width of what is laid round the first layer, touching it
-    int skirt = 0;    ///< loops round the first layer, to fill the nozzle
+    double brim = 0;  ///< width of the brim around the first layer, which touches it
+    int skirt = 0;    ///< loops around the first layer that prime the nozzle
     double skirt_distance = 3;
 };
 
-/// What a machine can print over the void, and how its supports are shaped. Lengths in mm.
+/// Unsupported spans that a machine can print, and the shape of its supports. Lengths in mm.
 struct SupportProfile {
-    double overhang = 0;      ///< by which a layer may stand out over the one below; 0: half a line's width,
-                              ///< for other machines than those with filament a layer's height
-    double spacing = 3;       ///< a support point holds what lies within this distance
-    double free_stretch = 1;  ///< of outline that may hang unheld
-    double own_bridge = 10;   ///< straight runs of the part up to this length, held at both ends, need none
+    double overhang = 0;      ///< largest overhang of a layer over the one below; 0: the default, half a line
+                              ///< width for filament machines and the layer height for others
+    double spacing = 3;       ///< distance within which a support point holds the part
+    double free_stretch = 1;  ///< length of outline that may hang unsupported
+    double own_bridge = 10;   ///< longest straight bridge of the part itself, held at both ends
     double bridge = 12;       ///< longest bar between two pillars
-    double reach = 4;         ///< by which a connector may lean sideways
+    double reach = 4;         ///< largest sideways lean of a connector
     double connector = 2;     ///< least height of a connector
-    double longest_connector = 8;  ///< height of what stands on a bar
-    double clearance = 0.5;        ///< between part and supports, contacts apart
-    double gap = 0;                ///< between the tip of a connector and the part
-    double tip = 0.6;              ///< diameter of a connector where it meets the part
-    double pillar = 2.5;           ///< width of a pillar: of a round one its diameter, of a cross its arms
+    double longest_connector = 8;  ///< largest height of a connector on a bar
+    double clearance = 0.5;        ///< least distance between part and supports, except at contacts
+    double gap = 0;                ///< distance between a connector's tip and the part
+    double tip = 0.6;              ///< diameter of a connector at the part
+    double pillar = 2.5;           ///< width of a pillar: the diameter of a round one, the arms of a cross
     bool round_pillars = false;    ///< round pillars instead of crosses
-    double wall = 0;               ///< thickness of a cross's arms; 0: a line's width
+    double wall = 0;               ///< thickness of a cross's arms; 0: a line width
     double bar_width = 0.9;
     double bar_height = 0.6;
     double foot = 6;  ///< diameter of a pillar's foot on the bed
     double foot_height = 0.2;
-    double lift = 0;         ///< by which the part is raised over the bed
-    double margin = 1;       ///< by which the centre of mass must lie inside the hull of what holds the part
+    double lift = 0;         ///< height of the part above the bed
+    double margin = 1;       ///< least distance of the centre of mass inside the convex hull of the
+                             ///< part's supporting points
     double push = 0.1;       ///< sideways force of the nozzle, N
-    double adhesion = 0.02;  ///< of the part to the bed, MPa
-    double bond = 1;         ///< of the part to a support point, MPa
-    double density = 1.24;   ///< of the material, g/cm3
-    double speed = 30;       ///< of printing supports, mm/s
-    double grey = 1;         ///< of supports in image stacks, 0 to 1
+    double adhesion = 0.02;  ///< strength of the bond between part and bed, MPa
+    double bond = 1;         ///< strength of the bond between part and a support point, MPa
+    double density = 1.24;   ///< density of the material, g/cm3
+    double speed = 30;       ///< speed at which supports are printed, mm/s
+    double grey = 1;         ///< grey of supports in image stacks, 0 to 1
 };
 
-/// A machine: which back-end, under which name, and its numbers.
+/// A machine: its name, its back-end and its settings.
 struct PrinterProfile {
     std::string name = "generic-8k";
     std::string backend = "png";

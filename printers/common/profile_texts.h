@@ -1,4 +1,4 @@
-// The machine profiles that ship with the program, as the text of their TOML files.
+// Profiles of machines that ship with the program, as the text of their TOML files.
 #pragma once
 
 #include <span>
@@ -6,13 +6,13 @@
 
 namespace lamella {
 
-/// A file of printers/profiles: its name without the ending, and what stands in it.
+/// A file of printers/profiles: its name without the extension, and its text.
 struct ProfileText {
     std::string_view name;
     std::string_view text;
 };
 
-/// All of them by name; made from the files when the program is built.
+/// Returns all profiles, sorted by name. Generated from the files when the program is built.
 std::span<const ProfileText> profile_texts();
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Each layer's products side by side.
+// Renders and writes the products of several back-ends side by side.
 #include "printers/common/several_outputs.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-/// Null where a back-end has the layer already.
+/// One product per back-end; null if the back-end already has the layer.
 struct Products : LayerProduct {
     explicit Products(const std::vector<std::unique_ptr<Backend>>& to) : outputs(to) {}
 
@@ -80,7 +80,7 @@ class SeveralOutputs : public Backend {
 
   private:
     std::vector<std::unique_ptr<Backend>> outputs_;
-    std::vector<int> next_;  ///< layer that each lacks first
+    std::vector<int> next_;  ///< first missing layer of each back-end
 };
 
 }  // namespace

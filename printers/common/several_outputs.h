@@ -1,4 +1,4 @@
-// One stream of layers to several back-ends.
+// Back-end that passes one stream of layers to several back-ends.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// Hands each layer to all of the back-ends. A continued run begins at the first layer that any of them
-/// lacks; those that have it already are not given it again.
+/// Makes a back-end that passes each layer to all `outputs`. A resumed run begins at the first layer that any
+/// of them lacks; a back-end does not get a layer twice.
 std::unique_ptr<Backend> make_several_outputs(std::vector<std::unique_ptr<Backend>> outputs);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Resampling and packing of small pictures.
+// Resampling and encoding of small pictures.
 #include "printers/common/thumbnail.h"
 
 #include <libdeflate.h>
@@ -17,7 +17,7 @@ const std::uint8_t* pixel(const Picture& picture, int column, int row) {
                                      static_cast<std::size_t>(column));
 }
 
-/// How much of a pixel [i, i + 1) lies in [lo, hi).
+/// Returns the length of pixel [i, i + 1) that lies in [lo, hi).
 double overlap(int i, double lo, double hi) {
     return std::max(0.0, std::min(hi, i + 1.0) - std::max(lo, i + 0.0));
 }
@@ -89,7 +89,8 @@ std::string png_file(const Picture& picture) {
     append_number(header, static_cast<std::uint32_t>(picture.height));
     header += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits, red green blue
     append_chunk(out, "IHDR", header);
-    // Each row as what it differs by from the one above (filter 2), which pictures with smooth grounds like.
+    // Each row is stored as its difference from the row above (PNG filter 2), which compresses smooth
+    // backgrounds well.
     std::string rows;
     for (int row = 0; row < picture.height; ++row) {
         rows.push_back(2);

@@ -1,4 +1,4 @@
-// Pictures of a job as files carry them: small, in given sizes.
+// Thumbnails: scaling, padding and encoding of small pictures of a job.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace lamella {
 
-/// A smaller square of a square picture: each pixel the mean of what it covers.
+/// Returns a smaller square version of a square picture. Each pixel is the mean of the area it covers.
 Picture shrunk(const Picture& picture, int size);
 
-/// The picture in the middle of a larger one, its edges drawn on to the sides.
+/// Returns the picture centred in a larger one. The margins repeat the pixels of its edges.
 Picture centred(const Picture& picture, int width, int height);
 
-/// A PNG file of 8 bits a channel.
+/// Encodes a picture as PNG, 8 bits per channel.
 std::string png_file(const Picture& picture);
 
-/// Two bytes a pixel, the higher first: five bits of red, six of green, five of blue.
+/// Encodes a picture with two bytes per pixel, the higher first: five bits red, six green, five blue.
 std::string rgb565(const Picture& picture);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The G-code file: start, layers, end.
+// The G-code back-end: start, layers and end of a file.
 #include "printers/gcode/gcode.h"
 
 #include <fmt/format.h>
@@ -25,11 +25,11 @@
 namespace lamella {
 namespace {
 
-constexpr double prime_strip = 6;     // mm along the bed's edges that stay free of the part
+constexpr double prime_strip = 6;     // mm along the bed's edges that are kept clear of the part
 constexpr double prime_height = 0.3;  // mm
 constexpr double prime_length = 60;   // mm
 
-/// How far brim and skirt reach beyond the part, mm.
+/// Returns how far brim and skirt reach beyond the part, mm.
 double reach_beside(const PrinterProfile& profile, double layer_height) {
     const FilamentProfile& filament = profile.filament;
     return skirt_reach(profile.toolpath, {filament.line_width, layer_height, filament.tolerance});
@@ -41,13 +41,13 @@ struct GcodeProduct : LayerProduct {
     }
 
     std::string text;  ///< from the first bead on; empty for an empty layer
-    dvec2 first{0};    ///< on the bed, mm
+    dvec2 first{0};    ///< start of the first bead on the bed, mm
     dvec2 last{0};
-    std::vector<dvec2> trail;     ///< from there, to wipe the nozzle on
+    std::vector<dvec2> trail;     ///< path from the end of the last bead along which the nozzle may be wiped
     double filament = 0;          ///< mm
-    double support_filament = 0;  ///< of it, mm
-    double slowed = 0;            ///< mm of extrusion below the speed asked for, for the rate of lines
-    std::vector<double> seconds;  ///< of each move
+    double support_filament = 0;  ///< share of supports in `filament`, mm
+    double slowed = 0;            ///< length of extrusion slowed down for the rate of lines, mm
+    std::vector<double> seconds;  ///< duration of each move
     int islands_left_out = 0;
 };
 
@@ -93,8 +93,8 @@ class Gcode : public Backend {
         const std::vector<Contour>& supports = outlines->supports;
         for (const Contour& contour : contours) product->area += signed_area(contour.points);
         for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
-        // What goes round it comes first; then supports, for the part comes to rest on them. They are filled
-        // whatever the part is.
+        // Brim and skirt come first, then supports, because the part rests on them. Supports are always
+        // filled completely.
         const std::optional<LayerBelow> footing = this->footing(layer);
         const std::optional<PlacedPolygons> core = this->core(layer);
         const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
@@ -136,7 +136,7 @@ class Gcode : public Backend {
             position_ = product.last;
             trail_ = product.trail;
         } else {
-            trail_.clear();  // the nozzle has left it
+            trail_.clear();  // the nozzle has left the trail
         }
         support_filament_ += product.support_filament;
         slowed_ += product.slowed;
@@ -168,12 +168,12 @@ class Gcode : public Backend {
         return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around,
                               layer.cancel());
     }
-    /// What the layer rests on; none on the bed.
+    /// Returns the layer below; empty for the first layer.
     std::optional<LayerBelow> footing(const Layer& layer) const {
         if (layer.index() == 0) return std::nullopt;
         return neighbours_->footing(layer.index(), filament_.line_width / 4);
     }
-    /// Where its infill may be sparse; none when nothing asks for solid layers.
+    /// Returns the region where infill may be sparse; empty if no solid layers are required.
     std::optional<PlacedPolygons> core(const Layer& layer) const {
         const ToolpathProfile& t = profile_.toolpath;
         if (filament_.infill_density >= 1 || t.top_layers + t.bottom_layers == 0) return std::nullopt;
@@ -181,7 +181,7 @@ class Gcode : public Backend {
     }
     LineSettings line() const { return {filament_.line_width, height_, filament_.tolerance}; }
 
-    /// Brim and skirt of the first layer.
+    /// Returns brim and skirt of the first layer; empty for other layers.
     Toolpaths round(const Layer& layer, const std::vector<Contour>& part,
                     const std::vector<Contour>& supports) const {
         if (layer.index() > 0) return {};
@@ -191,7 +191,7 @@ class Gcode : public Backend {
         }
         Toolpaths paths;
         paths.beads = skirt_beads(standing, profile_.toolpath, line());
-        if (!paths.beads.empty()) paths.outlines.emplace_back();  // nothing to stay inside
+        if (!paths.beads.empty()) paths.outlines.emplace_back();  // empty: travel is not confined
         return paths;
     }
 
@@ -206,7 +206,7 @@ class Gcode : public Backend {
         paths.islands_left_out += added.islands_left_out;
     }
 
-    /// Beads to lines: those of supports come first.
+    /// Turns beads into lines. The beads of supports come first.
     void lay(const Toolpaths& paths, const Layer& layer, GcodeProduct& product) const {
         const std::vector<Bead>& beads = paths.beads;
         product.first = beads.front().points.front() + shift_;
@@ -237,16 +237,16 @@ class Gcode : public Backend {
         const double first = gcode_.first_layer_bed_temperature;
         return layer == 0 && first > 0 ? first : filament_.bed_temperature;
     }
-    /// Heats to what this layer has and the one before had not; nothing waits for it.
+    /// Sets the temperatures if they differ from those of the layer before, without waiting for them.
     void change_heat(int layer, GcodeText& text) const {
         if (nozzle_temperature(layer) != nozzle_temperature(layer - 1))
             text.line("M104 S" + format_number(nozzle_temperature(layer), 0));
         if (bed_temperature(layer) != bed_temperature(layer - 1))
             text.line("M140 S" + format_number(bed_temperature(layer), 0));
     }
-    /// The first layers have to stick, later ones to set.
+    /// Returns the fan's share of full speed: the first layers must stick, later ones must solidify.
     double fan(int layer) const {
-        const int on = layer - gcode_.fan_off_layers + 1;  // layers with fan, this one included
+        const int on = layer - gcode_.fan_off_layers + 1;  // number of layers with fan up to this one
         if (on <= 0) return 0;
         return gcode_.fan * std::min(1.0, on / (gcode_.fan_ramp_layers + 1.0));
     }
@@ -290,7 +290,7 @@ class Gcode : public Backend {
             with_what(reach > 0), size.x, size.y, top, available.x, available.y, available.z, prime_strip));
     }
 
-    /// Comments, heating, homing and a line that fills the nozzle.
+    /// Returns comments, heating, homing and the priming line.
     std::string start(const Job& job) {
         GcodeText text(profile_);
         text.line("; generated by Lamella " LAMELLA_VERSION);
@@ -323,7 +323,7 @@ class Gcode : public Backend {
         filament_used_ += text.filament();
     }
 
-    /// Writes moves that begin where the nozzle is, and counts their time.
+    /// Appends moves that begin at the nozzle as lines, and counts their duration.
     void append(GcodeMoves& moves, GcodeText& text) {
         slow_to_rate(moves.moves(), gcode_);
         text.moves(moves.moves(), position_);
@@ -337,9 +337,9 @@ class Gcode : public Backend {
         }
     }
 
-    /// What hosts and previewers look for at the end of a file, and what became of the job.
+    /// Writes the facts that hosts and previewers look for at the end of a file, and a summary of the job.
     void write_facts(GcodeText& text) const {
-        const double section = pi / 4 * filament_.filament * filament_.filament / 1000;  // cm3 a mm
+        const double section = pi / 4 * filament_.filament * filament_.filament / 1000;  // cm3 per mm
         const double density = profile_.support.density;
         const auto used = [&](const char* what, double filament) {
             text.line(fmt::format("; {} used [mm] = {}", what, format_number(filament, 2)));
@@ -395,13 +395,13 @@ class Gcode : public Backend {
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};
     double filament_used_ = 0;     // mm
-    double support_filament_ = 0;  // of it, mm
+    double support_filament_ = 0;  // share of supports in it, mm
     double seconds_ = 0;
     double slowed_ = 0;  // mm of extrusion
     RateMeter rate_;
     std::int64_t islands_left_out_ = 0;
     bool supported_ = false;
-    std::vector<dvec2> trail_;  // of the last bead, where the nozzle still is
+    std::vector<dvec2> trail_;  // of the last bead, while the nozzle is still there
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// G-code into a file.
+// G-code written to a file.
 #include "printers/archive/unfinished_file.h"
 #include "printers/gcode/gcode_output.h"
 

@@ -1,4 +1,4 @@
-// Words by dialect: Marlin 2, Klipper, RepRapFirmware 3, GRBL 1.1.
+// Commands by dialect: Marlin 2, Klipper, RepRapFirmware 3, GRBL 1.1.
 #include "printers/gcode/gcode_flavour.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace lamella {
 std::size_t longest_line(Flavour flavour) { return flavour == Flavour::grbl ? 79 : 95; }
 
 std::string_view default_start_script(Flavour flavour) {
-    // The homed position of a laser is what its user has set it to.
+    // The user decides the homed position of a laser.
     if (flavour == Flavour::grbl) return "";
     return "M140 S{bed_temperature}\nM104 S{nozzle_temperature}\nG28\nM190 S{bed_temperature}\n"
            "M109 S{nozzle_temperature}";
@@ -26,7 +26,7 @@ std::string_view default_end_script(Flavour flavour) {
 
 std::string fan_line(Flavour flavour, double share) {
     if (!(share > 0)) return "M107";
-    // RepRapFirmware reads numbers up to 1 as shares.
+    // RepRapFirmware interprets numbers up to 1 as shares.
     if (flavour == Flavour::reprapfirmware) return "M106 P0 S" + format_number(share, 3);
     return "M106 S" + format_number(std::max(1.0, share * 255), 0);
 }

@@ -1,4 +1,4 @@
-// From beads to moves, and the two reasons to slow them down.
+// Turns beads into moves, and slows moves down for cooling or for the rate of lines.
 #include "printers/gcode/gcode_moves.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace {
 
 using Kind = GcodeMove::Kind;
 
-constexpr double lift_speed = 10;         // mm/s; screws are slow
-constexpr double shortest_piece = 0.002;  // mm; shorter ones would vanish in the rounding of the words
-constexpr double word_unit = 0.001;       // mm, of the last decimal of X, Y, I and J
-constexpr double filament_unit = 1e-5;    // mm, of the last decimal of E
+constexpr double lift_speed = 10;         // mm/s; lead screws are slow
+constexpr double shortest_piece = 0.002;  // mm; shorter pieces would vanish when coordinates are rounded
+constexpr double word_unit = 0.001;       // mm; last decimal of X, Y, I and J
+constexpr double filament_unit = 1e-5;    // mm; last decimal of E
 
-/// The bead's points on the bed, less those that are too near to the one before, and its width at each, mm.
+/// The bead's points on the bed, without those too close to the one before, and its width at each, mm.
 struct BeadPath {
     std::vector<dvec2> points;
     std::vector<double> widths;
@@ -36,7 +36,7 @@ BeadPath path_of(const Bead& bead, dvec2 shift) {
     return path;
 }
 
-/// The first stretch of a path, up to `left` mm of it.
+/// Returns the first stretch of a path, up to `left` mm long.
 std::vector<dvec2> stretch_of(std::span<const dvec2> path, double left) {
     std::vector<dvec2> points;
     for (const dvec2 p : path) {
@@ -86,7 +86,7 @@ double total_of(const std::vector<double>& seconds) {
     return sum;
 }
 
-/// Lowers a speed, to what an F word without decimals can say.
+/// Lowers a speed to a value that an F word without decimals can express.
 void slow(GcodeMove& move, double speed) {
     if (speed >= move.speed) return;
     move.speed = std::max(1.0, std::floor(speed * 60)) / 60;
@@ -112,11 +112,11 @@ void GcodeMoves::retract(std::span<const dvec2> trail) {
     const std::vector<PathPiece> pieces = merge ? merged_pieces(trail, f.tolerance) : straight_pieces(trail);
     double length = 0;
     for (const PathPiece& piece : pieces) length += piece.length;
-    // All in units of the words, so that they add up to what is pushed forward again.
+    // All lengths are multiples of the unit of E, so that they add up to the length that is restored later.
     const auto in_words = [](double v) { return std::floor(v / filament_unit) * filament_unit; };
     const double along = in_words(std::min(f.retraction, length / f.travel_speed * f.retraction_speed));
     if (f.retraction > along) add_extruder_move(Kind::retract, f.retraction - along);
-    // A firmware takes it for a printing move.
+    // Firmware treats a wipe as a printing move.
     const double acceleration = moves_.empty() ? profile_.gcode.acceleration : moves_.back().acceleration;
     double gone = 0, drawn = 0;
     for (const PathPiece& piece : pieces) {
@@ -178,7 +178,7 @@ void GcodeMoves::extrude(const PathPiece& piece, double area, double speed, doub
 std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profile, double height,
                              bool first_layer, dvec2 shift, GcodeMoves& moves, const CancelToken* cancel) {
     BeadTravel travel(profile, paths.outlines, shift, moves);
-    std::vector<dvec2> trail;  // from the end of the last bead: along a loop once more, back along a line
+    std::vector<dvec2> trail;  // from the end of the last bead: along a loop again, back along an open line
     for (std::size_t i = 0; i < paths.beads.size(); ++i) {
         stop_if_cancelled(cancel);
         const Bead& bead = paths.beads[i];
@@ -188,7 +188,7 @@ std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profi
         const double acceleration = role_acceleration(profile.gcode, bead, first_layer);
         const double flow = bead.flow * (bead.hangs ? profile.gcode.bridge_flow : 1);
         const auto area = [&](double width) { return flow * bead_area(width, height); };
-        // A bead of changing width has as few points as it can already.
+        // The points of a bead of varying width are already reduced.
         const std::vector<PathPiece> pieces =
             bead.widths.empty() ? pieces_of(path.points, profile) : straight_pieces(path.points);
         for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -233,7 +233,7 @@ void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProf
     };
     double too_fast = 1, slow_enough = std::min(1.0, profile.min_speed / std::max(fastest, 1e-9));
     if (apply(slow_enough) < profile.min_layer_time) return;
-    constexpr int halvings = 20;  // to a millionth of the speed
+    constexpr int halvings = 20;  // until the speed is accurate to a millionth
     for (int i = 0; i < halvings; ++i) {
         const double middle = (too_fast + slow_enough) / 2;
         (apply(middle) < profile.min_layer_time ? too_fast : slow_enough) = middle;
@@ -245,11 +245,11 @@ double slow_to_rate(std::vector<GcodeMove>& moves, const GcodeProfile& profile) 
     if (profile.lines_per_second <= 0) return 0;
     const auto window = static_cast<std::ptrdiff_t>(profile.planner_blocks);
     const auto count = static_cast<std::ptrdiff_t>(moves.size());
-    std::vector<double> before(moves.size() + 1, 0);  // seconds at the speeds asked for
+    std::vector<double> before(moves.size() + 1, 0);  // time at the requested speeds, s
     const auto at = [](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
     for (std::ptrdiff_t i = 0; i < count; ++i)
         before[at(i) + 1] = before[at(i)] + moves[at(i)].length / moves[at(i)].speed;
-    // By how much each window must become slower; a move follows the slowest window that it is in.
+    // Slow-down factor of each window. A move gets the largest factor of all windows that contain it.
     std::vector<double> factors(moves.size(), 1);
     for (std::ptrdiff_t end = 1; end < count + window; ++end) {
         const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, end - window), last = std::min(end, count);

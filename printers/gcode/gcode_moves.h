@@ -1,4 +1,4 @@
-// The moves of a nozzle, before they become lines: what each costs, and which are slowed down.
+// GcodeMove: moves of a nozzle before they become lines of G-code: durations and slow-down.
 #pragma once
 
 #include <cstdint>
@@ -16,34 +16,34 @@ namespace lamella {
 struct GcodeMove {
     enum class Kind : std::uint8_t { travel, lift, extrude, retract, wipe, restore };
     Kind kind = Kind::travel;
-    int turn = 0;             ///< of an extrusion: 0 straight, 1 an arc counter-clockwise, -1 clockwise
-    bool slowed = false;      ///< below the speed that was asked for
-    int bead = -1;            ///< which bead it belongs to; -1: none
-    dvec2 to{0};              ///< where x and y are afterwards
-    dvec2 center{0};          ///< of an arc
-    double z = 0;             ///< of a lift
-    double length = 0;        ///< mm of x and y, of z, or of filament
-    double filament = 0;      ///< extruded, mm; by a wipe drawn back
-    double width = 0;         ///< of the bead that it lays, mm
+    int turn = 0;             ///< of an extrusion: 0 straight, 1 counter-clockwise arc, -1 clockwise arc
+    bool slowed = false;      ///< slower than the requested speed
+    int bead = -1;            ///< index of the bead; -1: none
+    dvec2 to{0};              ///< x and y at the end of the move
+    dvec2 center{0};          ///< centre of an arc
+    double z = 0;             ///< z at the end of a lift
+    double length = 0;        ///< length in x and y, in z, or of filament, mm
+    double filament = 0;      ///< extruded length, mm; of a wipe: retracted length
+    double width = 0;         ///< width of the bead, mm
     double speed = 0;         ///< mm/s
     double acceleration = 0;  ///< mm/s^2
 };
 
-/// Collects the moves from one position and height on.
+/// Builds a sequence of moves that begins at a position and height.
 class GcodeMoves {
   public:
     GcodeMoves(const PrinterProfile& profile, dvec2 position, double z)
         : profile_(profile), position_(position), z_(z) {}
 
-    /// Moves straight without extruding; nothing where the nozzle is there.
+    /// Moves straight without extruding; adds nothing if the nozzle is already there.
     void travel(dvec2 to);
-    /// Moves up or down to z; nothing where the nozzle is there.
+    /// Moves up or down to z; adds nothing if the nozzle is already there.
     void lift(double z);
-    /// Draws the filament back: along a trail that begins where the nozzle is as much as the speed of
-    /// retraction allows, the rest before that.
+    /// Retracts the filament. Along `trail`, which begins at the nozzle, it retracts as much as the
+    /// retraction speed allows, and the rest before that.
     void retract(std::span<const dvec2> trail = {});
     void restore();
-    /// Extrudes a bead of this cross-section (mm^2) along a piece of path.
+    /// Extrudes a bead of this cross-section (mm^2) along a piece of a path.
     void extrude(const PathPiece& piece, double area, double speed, double acceleration, int bead);
 
     dvec2 position() const { return position_; }
@@ -60,25 +60,26 @@ class GcodeMoves {
     std::vector<GcodeMove> moves_;
 };
 
-/// Appends the moves that lay a layer's beads, the first of which begins where the nozzle is, to `moves`.
-/// Points are merged where the profile limits the rate of lines, and become arcs where it asks for them; a
-/// piece carries the plastic of the points that it stands for. For the ways between beads see BeadTravel.
-/// Returns the trail for the retraction that may follow, as long as the profile wipes. Throws Interrupted
-/// when `cancel`, which may be null, asks for it.
+/// Appends the moves that lay a layer's beads to `moves`. The first bead begins at the nozzle. Points are
+/// merged if the profile limits the rate of lines, and become arcs if the profile asks for them; a piece
+/// carries the plastic of all points that it replaces. For travel between beads see BeadTravel. Returns the
+/// trail along which a following retraction may wipe, as long as the profile's wipe. Throws Interrupted when
+/// `cancel` (which may be null) requests it.
 std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profile, double height,
                              bool first_layer, dvec2 shift, GcodeMoves& moves,
                              const CancelToken* cancel = nullptr);
 
-/// The seconds that each move takes, which begins at `position`.
+/// Returns the duration of each move, s. The first move begins at `position`.
 std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position, const GcodeProfile& profile);
 
-/// Slows extrusion down, as evenly as the least speed lets it, until the moves take so many seconds.
+/// Slows extrusion down, as evenly as the lowest speed allows, until the moves take `profile.min_layer_time`
+/// together.
 void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile);
 
-/// Slows moves down until no window of the planner's length has more of them than the machine takes lines in
-/// its time; acceleration is left out of account, which only adds time. Shorter windows at the ends get their
-/// share of time, so that windows across rows of moves that were slowed one by one hold, too.
-/// Returns the mm of extrusion that became slower.
+/// Slows moves down until no window of `profile.planner_blocks` consecutive moves exceeds the machine's rate
+/// of lines. Acceleration is ignored; it only adds time. Shorter windows at both ends get a proportional
+/// share of time, so that the limit also holds across sequences that were slowed separately. Returns the
+/// length of extrusion that was slowed, mm.
 double slow_to_rate(std::vector<GcodeMove>& moves, const GcodeProfile& profile);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Where the G-code of a job goes: a file that grows, or a machine at the other end of a line.
+// GcodeOutput: destination of a job's G-code: a growing file, or a machine on a line.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,27 @@
 
 namespace lamella {
 
-/// Takes a job's text from the front to the end, layer by layer, and knows where a run that was stopped goes
-/// on. Called from one thread.
+/// Receives a job's text from front to end, layer by layer, and remembers where an interrupted run resumes.
+/// Called from one thread.
 class GcodeOutput {
   public:
     virtual ~GcodeOutput() = default;
-    /// Opens the output and returns the first missing layer. Throws InputError when the output belongs to
-    /// another job or may not be replaced or continued; FaultError when it cannot be opened.
+    /// Opens the output and returns the first missing layer. Throws InputError if the output belongs to
+    /// another job or may not be replaced or resumed; FaultError if it cannot be opened.
     virtual int begin(const JobStamp& stamp, bool resume) = 0;
-    /// What the last complete layer (or the prologue) handed to `commit`, where begin goes on behind it; null
-    /// where it begins anew.
+    /// Returns the state that the last complete layer (or the prologue) passed to `commit`, if begin resumes
+    /// after it; null if begin starts anew.
     virtual nlohmann::ordered_json state() const = 0;
-    /// What to throw when that state is not what was once handed over.
+    /// Returns the error for a state whose content is invalid.
     virtual InputError damaged_state() const = 0;
-    /// Takes the text of what lies before layer `next`, which is complete with it. `state` is what a run that
-    /// continues here has to know.
+    /// Appends the text of everything before layer `next`. `state` holds what a run resumed here must know.
     virtual void commit(std::string_view text, int next, const nlohmann::ordered_json& state) = 0;
-    /// Takes the end of the job.
+    /// Appends the end of the job.
     virtual void end(std::string_view text) = 0;
 };
 
-/// A file of its own; `force` lets one of that name be replaced, and an unfinished one be discarded.
+/// Makes an output to a file. `force` allows a file of that name to be replaced, and an unfinished one to be
+/// discarded.
 std::unique_ptr<GcodeOutput> make_gcode_file(const std::string& path, bool force);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// One switch a question.
+// Tables of role properties: one switch per property.
 #include "printers/gcode/gcode_roles.h"
 
 namespace lamella {

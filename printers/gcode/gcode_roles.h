@@ -1,4 +1,4 @@
-// What G-code makes of a bead's role: its name in comments, its speed, its acceleration.
+// Properties of a bead that follow from its role: name in comments, speed, acceleration.
 #pragma once
 
 #include "printers/common/profile.h"
@@ -6,15 +6,15 @@
 
 namespace lamella {
 
-/// The name by which previewers of the Slic3r family know what a bead is for.
+/// Returns the name of a bead's role for previewers of the Slic3r family.
 const char* role_name(const Bead& bead);
-/// Speed of a bead, mm/s.
+/// Returns the speed of a bead, mm/s.
 double role_speed(const PrinterProfile& profile, const Bead& bead, bool first_layer);
-/// Acceleration of a bead, mm/s^2.
+/// Returns the acceleration of a bead, mm/s^2.
 double role_acceleration(const GcodeProfile& profile, const Bead& bead, bool first_layer);
-/// Acceleration of moves without extrusion, mm/s^2.
+/// Returns the acceleration of moves without extrusion, mm/s^2.
 double travel_acceleration(const GcodeProfile& profile);
-/// Whether any acceleration is set in the file; otherwise the machine keeps its own.
+/// Returns true if the file sets any acceleration; otherwise the machine keeps its own.
 bool sets_acceleration(const GcodeProfile& profile);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Variables in braces, and what is wrong with them.
+// Expands variables in braces and reports mistakes.
 #include "printers/gcode/gcode_script.h"
 
 #include <fmt/format.h>
@@ -34,11 +34,11 @@ constexpr std::array variables{
     Variable{"filament_used", [](const ScriptValues& v) { return format_number(v.filament_used, 2); }},
 };
 
-/// Longer than any print's.
+/// Longer than the values of any print.
 const ScriptValues longest_values{9'999'999, 9'999'999, 9999.999,  99.999,    999,           999,
                                   9.999,     99999.999, 99999.999, 99999.999, 999'999'999.99};
 
-/// A line with values for variables; `mistake` receives what is wrong with it.
+/// Returns a line with variables replaced; a mistake is described in `mistake`.
 std::string expand_line(std::string_view line, const ScriptValues& values, std::string& mistake) {
     std::string out;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -71,7 +71,7 @@ std::string expand_line(std::string_view line, const ScriptValues& values, std::
     return out;
 }
 
-/// Calls `take` with each line and its number from 1, until it returns false.
+/// Calls `take` with each line and its number (from 1) until it returns false.
 template <typename Take>
 void for_lines(std::string_view script, Take take) {
     int number = 1;

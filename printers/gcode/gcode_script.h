@@ -1,4 +1,4 @@
-// Scripts: a user's own lines at the start, at layers and at the end of a G-code file.
+// Scripts: the user's own lines at the start, at layers and at the end of a G-code file.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,31 @@
 
 namespace lamella {
 
-/// What stands for variables: their names are those of the members. Doubled braces stand for braces.
+/// Values of the variables in a script. A variable has the name of its member. Doubled braces stand for
+/// braces.
 struct ScriptValues {
-    int layer = 0;      ///< from 1: the one that follows; at the end the last one
-    int layers = 0;     ///< of the whole print
-    double z = 0;       ///< of the layer's top, mm
-    double height = 0;  ///< of a layer, mm
+    int layer = 0;                                       ///< the next layer, from 1; at the end the last one
+    int layers = 0;                                      ///< number of layers of the print
+    double z = 0;                                        ///< height of the layer's top, mm
+    double height = 0;                                   ///< height of a layer, mm
     double nozzle_temperature = 0, bed_temperature = 0;  ///< for that layer, degrees Celsius
     double nozzle = 0;                                   ///< diameter, mm
     double bed_x = 0, bed_y = 0, bed_z = 0;              ///< mm
-    double filament_used = 0;                            ///< so far, mm
+    double filament_used = 0;                            ///< filament used so far, mm
 };
 
-/// What is wrong with a script, and where: "line 3: there is no variable {laier}; ...". Lines are measured
-/// with the longest values that variables can have.
+/// Returns the first mistake in a script, such as "line 3: there is no variable {laier}; ...", or nothing.
+/// The length of lines is checked with the longest values that variables can have.
 std::optional<std::string> script_mistake(std::string_view script, Flavour flavour);
 
-/// The script's lines, each with a line feed, with values for variables. The script is free of mistakes.
+/// Returns the script's lines, each with a line feed, with variables replaced. The script must be free of
+/// mistakes.
 std::string expand_script(std::string_view script, const ScriptValues& values);
 
 /// Throws InputError for the first mistake in the scripts of a profile.
 void check_scripts(const GcodeProfile& profile);
 
-/// The scripts that hold: the profile's, or where it has none the flavour's usual ones.
+/// The scripts in effect: those of the profile, or the defaults of its flavour.
 std::string start_script(const GcodeProfile& profile);
 std::string layer_script(const GcodeProfile& profile);
 std::string end_script(const GcodeProfile& profile);

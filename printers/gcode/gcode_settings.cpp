@@ -1,4 +1,4 @@
-// Limits of numbers, and a line that tells them.
+// Limits of settings, and their description in one line.
 #include "printers/gcode/gcode_settings.h"
 
 #include <fmt/format.h>

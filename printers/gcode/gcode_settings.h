@@ -1,4 +1,4 @@
-// What a profile's numbers may be for G-code, and all of them as text.
+// Validation of a profile's settings for G-code, and their description as text.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace lamella {
 
-/// Throws InputError for the first value of a profile that no printer could work with; height is that of a
-/// layer, mm.
+/// Throws InputError for the first value of a profile that no printer can work with. `height` is the layer
+/// height, mm.
 void check_filament_profile(const PrinterProfile& profile, double height);
-/// The same for the speed of printing supports.
+/// Throws InputError for an invalid speed of supports.
 void check_support_speed(const SupportProfile& profile);
-/// The same for lasers.
+/// Throws InputError for the first value of a profile that no laser can work with.
 void check_laser_profile(const PrinterProfile& profile);
 
-/// All that decides what is written: a file is only continued with the same.
+/// Returns all settings that affect the output as text; a file is only resumed with equal settings.
 std::string gcode_settings(const PrinterProfile& profile);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Words and lines.
+// Formats words and lines of G-code.
 #include "printers/gcode/gcode_text.h"
 
 #include <fmt/format.h>

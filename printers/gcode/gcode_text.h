@@ -1,4 +1,4 @@
-// Lines of G-code: moves of a nozzle as text, and what they take in filament.
+// GcodeText: writes moves as lines of G-code and counts the filament.
 #pragma once
 
 #include <algorithm>
@@ -10,30 +10,30 @@
 
 namespace lamella {
 
-/// What goes into a comment: printable ASCII, and not too much of it.
+/// Returns the text reduced to printable ASCII of limited length, for a comment.
 std::string comment_text(const std::string& text);
-/// "1d 2h 3m 4s", as slicers write it.
+/// Returns a duration as slicers write it, "1d 2h 3m 4s".
 std::string duration_text(double seconds);
 
-/// Appends lines to a text.
+/// A text of G-code to which lines are appended.
 class GcodeText {
   public:
     explicit GcodeText(const PrinterProfile& profile) : profile_(profile) {}
 
     void line(std::string_view text) { (text_ += text) += '\n'; }
-    /// Lines that end in a line feed already.
+    /// Appends lines that already end in a line feed.
     void lines(std::string_view text) { text_ += text; }
-    /// The moves, which begin at `position`, with changes of the beads' roles and widths announced.
+    /// Appends moves that begin at `position`. Announces changes of the beads' roles and widths.
     void moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads = {});
 
-    /// The speed of the fan in this layer, as a share of all, and its least over the void.
+    /// Sets the speed of the fan in this layer and its lowest speed over bridges, as shares of full speed.
     void fan(double layer, double bridges) {
         fan_ = layer;
         bridge_fan_ = std::max(layer, bridges);
     }
 
     const std::string& text() const { return text_; }
-    double filament() const { return filament_; }  ///< extruded, retraction not counted, mm
+    double filament() const { return filament_; }  ///< extruded length without retraction, mm
 
   private:
     void move(const GcodeMove& move, dvec2 from);

@@ -1,4 +1,4 @@
-// PNG, base64, comments.
+// Encodes PNG pictures in base64 comments.
 #include "printers/gcode/gcode_thumbnail.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace lamella {
 namespace {
 
 constexpr int large = 300, small = 32;  // px
-constexpr std::size_t longest = 78;     // characters of base64 a line
+constexpr std::size_t longest = 78;     // base64 characters per line
 
 std::string block(const Picture& picture) {
     const std::string text = base64(png_file(picture));

@@ -1,4 +1,4 @@
-// Ways without extrusion, and what is done before and after them.
+// Travel moves, with the retraction, wipe and lift around them.
 #include "printers/gcode/gcode_travel.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace lamella {
 namespace {
 
-constexpr double shortest_search = 2;  // in line widths; shorter ways within an island are made straight
+constexpr double shortest_search = 2;  // in line widths; shorter travels within an island are straight
 
 }  // namespace
 
@@ -17,7 +17,7 @@ double travel_height(const PrinterProfile& profile, double z, double length) {
 }
 
 void BeadTravel::go(dvec2 to, int from_island, int to_island, std::span<const dvec2> trail) {
-    if (to == moves_.position()) return;  // one piece of a bead follows the other
+    if (to == moves_.position()) return;  // the pieces of one bead follow each other
     const GcodeProfile& g = profile_.gcode;
     const bool same = from_island == to_island;
     std::optional<std::vector<dvec2>> corners;
@@ -30,7 +30,7 @@ void BeadTravel::go(dvec2 to, int from_island, int to_island, std::span<const dv
     const double z = moves_.z();
     if (retracted) {
         moves_.retract(trail);
-        if (corners) corners = corners_inside(to, to_island);  // from where the nozzle has been wiped
+        if (corners) corners = corners_inside(to, to_island);  // from the point where the wipe has ended
     }
     const std::vector<dvec2> between = corners.value_or(std::vector<dvec2>());
     if (retracted) moves_.lift(travel_height(profile_, z, length_to(between, to)));

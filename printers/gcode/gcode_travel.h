@@ -1,4 +1,4 @@
-// From the end of one bead to the beginning of the next.
+// BeadTravel: travel of the nozzle from the end of one bead to the start of the next.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace lamella {
 
-/// The height at which the nozzle travels so far with the filament drawn back, from and to z, mm. It is never
-/// above the bed's.
+/// Returns the height at which the nozzle makes a retracted travel of this length, if it starts and ends at
+/// height z, mm. Never above the bed's height limit.
 double travel_height(const PrinterProfile& profile, double z, double length);
 
-/// Decides which way the nozzle goes, and whether the filament is drawn back on it: between beads of an
-/// island inside it if the profile says so and there is such a way, else straight.
+/// Chooses the path of a travel and whether the filament is retracted. Between beads of one island the path
+/// stays inside the island if the profile asks for it and such a path exists; otherwise it is straight.
 class BeadTravel {
   public:
-    /// `outlines` of the beads' islands before they are shifted to their place on the bed.
+    /// `outlines` are those of the beads' islands, before the shift to their place on the bed.
     BeadTravel(const PrinterProfile& profile, std::span<const Polygons> outlines, dvec2 shift,
                GcodeMoves& moves)
         : profile_(profile), outlines_(outlines), shift_(shift), moves_(moves) {}
 
-    /// Appends the moves. A bead's trail is the way on which the nozzle can be wiped, from where it is.
+    /// Appends the moves. `trail` is the path along which the nozzle may be wiped, starting at the nozzle.
     void go(dvec2 to, int from_island, int to_island, std::span<const dvec2> trail);
 
   private:
@@ -34,7 +34,7 @@ class BeadTravel {
     std::span<const Polygons> outlines_;
     dvec2 shift_;
     GcodeMoves& moves_;
-    int island_ = -1;  // that inner_ is for
+    int island_ = -1;  // island that inner_ belongs to
     std::optional<InnerTravel> inner_;
 };
 

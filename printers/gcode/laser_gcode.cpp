@@ -1,4 +1,4 @@
-// Cuts as lines of G-code.
+// Writes cuts as lines of G-code.
 #include "printers/gcode/laser_gcode.h"
 
 #include <fmt/format.h>
@@ -29,11 +29,11 @@ struct LaserProduct : LayerProduct {
     CutPlan plan;
     std::string text;  ///< empty for an empty layer
     std::vector<double> seconds;
-    double length = 0;  ///< cut, mm
-    double slowed = 0;  ///< of it for the rate of lines, mm
+    double length = 0;  ///< cut length, mm
+    double slowed = 0;  ///< part of it that was slowed for the rate of lines, mm
 };
 
-/// One layer's paths as moves and lines.
+/// Turns one layer's paths into moves and lines.
 class LaserWriter {
   public:
     explicit LaserWriter(const PrinterProfile& profile) : profile_(profile) {}
@@ -60,7 +60,7 @@ class LaserWriter {
     }
     std::vector<GcodeMove>& moves() { return moves_; }
 
-    /// The lines of all moves, the beam off where none is cut.
+    /// Returns the lines of all moves, with the beam off during travel.
     std::string text() const {
         std::string text = laser_on_line(profile_.laser) + "\n";
         dvec2 from{0};
@@ -87,7 +87,7 @@ class LaserWriter {
     static constexpr int cutting = 0, engraving = 1;  // GcodeMove::bead
 
     static void add(std::vector<dvec2>& points, dvec2 p) {
-        constexpr double shortest = 0.002;  // mm; shorter ways vanish in the rounding of the words
+        constexpr double shortest = 0.002;  // mm; shorter pieces vanish when coordinates are rounded
         if (points.empty() || glm::distance(points.back(), p) >= shortest) points.push_back(p);
     }
     static void word(std::string& text, char letter, double value, int decimals) {
@@ -108,7 +108,7 @@ class LaserWriter {
             move_to(GcodeMove::Kind::travel, to, glm::distance(from, to), profile_.filament.travel_speed));
     }
     std::vector<PathPiece> pieces(const std::vector<dvec2>& points) const {
-        constexpr double word_unit = 0.001;  // mm, of the last decimal of a word
+        constexpr double word_unit = 0.001;  // mm; last decimal of a word
         const double tolerance = profile_.vector.tolerance;
         const bool merge = profile_.gcode.lines_per_second > 0;
         if (profile_.gcode.arcs) return arc_pieces(points, tolerance, merge, word_unit);
@@ -174,7 +174,7 @@ class LaserGcode : public Backend {
         notes_.count(layer.index(), product.plan, profile_.cutting);
         std::string text = fmt::format(";LAYER:{}\n;Z:{}\n", layer.index(), format_number(layer.top(), 3));
         if (!product.text.empty()) {
-            // The first sheet lies there already.
+            // The first sheet is already in place.
             if (sections_ > 0 || !gcode_.layer_script.empty())
                 text += expand_script(layer_script(gcode_), values(layer.index()));
             text += product.text + "G0 X0 Y0\n";

@@ -1,4 +1,4 @@
-// Two passes over the corners, then a closed form for each move.
+// Limits the corner speeds in two passes, then computes each move's duration in closed form.
 #include "printers/gcode/motion_model.h"
 
 #include <algorithm>
@@ -7,17 +7,17 @@
 namespace lamella {
 namespace {
 
-/// The speed that a move can have anywhere.
+/// Returns the highest speed within a move.
 double max_speed(const MotionMove& move) {
     return move.radius > 0 ? std::min(move.speed, std::sqrt(move.acceleration * move.radius)) : move.speed;
 }
 
-/// The speed after accelerating from `speed` along the move.
+/// Returns the speed after accelerating from `speed` along the move.
 double reachable(double speed, const MotionMove& move) {
     return std::sqrt(speed * speed + 2 * move.acceleration * move.length);
 }
 
-/// Seconds of a move from one speed to another, faster in between as far as it can.
+/// Returns the duration of a move from one speed to another, s, accelerating in between as far as possible.
 double trapezoid(const MotionMove& move, double from, double to) {
     const double a = move.acceleration;
     const double most = max_speed(move);
@@ -39,12 +39,13 @@ double corner_speed(const MotionMove& before, const MotionMove& after, double ju
     const double most = std::min(max_speed(before), max_speed(after));
     if (stands || product <= -1 + straight) return 0;
     if (product >= 1 - straight) return most;
-    // Halves of the angle between the two legs, as in grbl: 180 degrees straight on, 0 back again.
+    // Sine and cosine of half the angle between the two legs, as in grbl: 180 degrees is straight on, 0 a
+    // reversal.
     const double sine = std::sqrt((1 + product) / 2), cosine = std::sqrt((1 - product) / 2);
     const double acceleration = std::min(before.acceleration, after.acceleration);
     double square = acceleration * junction_deviation * sine / (1 - sine);
     for (const MotionMove* leg : {&before, &after}) {
-        // The tangent arc begins at most in the middle of a leg.
+        // The tangent arc covers at most half of a leg.
         if (leg->radius == 0) square = std::min(square, acceleration * leg->length / 2 * sine / cosine);
     }
     return std::min(most, std::sqrt(square));
@@ -70,8 +71,8 @@ void RateMeter::add(double seconds) {
         next_ = (next_ + 1) % window_;
     }
     if (times_.size() < window_) return;
-    // Summed anew each time, the oldest first: a sum that is carried along would drift, and differ after a
-    // restart.
+    // Summed from scratch each time, the oldest first: a running sum would drift, and differ after a
+    // resumption.
     double sum = 0;
     for (std::size_t i = 0; i < window_; ++i) sum += times_[(next_ + i) % window_];
     if (sum > 0) worst_ = std::max(worst_, static_cast<double>(window_) / sum);

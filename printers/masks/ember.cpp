@@ -1,4 +1,4 @@
-// Settings first, then one slice after another.
+// Ember archives: settings first, then the slices.
 #include "printers/masks/ember.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr int display_width = 1280, display_height = 800;  // px
 
-/// The machine counts in whole micrometres; what it left out would add up over the layers.
+/// Returns the layer height in whole micrometres, the unit of the machine. Throws InputError for any other
+/// height, because the rounding error would add up over the layers.
 int micrometres(double layer_height) {
     const double exact = layer_height * 1000;
     const double whole = std::round(exact);
@@ -75,10 +76,10 @@ class Ember : public Backend {
     void finish() override { output_.end(gzip_member(tar_end())); }
 
   private:
-    /// The files that come before the slices.
+    /// Returns the files before the slices.
     std::string settings(const Job& job) const {
         const ResinProfile& resin = profile_.resin;
-        // The first layer has an exposure of its own; "burn-in" are the layers after it.
+        // The first layer has its own exposure; "burn-in" layers are those after it.
         const nlohmann::ordered_json settings = {{"JobName", job.name},
                                                  {"LayerThicknessMicrons", micrometres(job.layer_height)},
                                                  {"BurnInLayers", std::max(resin.first_layers - 1, 0)},

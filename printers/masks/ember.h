@@ -1,4 +1,4 @@
-// Back-end: archives for the resin printer Autodesk Ember.
+// Back-end: tar.gz archives for the resin printer Autodesk Ember.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@
 
 namespace lamella {
 
-/// Writes a tar.gz: printsettings (thickness and exposures), layersettings.csv where exposures fade, then
-/// slice_1.png, slice_2.png and so on, each compressed by itself, as they are computed. Nothing is put in
-/// later, so a pipe takes it as well as a file. A stopped run leaves PATH.partial, and a later one goes on
-/// from there to the same bytes. Nothing in it tells the time.
+/// Makes a back-end that writes a tar.gz: printsettings (thickness and exposures), layersettings.csv if
+/// exposures fade, then slice_1.png, slice_2.png and so on as they are computed, each compressed by itself.
+/// Nothing is rewritten afterwards, so the output may be a pipe. An interrupted run leaves PATH.partial and
+/// can be resumed to the same bytes. The archive contains no time stamp.
 std::unique_ptr<Backend> make_ember(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

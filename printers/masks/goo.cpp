@@ -1,4 +1,4 @@
-// Header, layers and end of a file, numbers with their highest byte first.
+// Header, layers and footer of a GOO file; numbers are big-endian.
 #include "printers/masks/goo.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ constexpr std::string_view magic("\x07\x00\x00\x00\x44\x4c\x50\x00", 8);
 constexpr std::string_view line_end = "\r\n";
 constexpr int small_preview = 116, large_preview = 290;  // px
 
-/// Appends numbers, highest byte first.
+/// Appends big-endian numbers.
 class BigEndian {
   public:
     void u8(std::uint32_t v) { put(v, 1); }
@@ -30,7 +30,7 @@ class BigEndian {
     void u32(std::uint32_t v) { put(v, 4); }
     void f32(double v) { put(std::bit_cast<std::uint32_t>(static_cast<float>(v)), 4); }
     void raw(std::string_view bytes) { text_ += bytes; }
-    /// A text cut or filled up with zeros to `size` bytes, the last of which is zero.
+    /// Appends a text that is truncated or padded with zeros to `size` bytes; the last byte is zero.
     void text(std::string_view t, std::size_t size) {
         t = t.substr(0, size - 1);
         text_ += t;
@@ -94,7 +94,7 @@ class Goo : public Backend {
         out.f32(0);
         out.f32((index + 1) * layer_height_);
         out.f32(resin_exposure(resin_, index));
-        out.f32(0);  // light-off delay: waits are given below
+        out.f32(0);  // light-off delay: replaced by the waits below
         put_waits(out);
         put_moves(out);
         out.u16(resin_.light);
@@ -115,18 +115,18 @@ class Goo : public Backend {
     }
 
   private:
-    /// Waits before and after lifting, and after coming down.
+    /// Waits before and after lifting, and after retracting.
     static void put_waits(BigEndian& out) {
         for (int k = 0; k < 3; ++k) out.f32(0);
     }
-    /// Distance and speed of lifting and of coming down, each in two stages of which the second does nothing.
+    /// Distance and speed of lifting and retracting, each in two stages; the second stage is unused.
     void put_moves(BigEndian& out) const {
         for (const double speed : {resin_.lift_speed, 0.0, resin_.retract_speed, 0.0}) {
             out.f32(speed > 0 ? resin_.lift : 0);
             out.f32(speed);
         }
     }
-    /// The same for first layers and others, in the header's order: one stage at a time.
+    /// The same moves for first layers and others, in the header's order: one stage at a time.
     void put_header_moves(BigEndian& out) const {
         for (const double speed :
              {resin_.lift_speed, resin_.lift_speed, resin_.retract_speed, resin_.retract_speed}) {
@@ -136,7 +136,7 @@ class Goo : public Backend {
         for (int k = 0; k < 8; ++k) out.f32(0);
     }
 
-    /// Its preview is black where the picture is empty.
+    /// Returns the header. The preview is black where the picture is empty.
     std::string header(const Picture& preview) const {
         const ImageProfile& image = profile_.image;
         const bool swapped = layout_->width() != image.width;
@@ -151,7 +151,7 @@ class Goo : public Backend {
         out.text("DLP", 32);
         out.text(resin_.material, 32);
         out.u16(image.antialiasing == Antialiasing::rows ? static_cast<std::uint32_t>(image.sub_rows) : 1);
-        out.u16(0);  // grey level and blur: the masks are as they shall be
+        out.u16(0);  // grey level and blur: the masks are final
         out.u16(0);
         for (const int size : {small_preview, large_preview}) {
             const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
@@ -161,7 +161,7 @@ class Goo : public Backend {
         out.u32(static_cast<std::uint32_t>(range_.count()));
         out.u16(static_cast<std::uint32_t>(layout_->width()));
         out.u16(static_cast<std::uint32_t>(layout_->height()));
-        out.u8(0);  // the masks are mirrored already
+        out.u8(0);  // the masks are already mirrored
         out.u8(0);
         const double x = image.width * image.pixel_x, y = image.height * image.pixel_y;
         out.f32(swapped ? y : x);
@@ -178,7 +178,7 @@ class Goo : public Backend {
         put_header_moves(out);
         out.u16(resin_.light);
         out.u16(resin_.light);
-        out.u8(1);  // each layer's own values count
+        out.u8(1);  // each layer's own values apply
         out.u32(static_cast<std::uint32_t>(resin_print_time(resin_, range_.count())));
         out.f32(volume_);
         out.f32(volume_ / mm3_per_ml * profile_.support.density);

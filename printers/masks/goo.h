@@ -9,13 +9,13 @@
 
 namespace lamella {
 
-/// Bytes of the header, before the first layer.
+/// Size of the header before the first layer, bytes.
 inline constexpr std::size_t goo_header_size = 195477;
 
-/// Writes one file: a header with the machine's moves and exposures, then each layer's grey mask, exact in
-/// its 256 greys, as it is computed. The header's volume is put in at the end; its two previews are black. A
-/// stopped run leaves PATH.partial, and a later one goes on from there to the same bytes. Nothing in it tells
-/// the time.
+/// Makes a back-end that writes one file: a header with the machine's moves and exposures, then the grey mask
+/// of each layer as it is computed, with all 256 greys. The header's volume is filled in at the end; its two
+/// previews are black. An interrupted run leaves PATH.partial and can be resumed to the same bytes. The file
+/// contains no time stamp.
 std::unique_ptr<Backend> make_goo(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

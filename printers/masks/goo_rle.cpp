@@ -1,4 +1,4 @@
-// Chunks of one grey: type, width of the length, length, and the grey where it is neither black nor white.
+// Chunks of one grey: type, size of the length, length, and the grey if it is neither black nor white.
 #include "printers/masks/goo_rle.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void GooEncoder::add(std::span<const GreyRun> runs) {
     }
 }
 
-/// The lowest four bits of the length stand in the first byte, the others behind, the highest first.
+/// The lowest four bits of the length are in the first byte, the others follow, the highest first.
 void GooEncoder::flush() {
     while (length_ > 0) {
         const auto run = static_cast<std::uint32_t>(std::min(length_, longest_run));

@@ -1,4 +1,4 @@
-// The run-length code of GOO layers (vendor's specification V1.2, 2023).
+// GooEncoder: the run-length code of GOO layers (vendor's specification V1.2, 2023).
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace lamella {
 
-/// Codes a layer's pixels, row by row from the top left: a start byte, chunks, a sum over them. Runs of black
-/// and of white take a byte, or up to four for long ones; of other greys a byte more. "Difference" chunks are
-/// not used.
+/// Encodes a layer's pixels, row by row from the top left: a start byte, chunks, and a checksum of the
+/// chunks. A run of black or white takes one byte, a long one up to four; a run of another grey takes one
+/// byte more. "Difference" chunks are not used.
 class GooEncoder {
   public:
     GooEncoder();
-    /// The next runs; equal ones that follow each other are joined.
+    /// Appends runs. Successive runs of equal grey are joined.
     void add(std::span<const GreyRun> runs);
-    /// The whole code; nothing can be added after it.
+    /// Returns the whole code. No run can be appended afterwards.
     std::vector<std::byte> finish();
 
   private:

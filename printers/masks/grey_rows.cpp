@@ -1,4 +1,4 @@
-// Tables of grey values.
+// Tables that map coverage to grey.
 #include "printers/masks/grey_rows.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Rows of grey runs: joining them, combining those of two images, and changing their values.
+// Rows of grey runs: joins runs, combines the rows of two images, and maps their grey values.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lamella {
 
-/// Joins runs that follow each other in a row and have one value.
+/// Joins successive runs of equal value within a row.
 class RowJoiner {
   public:
     RowJoiner(std::vector<GreyRun>& out, int width) : out_(out), width_(static_cast<std::uint32_t>(width)) {}
@@ -29,8 +29,8 @@ class RowJoiner {
     std::uint32_t column_ = 0;
 };
 
-/// Appends what `combine` makes of the values of two images of the same rows, pixel by pixel. Values may be
-/// sums of greys.
+/// Combines the values of two images of the same rows, pixel by pixel, and calls push(length, value) for each
+/// resulting run. Values may be sums of greys.
 template <typename Run, typename Combine, typename Push>
 void combine_rows(const std::vector<Run>& a, const std::vector<GreyRun>& b, const Combine& combine,
                   const Push& push) {
@@ -45,17 +45,17 @@ void combine_rows(const std::vector<Run>& a, const std::vector<GreyRun>& b, cons
     }
 }
 
-/// What becomes of each grey value, from 0 to white.
+/// Maps each grey value, from 0 to white, to another one.
 using GreyTable = std::vector<std::uint16_t>;
 
-/// Of coverage: the display's gamma and limits, then a share of 0 to 1. No coverage stays black. As long as
-/// the profile's bits ask for.
+/// Returns the table that turns coverage into grey: the gamma and the limits of the display, times `share` (0
+/// to 1). Zero coverage stays black. The table has white_of(profile) + 1 entries.
 GreyTable grey_table(const ImageProfile& profile, double share);
 
-/// Grey of a pixel that is covered wholly.
+/// Returns the grey of a fully covered pixel.
 int white_of(const ImageProfile& profile);
 
-/// Changes the values of rows of `width` pixels; `spare` is room to work in.
+/// Maps the values of rows of `width` pixels. `spare` is scratch memory.
 void apply(const GreyTable& table, int width, std::vector<GreyRun>& runs, std::vector<GreyRun>& spare);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Sheets as they come, then the model that refers to them.
+// Writes sheets as they are computed, then the model that refers to them.
 #include "printers/masks/image3d.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int stack_decimals = 6;
 
-// Numbers of resources in the model: of the part's, those of the supports follow.
+// Resource numbers of the part in the model; those of the supports follow.
 constexpr int box_object = 1, part_resources = 2, support_resources = 5;
 
 constexpr std::string_view stack_model_start =
@@ -33,10 +33,10 @@ struct SheetProduct : LayerProduct {
     void serialize(Archive& parcel) override { parcel(part, supports); }
 
     std::string part;
-    std::string supports;  ///< empty for a job without
+    std::string supports;  ///< empty for a job without supports
 };
 
-/// A display that is just large enough for the job, and a pixel more at each side.
+/// Returns a display just large enough for the job, plus one pixel on each side.
 ImageProfile grid_about(const Box& bounds, ImageProfile image) {
     if (image.format != ImageFormat::png)
         throw InputError("an image3d's sheets are PNG files; accepted: format = \"png\"");
@@ -46,7 +46,7 @@ ImageProfile grid_about(const Box& bounds, ImageProfile image) {
             "full_grey = 1");
     }
     const auto side = [](double size, double pixel) {
-        constexpr int most = 65535;  // px of a PNG that is written
+        constexpr int most = 65535;  // px; largest PNG that is written
         const double pixels = std::ceil(size / pixel) + 2;
         if (!(pixels <= most)) {
             throw InputError(
@@ -153,7 +153,7 @@ class Image3d : public Backend {
         return text + "</Relationships>\n";
     }
 
-    /// What the sheets fill, mm: the part's x and y, heights over the plate.
+    /// Returns the box of the sheets, mm: the part's x and y, heights above the plate.
     Box grid() const {
         const RowBand band = layout_->rows(0, 1, 1);
         const double back = band.across_origin + layout_->height() * band.across_pitch;
@@ -162,7 +162,7 @@ class Image3d : public Backend {
                 {right, std::max(band.across_origin, back), range_.last * layer_height_}};
     }
 
-    /// The image, the function and the object of the part or the supports.
+    /// Returns the image, the function and the object of the part or of the supports.
     std::string resources_of(int first, const std::string& name, const char* type) const {
         const int image = first, function = first + 1, object = first + 2;
         std::string text = fmt::format(
@@ -172,7 +172,7 @@ class Image3d : public Backend {
             range_.count());
         for (int i = 0; i < range_.count(); ++i)
             text += fmt::format("<v:imagesheet path=\"/{}\"/>\n", sheet_path(first, i));
-        // Half of a voxel minus its grey: negative where more than half is solid.
+        // 0.5 minus the voxel's grey: negative if more than half of it is solid.
         text += fmt::format(
             "</v:imagestack>\n</v:image3d>\n<v:functionfromimage3d id=\"{}\" displayname=\"{}\" "
             "image3did=\"{}\" valueoffset=\"0.5\" valuescale=\"-1\" filter=\"linear\" tilestyleu=\"clamp\" "

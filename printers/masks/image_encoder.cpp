@@ -1,4 +1,4 @@
-// Formats by name, and masks as images.
+// Image formats by name, and their encoders.
 #include "printers/masks/image_encoder.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ std::vector<std::byte> encode_image(ImageFormat format, int width, int height,
 }
 
 void set_bmp_pixel_size(std::vector<std::byte>& file, double pixel_x, double pixel_y) {
-    // Pixels a metre, four bytes each, the lowest first: biXPelsPerMeter and biYPelsPerMeter.
+    // biXPelsPerMeter and biYPelsPerMeter: pixels per metre, four bytes each, the lowest first.
     constexpr std::size_t place = 38;
     if (file.size() < place + 8) throw FaultError("a BMP is shorter than its header");
     std::size_t at = place;

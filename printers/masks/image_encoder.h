@@ -1,4 +1,4 @@
-// Masks in image formats other than PNG.
+// Encoders of masks in image formats other than PNG.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace lamella {
 
-/// The file name's ending of a format, with its dot.
+/// Returns the file name extension of a format, with its dot.
 const char* extension(ImageFormat format);
 
-/// Encodes an 8-bit grey image, row by row from the top. Throws FaultError when that cannot be done.
+/// Encodes an 8-bit grey image, row by row from the top. Throws FaultError if that fails.
 std::vector<std::byte> encode_image(ImageFormat format, int width, int height,
                                     const std::vector<std::uint8_t>& pixels);
 
-/// Writes the size of a pixel, mm, into a BMP: machines take an image's size from it.
+/// Writes the pixel size (mm) into a BMP file: machines derive the image's size from it.
 void set_bmp_pixel_size(std::vector<std::byte>& file, double pixel_x, double pixel_y);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Placement of a display over a part, and the walk over its bands.
+// Places a display over a part and renders its masks band by band.
 #include "printers/masks/mask.h"
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ void check_profile(const ImageProfile& profile) {
     }
 }
 
-/// Grid lines 0..count of one direction: where line 0 lies and the signed step, centred at `center`.
+/// Grid lines 0..count along one axis, centred at `center`: position of line 0 and signed step.
 struct Steps {
     double origin;
     double pitch;
@@ -71,7 +71,7 @@ Steps steps(double center, int count, double pitch, bool backwards) {
     return backwards ? Steps{center + half, -pitch} : Steps{center - half, pitch};
 }
 
-/// The rows whose lines can meet [lo, hi] across, as [first, last).
+/// The rows [first, last) whose lines can meet [lo, hi] in the direction across the rows.
 struct RowSpan {
     int first;
     int last;
@@ -85,12 +85,12 @@ RowSpan rows_meeting(const RowBand& grid, double lo, double hi, int height) {
     return {clamped(std::floor(std::min(a, b)) - 1), clamped(std::ceil(std::max(a, b)) + 1)};
 }
 
-/// Lines that each pixel row is covered by.
+/// Returns the number of sampled lines per pixel row.
 int lines_a_row(const ImageProfile& profile) {
     return profile.antialiasing == Antialiasing::rows ? profile.sub_rows : 1;
 }
 
-/// The grey runs of one slice, rows at a time from the top.
+/// Renders the grey runs of one slice, from the top row down.
 class SliceMask {
   public:
     SliceMask(const SliceField& slice, const MaskLayout& layout, const ImageProfile& profile,
@@ -134,13 +134,13 @@ class SliceMask {
         }
     }
 
-    /// All rows that hold something were added.
+    /// Call when all rows that are not empty have been added.
     void finish() {
         if (antialiasing_ == Antialiasing::exact) return;
         for (LineCache& lines : kept_) lines.finish(layout_->rows(0, 0, sub_));
     }
 
-    double pixels() const { return pixels_; }  ///< covered so far
+    double pixels() const { return pixels_; }  ///< covered area so far, pixels
 
   private:
     const SliceField* slice_;
@@ -155,13 +155,13 @@ class SliceMask {
     double pixels_ = 0;
 };
 
-/// Pixels whose greys on several planes sum to one value.
+/// A run of pixels with the same sum of greys over several planes.
 struct GreySum {
     std::uint32_t length;
     std::uint32_t value;
 };
 
-/// The mean of a solid's masks on several planes, rows at a time from the top.
+/// Renders the mean of a solid's masks on several planes, from the top row down.
 class SolidMask {
   public:
     SolidMask(const Layer& layer, const std::vector<const SliceField*>& planes, const MaskLayout& layout,
@@ -205,12 +205,12 @@ class SolidMask {
         }
     }
 
-    /// All rows that hold something were added.
+    /// Call when all rows that are not empty have been added.
     void finish() {
         for (SliceMask& plane : planes_) plane.finish();
     }
 
-    /// Covered so far, the mean of the planes.
+    /// Returns the covered area so far, pixels: the mean of the planes.
     double pixels() const {
         double sum = 0;
         for (const SliceMask& plane : planes_) sum += plane.pixels();
@@ -224,7 +224,7 @@ class SolidMask {
     std::vector<GreySum> sums_, next_sums_;
 };
 
-/// The planes of a layer whose masks are averaged.
+/// Returns the heights of the averaged planes within a layer, as fractions of the layer height.
 std::vector<double> shares_of(const ImageProfile& profile) {
     std::vector<double> shares;
     shares.reserve(static_cast<std::size_t>(profile.sub_layers));
@@ -232,12 +232,12 @@ std::vector<double> shares_of(const ImageProfile& profile) {
     return shares;
 }
 
-/// The layer's solid in the planes whose masks are averaged; none for supports that are not there.
+/// Returns the solid's slices in the planes whose masks are averaged; empty if there are no supports.
 std::vector<const SliceField*> planes_of(const Layer& layer, MaskedSolid which, const ImageProfile& profile) {
     const bool part = which == MaskedSolid::part;
     std::vector<const SliceField*> planes;
     if (!part && layer.supports() == nullptr) return planes;
-    // The plane that contours and checks use is the layer's own one, not one that is equal to it.
+    // With one plane use the layer's own slice, which contours and checks also use, not an equal copy.
     if (profile.sub_layers == 1) return {part ? &layer.part() : layer.supports()};
     for (const double share : shares_of(profile))
         planes.push_back(part ? &layer.part_at(share) : layer.supports_at(share));
@@ -254,7 +254,7 @@ MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     check_profile(profile);
     const dvec2 available = display_area_limits(profile);
     const dvec3 size = part_bounds.size();
-    // A part as large as the display fits, whatever the rounding of its bounds.
+    // A part as large as the display must fit in spite of rounding.
     constexpr double slack = 1e-9;
     if (size.x > available.x * (1 + slack) || size.y > available.y * (1 + slack)) {
         throw InputError(fmt::format(
@@ -267,7 +267,7 @@ MaskLayout::MaskLayout(const ImageProfile& profile, const Box& part_bounds) {
     }
     const dvec3 center = part_bounds.center();
     const bool flip = profile.mirror_x;
-    const bool down = !profile.mirror_y;  // row 0 lies at the largest coordinate
+    const bool down = !profile.mirror_y;  // then row 0 is at the largest coordinate
     Steps columns{};
     Steps rows{};
     if (profile.portrait) {

@@ -1,4 +1,4 @@
-// The archive's entries: masks, and five descriptions of what they are.
+// Entries of the archive: masks, and five descriptions.
 #include "printers/masks/nanodlp.h"
 
 #include <fmt/format.h>
@@ -44,14 +44,14 @@ PngColors png_colors(PanelPixels pixels) {
     throw InputError("the pixels of a panel are neither rgb, packed nor grey");
 }
 
-/// Rounded to so many steps a unit, and without a point where it is whole: some readers demand integers.
+/// Rounds to 1 / steps. Whole numbers have no decimal point, because some readers require integers.
 Json number(double value, double steps = 1e4) {
     const double rounded = std::round(value * steps) / steps;
     if (rounded == std::floor(rounded)) return static_cast<std::int64_t>(rounded);
     return rounded;
 }
 
-/// Names may hold bytes that are no UTF-8.
+/// Names may contain bytes that are not UTF-8.
 std::string to_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -86,7 +86,7 @@ class NanoDlp : public Backend {
         layout_.emplace(profile_.image, job.bounds);
         colors_ = png_colors(profile_.nanodlp.pixels);
         std::vector<std::byte> unused;
-        const PngWriter check(header(), unused);  // a width that the colours do not take is known before all
+        const PngWriter check(header(), unused);  // rejects an invalid width before any layer is rendered
         if (range.count() > max_layers) {
             throw InputError(fmt::format("{} layers are too many for NanoDLP; accepted: {} or fewer",
                                          range.count(), max_layers));
@@ -140,7 +140,7 @@ class NanoDlp : public Backend {
         add("meta.json", to_text(meta()));
         add("plate.json", to_text(plate()));
         add("profile.json", to_text(exposures()));
-        // The host itself calls it options, other programs slicer.
+        // NanoDLP itself reads options.json, other programs read slicer.json.
         add("options.json", display);
         add("slicer.json", display);
         output_.end(text + zip_.directory());
@@ -182,7 +182,7 @@ class NanoDlp : public Backend {
         return list;
     }
 
-    /// Extents of all masks, mm from the middle of the display.
+    /// Returns the extent of all masks, mm from the centre of the display.
     Json boundary() const {
         int x0 = layout_->width(), x1 = 0, y0 = layout_->height(), y1 = 0;
         for (const LayerFigures& f : figures_) {

@@ -1,4 +1,4 @@
-// Back-end: archives for NanoDLP, the host of many resin printers with projectors and displays.
+// Back-end: ZIP archives for NanoDLP, the host of many resin printers with projectors and displays.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,10 @@
 
 namespace lamella {
 
-/// Writes a ZIP archive: 1.png, 2.png and so on as they are computed, then what is known of layers
-/// (info.json: areas in mm^2, islands and extents of each mask), plate, exposures and display. A stopped run
-/// leaves PATH.partial, and a later one goes on from there to the same bytes. Nothing in it tells the time.
+/// Makes a back-end that writes a ZIP archive: 1.png, 2.png and so on as they are computed, then descriptions
+/// of the layers (info.json: areas in mm^2, islands and extents of each mask), the plate, the exposures and
+/// the display. An interrupted run leaves PATH.partial and can be resumed to the same bytes. The archive
+/// contains no time stamp.
 std::unique_ptr<Backend> make_nanodlp(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// From a layer's runs to the bytes of a file.
+// Encodes a layer's runs as the bytes of a PNG file.
 #include "printers/masks/png_mask.h"
 
 #include <fmt/format.h>

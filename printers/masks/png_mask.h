@@ -1,4 +1,4 @@
-// A layer's mask as a PNG file, for every back-end that keeps such files.
+// MaskFile: a layer's mask as a PNG file, shared by all back-ends that store such files.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ struct MaskFile : LayerProduct {
     std::vector<std::byte> file;
 };
 
-/// The mask of part and supports, 8-bit grey, written straight from runs.
+/// Renders the mask of part and supports directly from runs, 8-bit grey.
 std::unique_ptr<MaskFile> render_png_mask(const Layer& layer, const MaskLayout& layout,
                                           const PrinterProfile& profile);
 
-/// What decides a mask's pixels besides the layer: display and antialiasing.
+/// Returns the settings that decide a mask's pixels besides the layer: display and antialiasing.
 nlohmann::ordered_json describe_mask(const ImageProfile& image);
 
-/// Returns the description as one line for a job's stamp, with the grey of its supports. Throws InputError
-/// for a grey that is none, and for other bits per pixel than 8 unless the back-end takes them.
+/// Returns the same settings and the grey of supports as one line, for a job's stamp. Throws InputError for a
+/// grey outside 0 to 1, and for other bits per pixel than 8 unless the back-end takes them.
 std::string mask_settings(const PrinterProfile& profile, const Job& job, bool takes_other_bits = false);
 
 }  // namespace lamella

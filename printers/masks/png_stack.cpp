@@ -1,4 +1,4 @@
-// The PNG stack.
+// The back-end for folders of images.
 #include "printers/masks/png_stack.h"
 
 #include <optional>
@@ -49,7 +49,7 @@ class PngStack : public Backend {
     void finish() override { output_.end(description_); }
 
   private:
-    /// The layer through a whole page of pixels, for formats that are not written from runs.
+    /// Renders the layer into a full page of pixels, for formats that are not encoded from runs.
     void render_pixels(const Layer& layer, MaskFile& product) const {
         std::vector<std::uint8_t> pixels;
         pixels.reserve(static_cast<std::size_t>(layout_->width()) *
@@ -67,7 +67,8 @@ class PngStack : public Backend {
             set_bmp_pixel_size(product.file, layout_->column_pitch(), layout_->row_pitch());
     }
 
-    /// Part coordinates, mm, of the corner of pixel (0, 0) and the way to the next column and row.
+    /// Returns the part coordinates (mm) of the corner of pixel (0, 0) and the steps to the next column and
+    /// row.
     nlohmann::ordered_json placement() const {
         const RowBand band = layout_->rows(0, 1, 1);
         const bool x = band.axis == Axis::x;
@@ -78,7 +79,7 @@ class PngStack : public Backend {
                 {"row_step", band.across_pitch}};
     }
 
-    /// How long layers are exposed, s: the first ones, a linear ramp over the next, then all others.
+    /// Returns the exposures, s: the first layers, a linear ramp, then all others.
     nlohmann::ordered_json exposures() const {
         const ResinProfile& resin = profile_.resin;
         return {{"first_layers", resin.first_layers},

@@ -1,4 +1,4 @@
-// Back-end: a folder of PNG masks, one a layer, with a job.json that describes them.
+// Back-end: a folder with one image per layer and a job.json that describes them.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@
 
 namespace lamella {
 
-/// Writes PATH/00000.png (or another ending, by the profile's format) and so on, 8-bit grey, 255 = solid,
-/// numbered by the layer's index, and job.json: the job, its layers, the size and pitch of the images and
-/// where they lie over the part (see MaskLayout). The folder gets its name when complete (see
-/// UnfinishedFolder).
+/// Makes a back-end that writes PATH/00000.png and so on (or another extension, by the profile's format),
+/// 8-bit grey, 255 = solid, numbered by layer index. job.json describes the job, its layers, the size and
+/// pixel pitch of the images and their position over the part (see MaskLayout). The folder is renamed when
+/// complete (see UnfinishedFolder).
 std::unique_ptr<Backend> make_png_stack(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// PNG chunks round the deflated bands.
+// Writes the PNG chunks around the compressed bands.
 #include "printers/masks/png_writer.h"
 
 #include <libdeflate.h>
@@ -27,7 +27,7 @@ void put_bytes(std::vector<std::byte>& out, std::span<const std::byte> bytes) {
 
 std::uint32_t pixels_per_metre(double pixel) { return static_cast<std::uint32_t>(std::lround(1000 / pixel)); }
 
-/// Two bytes a pixel, the higher first.
+/// Appends two bytes per pixel, the higher first.
 void append_pairs(std::span<const GreyRun> runs, std::vector<GreyRun>& bytes) {
     for (const GreyRun& run : runs) {
         const auto high = static_cast<std::uint16_t>(run.value >> 8U),
@@ -43,10 +43,10 @@ void append_pairs(std::span<const GreyRun> runs, std::vector<GreyRun>& bytes) {
     }
 }
 
-/// Eight pixels a byte, the first in the highest bit; rows begin with a byte of their own.
+/// Appends rows with eight pixels per byte, the first in the highest bit. Each row starts at a new byte.
 void append_bits(std::span<const GreyRun> runs, int width, std::vector<GreyRun>& bytes) {
     int column = 0;
-    unsigned open = 0;  // pixels of the byte that is not full yet
+    unsigned open = 0;  // pixels of the incomplete byte
     for (const GreyRun& run : runs) {
         const bool white = run.value > white_of_8_bits / 2;
         auto left = static_cast<int>(run.length);
@@ -118,7 +118,7 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
     put_u8(out_, 0);  // the five standard filters
     put_u8(out_, 0);  // not interlaced
     end_chunk(size);
-    // Beyond these bounds (1 nm to 1 m a pixel) the chunk could not hold the number.
+    // Outside these bounds (1 nm to 1 m per pixel) the number does not fit the chunk.
     const auto known = [](double pixel) { return pixel >= 1e-6 && pixel <= 1000; };
     if (known(header.pixel_x) && known(header.pixel_y)) {
         const std::size_t pitch = begin_chunk("pHYs");
@@ -133,7 +133,7 @@ void PngWriter::add_band(std::span<const std::byte> deflated, const Adler& adler
     const std::size_t start = begin_chunk("IDAT");
     if (rows_ == 0) {
         put_u8(out_, 0x78);  // zlib: deflate with a window of 32 KiB
-        put_u8(out_, 0x01);  // fastest; makes the header a multiple of 31
+        put_u8(out_, 0x01);  // fastest level; makes the header a multiple of 31
     }
     put_bytes(out_, deflated);
     end_chunk(start);

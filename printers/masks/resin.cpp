@@ -1,4 +1,4 @@
-// The ramp from the first exposure to the others.
+// Ramp from the first exposure to the regular one.
 #include "printers/masks/resin.h"
 
 #include <fmt/format.h>

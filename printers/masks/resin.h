@@ -1,4 +1,4 @@
-// Exposures and times of resin printers, which archives and files state alike.
+// Exposures and print times of resin printers, used by several back-ends.
 #pragma once
 
 #include <string>
@@ -7,19 +7,19 @@
 
 namespace lamella {
 
-/// Throws InputError for numbers that no machine takes.
+/// Throws InputError for values that no machine accepts.
 void check_resin_profile(const ResinProfile& resin);
 
-/// Exposure of layer `index`, counted from 0, s: the first ones, a linear ramp, then all others.
+/// Returns the exposure of layer `index` (from 0), s: the first layers, then a linear ramp, then all others.
 double resin_exposure(const ResinProfile& resin, int index);
 
-/// Exposures and moves of so many layers, s.
+/// Returns the time of exposures and moves of `layers` layers, s.
 double resin_print_time(const ResinProfile& resin, int layers);
 
-/// The model that a file is for: the profile's own name where it does not say.
+/// Returns the model that a file is made for; if the profile does not state it, the profile's name.
 std::string machine_name(const PrinterProfile& profile);
 
-/// All of it in one line, for a job's stamp.
+/// Returns all settings in one line, for a job's stamp.
 std::string describe_resin(const ResinProfile& resin);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The archive's entries, and what its two descriptions say.
+// Entries of the archive, and its two descriptions.
 #include "printers/masks/sl1.h"
 
 #include <fmt/format.h>
@@ -18,11 +18,11 @@
 namespace lamella {
 namespace {
 
-constexpr int first_layers = 3;           // that the machine exposes like the first one
+constexpr int first_layers = 3;           // layers that the machine exposes like the first
 constexpr int small_preview_width = 400;  // px
 constexpr int max_sl1_layers = 99'999;    // names have five digits
 
-/// `key = value`, a line each, sorted by key.
+/// Lines of `key = value`, sorted by key.
 using Sl1Description = std::map<std::string, std::string>;
 
 std::string to_text(const Sl1Description& description) {
@@ -31,8 +31,8 @@ std::string to_text(const Sl1Description& description) {
     return text;
 }
 
-/// The beginning of every layer's name. Machines take all images for layers that begin so: the previews'
-/// folder must not.
+/// Returns the prefix of all layer names. Machines take every image with this prefix for a layer, so the
+/// folder of the previews must not have it.
 std::string job_folder(const std::string& name) {
     constexpr std::size_t longest = 64;
     std::string clean;
@@ -44,7 +44,7 @@ std::string job_folder(const std::string& name) {
     return std::string_view("thumbnail").starts_with(clean) ? "job-" + clean : clean;
 }
 
-/// What goes into one line of a description.
+/// Returns the text reduced to one line of a description.
 std::string one_line(std::string text) {
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < ' ') c = ' ';
@@ -138,8 +138,8 @@ class Sl1 : public Backend {
                 {"usedMaterial", format_number(volume_ / ml, 6)}};
     }
 
-    /// What the display is, in a slicer's words. One that stands upright swaps the axes, which mirrors by
-    /// itself: there `display_mirror_x` means that the image is not mirrored any further.
+    /// Describes the display in the terms of a slicer. A display in portrait swaps the axes, which mirrors by
+    /// itself: for it `display_mirror_x` means that the image is not mirrored any further.
     Sl1Description for_programs() const {
         const ImageProfile& image = profile_.image;
         const ResinProfile& r = profile_.resin;

@@ -1,4 +1,4 @@
-// Back-end: archives for the resin printers SL1 and SL1S, which converters take for many others.
+// Back-end: archives for the resin printers SL1 and SL1S; converters turn them into files for many others.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,10 @@
 
 namespace lamella {
 
-/// Writes a ZIP archive: NAME00000.png and so on, 8-bit grey masks as MaskLayout lays them, then config.ini
-/// for the machine and prusaslicer.ini for programs. Layers are appended as they are computed; a stopped run
-/// leaves PATH.partial, and a later one goes on from there to the same bytes. Nothing in it tells the time.
+/// Makes a back-end that writes a ZIP archive: NAME00000.png and so on, 8-bit grey masks in the layout of
+/// MaskLayout, then config.ini for the machine and prusaslicer.ini for other programs. Layers are appended as
+/// they are computed. An interrupted run leaves PATH.partial and can be resumed to the same bytes. The
+/// archive contains no time stamp.
 std::unique_ptr<Backend> make_sl1(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

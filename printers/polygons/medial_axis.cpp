@@ -1,4 +1,4 @@
-// What of the border's Voronoi diagram lies inside.
+// Extracts the part of the border's Voronoi diagram that lies inside.
 #include "printers/polygons/medial_axis.h"
 
 #include <algorithm>
@@ -18,11 +18,11 @@ using Diagram = boost::polygon::voronoi_diagram<double>;
 
 dvec2 to_vector(const BorderPoint& p) { return {p.x(), p.y()}; }
 
-/// The part of the border that a cell of the diagram belongs to, in steps of the grid.
+/// The generator of a Voronoi cell: a segment or a corner of the border, in grid steps.
 struct Site {
-    dvec2 a{0}, b{0};  ///< a segment, its inside to the left; or a corner, where both are the same
+    dvec2 a{0}, b{0};  ///< a segment, its interior on the left; or a corner, where a equals b
     bool corner = false;
-    bool inside = false;  ///< a corner whose cell lies inside: one that the border turns right at
+    bool inside = false;  ///< the corner's cell lies inside: the border turns right at the corner
 
     dvec2 nearest(dvec2 p) const {
         if (corner) return a;
@@ -33,7 +33,7 @@ struct Site {
 
 class AxisBuilder {
   public:
-    /// Works from the piece's first point, for small numbers are where the diagram is fast.
+    /// Coordinates are relative to the piece's first point, because the diagram is faster with small numbers.
     AxisBuilder(const Polygons& piece, double tolerance)
         : origin_(piece.front().front()), tolerance_(tolerance * polygon_scale / grid) {
         for (const ClipperLib::Path& ring : piece) add_ring(ring);
@@ -44,7 +44,7 @@ class AxisBuilder {
         boost::polygon::construct_voronoi(segments_.begin(), segments_.end(), &diagram_);
         node_of_.assign(diagram_.vertices().size(), none);
         for (const Diagram::edge_type& edge : diagram_.edges()) {
-            // Each edge comes twice, once in each direction.
+            // Each edge appears twice, once in each direction.
             if (&edge > edge.twin() || !edge.is_primary() || edge.is_infinite()) continue;
             const Site left = site_of(*edge.cell()), right = site_of(*edge.twin()->cell());
             if (is_inside(edge, left, right) && !add(edge, left, right)) return {};
@@ -53,8 +53,8 @@ class AxisBuilder {
     }
 
   private:
-    /// Units in a step of the grid on which the diagram is made: 1 um. Coarser than the polygons', for its
-    /// exact arithmetic is the faster the fewer digits there are.
+    /// Polygon units per step of the diagram's grid (1 um). The grid is coarser than that of the polygons,
+    /// because the exact arithmetic is faster with fewer digits.
     static constexpr double grid = 100;
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -87,8 +87,8 @@ class AxisBuilder {
         return {at, at, true, turns_right_[start ? i : next_[i]]};
     }
 
-    /// The cell of a corner lies inside or outside as a whole, and with it its edges; between two segments
-    /// the edge's own place tells.
+    /// A corner's cell lies entirely inside or outside, and so do its edges. Between two segments the
+    /// position of the edge decides.
     static bool is_inside(const Diagram::edge_type& edge, const Site& left, const Site& right) {
         if (left.corner || right.corner) return left.inside && right.inside;
         double side = 0;
@@ -99,7 +99,7 @@ class AxisBuilder {
         return side > 0;
     }
 
-    /// False when the diagram is not one of this border.
+    /// Appends an edge. Returns false if the diagram does not belong to this border.
     bool add(const Diagram::edge_type& edge, const Site& left, const Site& right) {
         const dvec2 a(edge.vertex0()->x(), edge.vertex0()->y()), b(edge.vertex1()->x(), edge.vertex1()->y());
         std::vector<dvec2> points{a};
@@ -113,7 +113,7 @@ class AxisBuilder {
             MedialEdge piece{{from, to}, {}, {}};
             for (const std::size_t end : {0U, 1U}) {
                 const dvec2 p = points[i - 1 + end], l = left.nearest(p), r = right.nearest(p);
-                constexpr double slack = 1;  // of the grid
+                constexpr double slack = 1;  // grid steps
                 if (std::abs(length(p - l) - length(p - r)) > slack) return false;
                 piece.left[end] = to_mm(l);
                 piece.right[end] = to_mm(r);
@@ -124,12 +124,12 @@ class AxisBuilder {
         return true;
     }
 
-    /// Points of the parabola between a focus and a segment, from a to b without these.
+    /// Appends points of the parabola between a focus and a segment, from a to b, both excluded.
     void follow_curve(dvec2 a, dvec2 b, dvec2 focus, const Site& line, std::vector<dvec2>& points) const {
         const dvec2 along = (line.b - line.a) / length(line.b - line.a), up(-along.y, along.x);
         const double height = dot(focus - line.a, up), x0 = dot(a - focus, along), x1 = dot(b - focus, along);
         if (!(std::abs(height) > 0)) return;
-        // y = (x^2 + height^2) / (2 height): a chord over dx leaves it by dx^2 / (8 |height|).
+        // y = (x^2 + height^2) / (2 height): a chord over dx deviates by dx^2 / (8 |height|).
         const double step = std::sqrt(8 * std::abs(height) * tolerance_);
         const auto count = static_cast<int>(std::clamp(std::ceil(std::abs(x1 - x0) / step), 1.0, 64.0));
         const dvec2 foot = focus - up * height;
@@ -157,10 +157,10 @@ class AxisBuilder {
     }
 
     ClipperLib::IntPoint origin_;
-    double tolerance_;  // steps of the grid
+    double tolerance_;  // grid steps
     std::vector<BorderSegment> segments_;
-    std::vector<bool> turns_right_;  ///< at the segment's first point
-    std::vector<std::size_t> next_;  ///< segment of the same ring
+    std::vector<bool> turns_right_;  ///< at the first point of each segment
+    std::vector<std::size_t> next_;  ///< next segment of the same ring
     Diagram diagram_;
     std::vector<std::uint32_t> node_of_;
     MedialAxis axis_;

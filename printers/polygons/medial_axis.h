@@ -1,4 +1,4 @@
-// The medial axis of polygons: where the discs that touch the border twice have their centres.
+// MedialAxis: the centres of the inscribed discs that touch the border at two points or more.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace lamella {
 
-/// A centre of such a disc, mm.
+/// A centre of an inscribed disc, mm.
 struct MedialNode {
     dvec2 at{0};
     double radius = 0;  ///< distance to the border; 0 on it
 };
 
-/// A straight piece of the axis. Curved ones come as several.
+/// A straight piece of the axis. Curved pieces are split into several.
 struct MedialEdge {
-    std::array<std::uint32_t, 2> node{};  ///< at its ends
-    /// Where the discs at either end touch the border, to the left of the edge and to its right.
+    std::array<std::uint32_t, 2> node{};  ///< nodes at its ends
+    /// Points where the discs at both ends touch the border, to the left and to the right of the edge.
     std::array<dvec2, 2> left{}, right{};
 };
 
@@ -27,9 +27,9 @@ struct MedialAxis {
     std::vector<MedialEdge> edges;
 };
 
-/// The axis inside one connected piece with its holes, whose borders must not cross (from the Voronoi diagram
-/// of its border; curved stretches are followed to `tolerance` mm). Empty when there is none that makes
-/// sense, as for borders that do cross.
+/// Computes the axis inside one connected piece with its holes from the Voronoi diagram of its border. The
+/// borders must not cross. Curved pieces are approximated to `tolerance` mm. Empty if there is no valid axis,
+/// such as for borders that do cross.
 MedialAxis medial_axis(const Polygons& piece, double tolerance);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The k-d tree with counts.
+// A k-d tree with counts of the remaining points.
 #include "printers/polygons/nearest_points.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void NearestPoints::split(std::uint32_t index) {
         const int axis = size.x < size.y ? 1 : 0;
         const std::uint32_t middle = node.begin + node.alive / 2;
         const auto at = [&](std::uint32_t i) { return order_.begin() + i; };
-        // The index breaks ties, so that the tree is the same with every standard library.
+        // Ties are broken by index, so that the tree is the same with every standard library.
         std::nth_element(at(node.begin), at(middle), at(node.end), [&](std::uint32_t a, std::uint32_t b) {
             return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
         });

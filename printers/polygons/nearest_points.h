@@ -1,4 +1,4 @@
-// Nearest remaining point: the order in which beads are visited.
+// NearestPoints: nearest-neighbour queries on a set of points that shrinks; orders the beads of a layer.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace lamella {
 
-/// A set of points from which the nearest one to a place is asked for and points are removed. A balanced k-d
-/// tree whose nodes count their remaining points; a tour of n points takes about n log n.
+/// A set of points that supports nearest-point queries and removal. It is a balanced k-d tree whose nodes
+/// count their remaining points; a tour of n points takes about n log n steps.
 class NearestPoints {
   public:
     explicit NearestPoints(std::span<const dvec2> points);
 
     bool empty() const { return nodes_.empty() || nodes_[0].alive == 0; }
-    /// Index of a nearest remaining point; the set must not be empty.
+    /// Returns the index of a nearest remaining point. The set must not be empty.
     std::size_t nearest(dvec2 from) const;
     /// Removes a point; removing it again does nothing.
     void remove(std::size_t index);

@@ -1,4 +1,4 @@
-// Polylines with fewer points, and greedy arcs.
+// Simplifies polylines and fits arcs greedily.
 #include "printers/polygons/path_fit.h"
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace lamella {
 namespace {
 
-constexpr double largest_radius = 1000;   // mm; flatter ones are lines, and firmware computes in floats
+constexpr double largest_radius = 1000;   // mm; flatter arcs become lines: firmware computes in floats
 constexpr std::size_t fewest_points = 4;  // any three points lie on a circle
-constexpr std::size_t max_points = 512;   // that one arc stands for; bounds the work
+constexpr std::size_t max_points = 512;   // most points replaced by one arc; bounds the work
 
 double distance_to_segment(dvec2 p, dvec2 a, dvec2 b) {
     const dvec2 way = b - a;
@@ -30,10 +30,10 @@ PathPiece straight(std::span<const dvec2> points, std::size_t first, std::size_t
             run_between(points, first, last)};
 }
 
-/// Appends the pieces from one point to another, with as few points between as the tolerance allows.
+/// Appends straight pieces from one point to another, with as few points between as the tolerance permits.
 void append_merged(std::span<const dvec2> points, std::size_t first, std::size_t last, double tolerance,
                    std::vector<PathPiece>& out) {
-    std::vector<std::size_t> ends{last};  // of stretches that are still to be looked at, the next one last
+    std::vector<std::size_t> ends{last};  // ends of stretches to be examined, the next one last
     while (!ends.empty()) {
         std::size_t farthest = 0;
         double most = tolerance;
@@ -69,7 +69,7 @@ std::optional<dvec2> circle_center(dvec2 a, dvec2 b, dvec2 c) {
     return a + dvec2(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / twice;
 }
 
-/// An arc from the first to the last point that all others lie on, if there is one.
+/// Returns an arc from the first to the last point that passes all others, if there is one.
 std::optional<Arc> fit_arc(std::span<const dvec2> points, double tolerance, double unit) {
     const auto on_grid = [&](dvec2 p) {
         return dvec2(std::round(p.x / unit), std::round(p.y / unit)) * unit;
@@ -90,7 +90,7 @@ std::optional<Arc> fit_arc(std::span<const dvec2> points, double tolerance, doub
         const dvec2 next = points[i + 1] - *center;
         const double angle = turn * std::atan2(cross(arm, next), dot(arm, next));
         if (!(angle > 0)) return std::nullopt;
-        // The chord lies inside the circle by its sagitta and by what its ends do.
+        // The chord's largest distance from the circle: its sagitta plus the deviation of its ends.
         const dvec2 middle = (arm + next) / 2.0;
         if (radius - length(middle) > tolerance) return std::nullopt;
         sweep += angle;
@@ -115,7 +115,7 @@ std::vector<PathPiece> merged_pieces(std::span<const dvec2> points, double toler
 
 std::vector<PathPiece> arc_pieces(std::span<const dvec2> points, double tolerance, bool merge, double unit) {
     std::vector<PathPiece> out;
-    std::size_t pending = 0;  // where what is not yet appended begins
+    std::size_t pending = 0;  // start of the points that are not yet appended
     const auto flush = [&](std::size_t to) {
         if (to == pending) return;
         if (merge) return append_merged(points, pending, to, tolerance, out);

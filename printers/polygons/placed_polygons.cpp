@@ -1,4 +1,4 @@
-// Boxes of rings.
+// Bounding boxes of rings.
 #include "printers/polygons/placed_polygons.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Polygons whose rings are found by where they lie.
+// PlacedPolygons: polygons with bounding boxes, to select those near a region.
 #pragma once
 
 #include <vector>
@@ -7,18 +7,18 @@
 
 namespace lamella {
 
-/// Smallest rectangle round the polygons, mm; empty for none.
+/// Returns the bounding box of the polygons, mm; empty for none.
 Rect box_of(const Polygons& polygons);
 
-/// The polygons of a whole layer, of which booleans with a small region need only those near it. Immutable.
+/// The polygons of a whole layer. A boolean with a small region needs only those near it. Immutable.
 class PlacedPolygons {
   public:
     PlacedPolygons() = default;
     explicit PlacedPolygons(Polygons polygons);
 
     const Polygons& all() const { return rings_; }
-    /// The rings that may have to do with what lies in `where`: those whose boxes meet it, so also all that
-    /// enclose it.
+    /// Returns the rings that may affect a boolean within `where`: those whose boxes meet it, which includes
+    /// all rings that enclose it.
     Polygons near(const Rect& where) const;
 
   private:

@@ -1,4 +1,4 @@
-// A grid of edges, and signs of areas.
+// Visibility by a grid of edges and the signs of triangle areas.
 #include "printers/polygons/polygon_sight.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Corner = PolygonSight::Corner;
 
 constexpr auto side = PolygonSight::side;
 
-/// Whether b, which lies on the line through a and c, lies between them and is neither.
+/// Returns true if b, which lies on the line through a and c, lies strictly between them.
 bool between(Point a, Point b, Point c) {
     if (b == a || b == c) return false;
     return std::min(a.X, c.X) <= b.X && b.X <= std::max(a.X, c.X) && std::min(a.Y, c.Y) <= b.Y &&
@@ -24,13 +24,13 @@ bool opposite(std::int64_t a, std::int64_t b) { return (a < 0 && b > 0) || (a > 
 
 bool is_bend(const Corner& c) { return side(c.before, c.at, c.after) < 0; }
 
-/// Whether what lies at a corner in the direction of q is inside, the border included.
+/// Returns true if the points near a corner in the direction of q are inside or on the border.
 bool opens_to(const Corner& c, Point q) {
     const bool left_before = side(c.before, c.at, q) >= 0, left_after = side(c.at, c.after, q) >= 0;
     return is_bend(c) ? left_before || left_after : left_before && left_after;
 }
 
-/// Whether a corner or the edge from it to the next one cuts the line of sight.
+/// Returns true if a corner, or the edge from it to the next one, blocks the line of sight.
 bool blocks(const Corner& c, Point p, Point q) {
     if (c.at == p) return !opens_to(c, q);
     if (c.at == q) return !opens_to(c, p);
@@ -44,13 +44,13 @@ bool blocks(const Corner& c, Point p, Point q) {
 
 dvec2 to_vector(Point p) { return {static_cast<double>(p.X), static_cast<double>(p.Y)}; }
 
-/// Unit vector to the left of the way from a to b.
+/// Returns the unit vector to the left of the direction from a to b.
 dvec2 left_of(Point a, Point b) {
     const dvec2 way = to_vector(b) - to_vector(a);
     return dvec2(-way.y, way.x) / std::sqrt(way.x * way.x + way.y * way.y);
 }
 
-/// Without points on a straight line between their neighbours.
+/// Removes points on a straight line between their neighbours.
 std::vector<Point> without_flat_corners(const ClipperLib::Path& ring) {
     std::vector<Point> kept;
     for (const Point& p : ring) {
@@ -79,7 +79,7 @@ void PolygonSight::add_ring(const ClipperLib::Path& ring) {
         corners_.push_back({points[(i + n - 1) % n], points[i], points[(i + 1) % n]});
 }
 
-/// About one cell for each edge.
+/// Builds a grid with about one cell per edge.
 void PolygonSight::fill_grid() {
     if (corners_.empty()) return;
     Rect box;
@@ -116,7 +116,7 @@ std::int64_t PolygonSight::row(double y) const {
     return static_cast<std::int64_t>(std::clamp(at, 0.0, static_cast<double>(rows_ - 1)));
 }
 
-/// Visits the cells within `margin` of a straight line, row by row, until one says true.
+/// Visits the cells within `margin` of a segment, row by row, until `visit` returns true.
 template <typename Visit>
 bool PolygonSight::any_cell(Point p, Point q, double margin, Visit visit) const {
     const dvec2 lo = to_vector(p.Y < q.Y ? p : q), hi = to_vector(p.Y < q.Y ? q : p);
@@ -136,7 +136,7 @@ bool PolygonSight::any_cell(Point p, Point q, double margin, Visit visit) const 
     return false;
 }
 
-/// The same for the edges in these cells; one edge may come more than once.
+/// Visits the edges in these cells, some of them more than once.
 template <typename Visit>
 bool PolygonSight::any_edge(Point p, Point q, double margin, Visit visit) const {
     if (corners_.empty()) return false;
@@ -172,7 +172,7 @@ bool PolygonSight::contains(Point p) const {
 
 std::optional<PolygonSight::Point> PolygonSight::enter(Point p, double reach) const {
     if (contains(p)) return p;
-    constexpr double step_in = 10;  // units; rounded, the nearest point itself may lie outside
+    constexpr double step_in = 10;  // units; after rounding the nearest point itself may lie outside
     double least = reach;
     std::optional<dvec2> nearest;
     const dvec2 from = to_vector(p);
@@ -183,7 +183,7 @@ std::optional<PolygonSight::Point> PolygonSight::enter(Point p, double reach) co
             std::clamp((arm.x * way.x + arm.y * way.y) / (way.x * way.x + way.y * way.y), 0.0, 1.0);
         const dvec2 foot = a + way * t, gap = foot - from;
         const double distance = std::sqrt(gap.x * gap.x + gap.y * gap.y);
-        if (t == 1 || distance > least) return false;  // the far end is the next edge's beginning
+        if (t == 1 || distance > least) return false;  // the far end belongs to the next edge
         dvec2 inward = left_of(c.at, c.after);
         if (t == 0) inward += left_of(c.before, c.at);
         least = distance;

@@ -1,4 +1,4 @@
-// Clipper calls, and straight lines cut by polygons.
+// Calls of Clipper, and clipping of straight lines by polygons.
 #include "printers/polygons/polygons.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void collect_pieces(const ClipperLib::PolyNode& outer, std::vector<Polygons>& pi
     pieces.push_back(std::move(piece));
 }
 
-/// Direction of the largest second moment of area.
+/// Returns the direction of the largest second moment of area.
 dvec2 principal_axis(const Polygons& polygons) {
     dvec2 reference = to_point(polygons.front().front());
     double area = 0;
@@ -46,7 +46,7 @@ dvec2 principal_axis(const Polygons& polygons) {
     double xx = 0;
     double xy = 0;
     double yy = 0;
-    each_edge(polygons, [&](dvec2 a, dvec2 b) {  // Green's theorem, triangle by triangle from the reference
+    each_edge(polygons, [&](dvec2 a, dvec2 b) {  // Green's theorem, with triangles from the reference point
         a -= reference;
         b -= reference;
         const double cross = a.x * b.y - a.y * b.x;
@@ -61,13 +61,13 @@ dvec2 principal_axis(const Polygons& polygons) {
     xy -= first.x * first.y / area;
     const double difference = (xx - yy) / 2;
     const double root = std::sqrt(difference * difference + xy * xy);
-    // Of the two equal ways to write the eigenvector, the one without cancellation.
+    // Of the two equivalent forms of the eigenvector, use the one without cancellation.
     const dvec2 axis = difference >= 0 ? dvec2(difference + root, xy) : dvec2(xy, root - difference);
     const double length = std::sqrt(dot(axis, axis));
     return length > 0 ? axis / length : dvec2(1, 0);
 }
 
-/// Squared distance from p to the segment ab, in units.
+/// Returns the squared distance from p to the segment ab, in units.
 double squared_distance(const ClipperLib::IntPoint& p, const ClipperLib::IntPoint& a,
                         const ClipperLib::IntPoint& b) {
     const dvec2 way(static_cast<double>(b.X - a.X), static_cast<double>(b.Y - a.Y));
@@ -77,7 +77,7 @@ double squared_distance(const ClipperLib::IntPoint& p, const ClipperLib::IntPoin
     return dot(rest, rest);
 }
 
-/// Douglas and Peucker (1973) on a ring, from its first point and the one farthest from it.
+/// Simplifies a ring by Douglas and Peucker (1973), split at its first point and the point farthest from it.
 ClipperLib::Path simplified_ring(const ClipperLib::Path& ring, double tolerance) {
     const std::size_t n = ring.size();
     if (n <= 3) return ring;
@@ -134,7 +134,7 @@ Rect box_of(const ClipperLib::Path& polygon) {
     return box;
 }
 
-/// Makes one of the two lines that end at a point; a ring that was opened there goes on through it.
+/// Joins the two lines that end at a point. A ring that was opened there continues through it.
 void join_at(const ClipperLib::IntPoint& point, Polygons& lines) {
     std::vector<std::size_t> ending;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -230,7 +230,7 @@ std::vector<NestedPolygon> nested_polygons(const Polygons& polygons) {
     clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     std::vector<NestedPolygon> nested;
     std::vector<std::pair<const ClipperLib::PolyNode*, int>> open{{&tree, -1}};
-    for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: the depth never falls
+    for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: the depth never decreases
         const auto [node, depth] = open[i];
         if (depth >= 0) nested.push_back({node->Contour, depth});
         for (const ClipperLib::PolyNode* child : node->Childs) open.emplace_back(child, depth + 1);
@@ -314,7 +314,7 @@ std::vector<Segment> cut_lines(const Polygons& polygons, dvec2 direction, double
         if (dot(normal, a) > dot(normal, b)) std::swap(a, b);
         const double lo = dot(normal, a);
         const double hi = dot(normal, b);
-        const auto line_from = [&](double v) {  // the first line at or beyond v
+        const auto line_from = [&](double v) {  // first line at or beyond v
             return static_cast<int>(std::clamp(std::ceil((v - first) / pitch), 0.0, double(count)));
         };
         // Half-open: a vertex on a line belongs to the edge that rises from it.

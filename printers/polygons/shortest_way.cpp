@@ -1,4 +1,4 @@
-// A* with edges that are tested when their turn comes.
+// A* with lazy visibility tests.
 #include "printers/polygons/shortest_way.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ double distance(Point a, Point b) {
 
 int sign(std::int64_t v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
-/// On which side of the line from `from` through a corner its two edges lie: 1 left, -1 right, 0 if the line
-/// goes through between them, so that no shortest way that comes along it bends there.
+/// Returns the side of the line from `from` through a corner on which both edges of the corner lie: 1 left,
+/// -1 right. Returns 0 if the line passes between them; then no shortest path along the line bends there.
 int edges_side(Point from, const Corner& c) {
     const int before = sign(PolygonSight::side(from, c.at, c.before)),
               after = sign(PolygonSight::side(from, c.at, c.after));
@@ -28,7 +28,7 @@ int edges_side(Point from, const Corner& c) {
     return before != 0 ? before : after;
 }
 
-/// The search among the corners of an ellipse.
+/// The search among the corners within an ellipse.
 class Search {
   public:
     Search(const PolygonSight& inside, Point from, Point to, double longest, std::int64_t max_steps)
@@ -59,19 +59,19 @@ class Search {
         }
         return std::nullopt;
     }
-    /// Whether there may be a longer way.
+    /// Returns true if the limits excluded paths, so that a longer one may exist.
     bool cut_short() const { return cut_short_; }
     std::int64_t steps() const { return steps_; }
 
   private:
     static constexpr int start = -1, unseen = -2;
 
-    /// A straight piece that may turn out to be blocked.
+    /// A straight piece whose visibility has not been tested yet.
     struct Step {
-        double estimate;  ///< of the whole way
-        double length;    ///< up to the piece's end
+        double estimate;  ///< estimated length of the whole path
+        double length;    ///< length up to the piece's end
         int from, to;
-        bool operator<(const Step& other) const {  // the best is the greatest
+        bool operator<(const Step& other) const {  // the best step is the greatest
             if (estimate != other.estimate) return estimate > other.estimate;
             return to != other.to ? to > other.to : from > other.from;
         }
@@ -83,8 +83,8 @@ class Search {
         return node == start ? from_ : node == target() ? to_ : corners_[index(node)].at;
     }
 
-    /// Whether a way that has come to a node may go on to a point: it bends round the corner, not away from
-    /// it.
+    /// Returns true if a path that has reached a node may continue to a point: it must bend around the
+    /// corner, not away from it.
     bool bends_towards(int node, Point next) const {
         if (node == start) return true;
         const Corner& c = corners_[index(node)];

@@ -1,4 +1,4 @@
-// The shortest way between two points inside polygons with holes.
+// Shortest path between two points inside polygons with holes.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace lamella {
 
-/// The corners of the shortest way from one point to another, both inside, ends left out: empty where they
-/// see each other, nothing where no way leads across or the search took too many steps.
+/// Returns the inner corners of the shortest path between two points that both lie inside. The result is
+/// empty if they see each other, and nothing if there is no path or the search took too many steps.
 ///
-/// The search is A* over the corners at which the border bends inward; who sees whom is found out only where
-/// it comes to that. It looks at the corners of an ellipse round both points first, and at larger ones as
-/// long as it finds nothing: what lies outside cannot be on a shorter way. After `max_steps` pairs of
-/// corners and edges it gives up. Ways longer than `longest`, in units, are not looked for. The result
-/// depends on the arguments alone.
+/// The search is A* over the reflex corners of the border; visibility is tested lazily, when a pair comes up.
+/// It first searches the corners in an ellipse around both points, then in larger ellipses as long as it
+/// finds nothing: a corner outside the ellipse cannot be on a shorter path. It gives up after `max_steps`
+/// pairs of corners and edges, and ignores paths longer than `longest` units. The result depends on the
+/// arguments alone.
 std::optional<std::vector<PolygonSight::Point>> shortest_way(const PolygonSight& inside,
                                                              PolygonSight::Point from, PolygonSight::Point to,
                                                              double longest = infinity,

@@ -1,4 +1,4 @@
-// libzip behind a lock, with a bound on what is unpacked.
+// Reads by libzip under a lock, with a limit on the unpacked size.
 #include "printers/readers/job_archive.h"
 
 #include <zip.h>
@@ -62,7 +62,7 @@ std::string JobArchive::read(const std::string& name, std::size_t most) const {
     if (!file) reject(std::string("cannot be unpacked (") + zip_strerror(open_->zip) + ")");
     std::string content;
     for (;;) {
-        // The stated size may be a lie, so what is really unpacked is counted.
+        // The stated size may be wrong, so the bytes actually unpacked are counted.
         const std::size_t used = content.size();
         content.resize(used + std::clamp(used, std::size_t{1} << 14U, std::size_t{1} << 24U));
         const zip_int64_t got = zip_fread(file.get(), content.data() + used, content.size() - used);

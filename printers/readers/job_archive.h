@@ -1,4 +1,4 @@
-// JobArchive: a ZIP archive of masks and descriptions, read entry by entry within bounds.
+// JobArchive: reads the entries of a ZIP archive, with a limit on their size.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace lamella {
 
-/// Open for reading, by libzip. Reads are serialised, so it may be shared by threads.
+/// A ZIP archive open for reading by libzip. Reads are serialised, so several threads may share it.
 class JobArchive {
   public:
-    /// Throws InputError when it cannot be opened as a ZIP archive.
+    /// Throws InputError if the file cannot be opened as a ZIP archive.
     explicit JobArchive(const std::string& path);
 
     const std::string& path() const { return path_; }
-    /// Names of all entries, as they stand in the directory.
+    /// Returns the names of all entries, in the order of the directory.
     std::vector<std::string> names() const;
     bool has(const std::string& name) const;
-    /// The content of an entry, its checksum compared. Throws InputError when it is missing, damaged, or
-    /// unpacks to more than `most` bytes.
+    /// Returns the content of an entry and verifies its checksum. Throws InputError if the entry is missing,
+    /// damaged, or unpacks to more than `most` bytes.
     std::string read(const std::string& name, std::size_t most) const;
 
   private:

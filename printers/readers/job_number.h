@@ -1,4 +1,4 @@
-// Numbers as jobs state them: text, JSON, or nothing that makes sense.
+// Parsing of the numbers in job files, from text or JSON; invalid values become empty.
 #pragma once
 
 #include <charconv>
@@ -11,7 +11,7 @@ namespace lamella {
 
 inline constexpr double micrometre = 1e-3;  // mm
 
-/// The finite number that a whole text is; empty where it is none.
+/// Parses the whole text as a finite number; empty if it is not one.
 inline std::optional<double> parse_number(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -20,26 +20,26 @@ inline std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
-/// A number above 0 (and below 1e12); empty for all others, which are no fact.
+/// Returns the value if it is above 0 and below 1e12; otherwise empty, because it states nothing useful.
 inline std::optional<double> positive_or_none(std::optional<double> value) {
     if (!value || !(*value > 0 && *value < 1e12)) return std::nullopt;
     return value;
 }
 
-/// A whole number from 0 to a million; empty for all others.
+/// Returns the value if it is a whole number from 0 to a million; otherwise empty.
 inline std::optional<int> count_or_none(std::optional<double> value) {
     if (!value || !(*value >= 0 && *value <= 1e6) || *value != std::floor(*value)) return std::nullopt;
     return static_cast<int>(*value);
 }
 
-/// The number of a key of an object; empty where that is missing or no number.
+/// Returns the finite number of a key of an object; empty if the key is missing or not a number.
 inline std::optional<double> number_of(const nlohmann::ordered_json& object, const char* key) {
     if (!object.is_object() || !object.contains(key) || !object[key].is_number()) return std::nullopt;
     const double value = object[key].get<double>();
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The text of a key of an object; "" where that is missing or no text.
+/// Returns the text of a key of an object; "" if the key is missing or not a text.
 inline std::string text_of(const nlohmann::ordered_json& object, const char* key) {
     if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return "";
     return object[key].get<std::string>();

@@ -1,4 +1,4 @@
-// The reader of each format. read_job.h chooses among them.
+// Readers of the individual job formats. read_job.h selects among them.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace lamella {
 
-/// All throw InputError with the path and what is wrong.
+/// All throw InputError with the path and the fault.
 std::unique_ptr<JobFile> read_sl1(JobArchive archive);
 std::unique_ptr<JobFile> read_nanodlp(JobArchive archive);
 std::unique_ptr<JobFile> read_goo(const std::string& path);
 std::unique_ptr<JobFile> read_ember(const std::string& path);
 std::unique_ptr<JobFile> read_png_stack(const std::string& path);
 
-/// Whether bytes begin as a GOO file does; 12 of them decide.
+/// Returns true if the bytes begin like a GOO file; needs the first 12 bytes.
 bool begins_as_goo(std::string_view bytes);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Checking what an image claims before it is unpacked.
+// Checks the claims of an image before it is unpacked.
 #include "printers/readers/mask_decoder.h"
 
 #include <fmt/format.h>
@@ -19,15 +19,15 @@ std::uint32_t big_endian(std::string_view bytes) {
     return value;
 }
 
-/// Throws InputError unless a PNG file consists of whole chunks with right checksums, from its beginning to
-/// its end (ISO/IEC 15948, section 5). The library below reports such damage, but prints it as well.
+/// Throws InputError unless a PNG file consists of complete chunks with correct checksums, from its beginning
+/// to its end (ISO/IEC 15948, section 5). The image library reports such damage as well, but also prints it.
 void check_png(std::string_view bytes, const std::string& where) {
     constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
     const auto reject = [&](const char* why) {
         throw InputError(where + ": the image cannot be read (" + why + ")");
     };
     if (!bytes.starts_with(signature)) reject("it is no PNG file");
-    constexpr std::size_t frame = 12;  // of a chunk: its length, name and checksum
+    constexpr std::size_t frame = 12;  // bytes of a chunk besides its data: length, name and checksum
     std::string_view name;
     for (std::size_t at = signature.size(); name != "IEND";) {
         const std::string_view left = bytes.substr(at);
@@ -41,7 +41,7 @@ void check_png(std::string_view bytes, const std::string& where) {
     }
 }
 
-/// An image file in memory, its claims checked.
+/// An image file in memory whose claims have been checked.
 class OpenImage {
   public:
     OpenImage(const std::string& name, std::string_view bytes, const std::string& where) : where_(where) {
@@ -61,7 +61,7 @@ class OpenImage {
 
     const ImagePage& page() const { return page_; }
 
-    /// All samples, the channels of a pixel side by side.
+    /// Returns all samples, with the channels of a pixel next to each other.
     std::vector<std::uint8_t> read() {
         std::vector<std::uint8_t> samples(static_cast<std::size_t>(page_.width) *
                                           static_cast<std::size_t>(page_.height) *
@@ -82,7 +82,7 @@ class OpenImage {
     ImagePage page_;
 };
 
-/// The brightest colour of each pixel of several channels: alpha does not count.
+/// Returns the brightest colour of each pixel; alpha does not count.
 std::vector<std::uint8_t> brightest(std::span<const std::uint8_t> samples, int channels) {
     const auto step = static_cast<std::size_t>(channels);
     const std::size_t colors = channels >= 3 ? 3 : 1;

@@ -1,4 +1,4 @@
-// Ember archives: a compressed tape archive, which has no directory and is therefore read from end to end.
+// Ember archives: a tar.gz, which has no directory and is therefore read from end to end.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -20,16 +20,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t ember_block = 512;
 constexpr std::uint64_t max_kept = std::uint64_t{1} << 30U;  // bytes of all files together
-constexpr double ember_pixel = 0.05;                         // mm, of the machine's projector
+constexpr double ember_pixel = 0.05;                         // mm; pixel of the machine's projector
 
-/// The unpacked bytes of a gzip file, any number of members one after another.
+/// Reads the uncompressed bytes of a gzip file with any number of members.
 class GzipReader {
   public:
     explicit GzipReader(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose_r) {
         if (!file_) throw InputError(path + ": cannot be opened");
     }
 
-    /// Fills `bytes`. Throws InputError when there are fewer.
+    /// Fills `bytes`. Throws InputError if there are fewer left.
     void read(char* bytes, std::size_t count) {
         while (count > 0) {
             constexpr std::size_t most = std::size_t{1} << 20U;
@@ -40,7 +40,7 @@ class GzipReader {
         }
     }
 
-    /// Reads what fills up the last record, so that the stream's own end is checked.
+    /// Reads the padding after the last record, so that the end of the stream is checked as well.
     void finish() {
         constexpr int most = 1 << 20;
         std::string filling(most, '\0');
@@ -74,7 +74,7 @@ class EmberFile : public JobFile {
         while (files_.contains(image(facts_.layers))) ++facts_.layers;
         const auto slices =
             std::ranges::count_if(files_, [](const auto& file) { return file.first.ends_with(".png"); });
-        // The machine counts the images and then asks for them by number.
+        // The machine counts the images and then requests them by number.
         if (facts_.layers == 0 || facts_.layers != slices) {
             throw InputError(fmt::format("{}: layer {} ({}) is missing: {} images are there", path_,
                                          facts_.layers, image(facts_.layers), slices));
@@ -98,7 +98,7 @@ class EmberFile : public JobFile {
     }
     [[noreturn]] void reject(const std::string& why) const { throw InputError(path_ + ": " + why); }
 
-    /// A field of octal digits that may be surrounded by blanks and ends with a zero byte.
+    /// Parses a field of octal digits that may be surrounded by blanks and ends with a zero byte.
     std::uint64_t octal(std::string_view field) const {
         const std::size_t first = field.find_first_not_of(' ');
         field.remove_prefix(std::min(first, field.size()));
@@ -143,7 +143,7 @@ class EmberFile : public JobFile {
         in.finish();
     }
 
-    /// Grows with what is really there: the stated size may be a lie.
+    /// The buffer grows with the bytes actually read, because the stated size may be wrong.
     static std::string read_content(GzipReader& in, std::uint64_t size) {
         std::string content;
         while (content.size() < size) {

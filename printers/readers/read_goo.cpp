@@ -1,4 +1,4 @@
-// GOO files (vendor's specification V1.2, 2023): a header of fixed size, layers of run-length codes, an end.
+// GOO files (vendor's specification V1.2, 2023): a header of fixed size, run-length coded layers, a footer.
 #include <fmt/format.h>
 
 #include <bit>
@@ -17,10 +17,10 @@ constexpr std::string_view goo_file_magic("\x07\x00\x00\x00\x44\x4c\x50\x00", 8)
 constexpr std::size_t small_preview_bytes = std::size_t{116} * 116 * 2,
                       large_preview_bytes = std::size_t{290} * 290 * 2;
 constexpr std::size_t header_bytes = 195477;
-constexpr std::size_t layer_header_bytes = 70;  // with the size of the code
+constexpr std::size_t layer_header_bytes = 70;  // including the size of the code
 constexpr std::size_t end_bytes = 3 + 8;
 
-/// Numbers with their highest byte first, out of bytes whose count is known to suffice.
+/// Reads big-endian numbers. The caller ensures that there are enough bytes.
 class BigEndianReader {
   public:
     explicit BigEndianReader(std::string_view bytes) : left_(bytes) {}
@@ -37,7 +37,7 @@ class BigEndianReader {
         left_.remove_prefix(bytes);
         return taken;
     }
-    /// Up to the first zero byte; what cannot be shown is left out.
+    /// Returns the text up to the first zero byte, without characters that cannot be displayed.
     std::string text(std::size_t bytes) {
         std::string text;
         for (const char c : take(bytes)) {
@@ -51,13 +51,13 @@ class BigEndianReader {
     std::string_view left_;
 };
 
-/// Fills a mask from a layer's code. Throws a message without the file's name.
+/// Decodes a layer's code into a mask. Its errors do not name the file.
 class GooDecoder {
   public:
     GooDecoder(std::string_view code, std::size_t pixels) : code_(code), pixels_(pixels) {}
 
     std::vector<std::uint8_t> decode() {
-        // A start byte, chunks, and the inverted sum of the chunks' bytes.
+        // Layout: a start byte, chunks, and the inverted sum of the chunks' bytes.
         if (code_.size() < 2 || code_[0] != '\x55') throw InputError("its code does not begin with 55");
         unsigned sum = 0;
         for (const char c : code_.substr(1, code_.size() - 2)) sum += static_cast<unsigned char>(c);
@@ -91,7 +91,7 @@ class GooDecoder {
             if (head >> 6U == black) value_ = 0;
             if (head >> 6U == white) value_ = 255;
             if (head >> 6U == grey) value_ = byte();
-            // The lowest 4 bits stand in the head, the others behind, the highest first.
+            // The lowest 4 bits are in the first byte, the others follow, the highest first.
             std::uint64_t high = 0;
             for (unsigned more = head >> 4U & 3U; more > 0; --more) high = high << 8U | byte();
             length = high << 4U | (head & 0xfU);
@@ -173,7 +173,7 @@ class GooFile : public JobFile {
         if (!version.empty()) facts_.program += " " + version;
         in.skip(24);  // time
         facts_.machine = in.text(32);
-        in.skip(32);  // kind of machine
+        in.skip(32);  // machine type
         facts_.material = in.text(32);
         in.skip(6 + small_preview_bytes + 2 + large_preview_bytes + 2);
         facts_.layers = checked_layers(in.number(4));
@@ -204,7 +204,7 @@ class GooFile : public JobFile {
         facts_.fade_layers = count_or_none(in.number(2));
     }
 
-    /// Single precision shows in the seventh digit: 0.05 is told as 0.05, not as 0.05000000074505806.
+    /// Numbers have single precision. Rounding to seven digits gives 0.05 instead of 0.05000000074505806.
     static std::optional<double> fact(BigEndianReader& in) {
         const double value = in.real();
         return positive_or_none(parse_number(fmt::format("{:.7g}", value)));
@@ -220,7 +220,7 @@ class GooFile : public JobFile {
         return static_cast<int>(count);
     }
 
-    /// Layers follow each other, each with the size of its code.
+    /// Locates the layers, which follow each other, each with the size of its code.
     void find_layers() {
         places_.reserve(static_cast<std::size_t>(facts_.layers));
         std::uint64_t at = content_;

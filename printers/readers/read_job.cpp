@@ -1,4 +1,4 @@
-// Telling jobs apart by how they begin and what they hold.
+// Recognises the format of a job by its first bytes and its content.
 #include "printers/readers/read_job.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace lamella {
 namespace {
 
-/// What the endings of jobs promise.
+/// File name extensions that promise a job.
 struct Ending {
     const char* ending;
     const char* promise;
@@ -28,7 +28,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The first bytes of a file; nothing where it cannot be read, which whoever reads it next will tell.
+/// Returns the first bytes of a file; empty if it cannot be read, which a later reader reports.
 std::string first_bytes(const std::string& path) {
     constexpr std::size_t enough = 12;
     std::string bytes(enough, '\0');

@@ -1,4 +1,4 @@
-// NanoDLP archives: numbered images and JSON descriptions, of which any may be absent but the images.
+// NanoDLP archives: numbered images and JSON descriptions; all but the images are optional.
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
@@ -53,7 +53,7 @@ class NanoDlpFile : public JobFile {
         return fmt::format("{}: layer {} ({})", archive_.path(), index, image(index));
     }
 
-    /// An object; empty where there is no such entry.
+    /// Returns the JSON object of an entry; an empty one if there is no such entry.
     Json description(const std::string& name) const {
         if (!archive_.has(name)) return Json::object();
         Json json = Json::parse(archive_.read(name, max_json_bytes), nullptr, false);

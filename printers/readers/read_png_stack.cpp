@@ -1,4 +1,4 @@
-// Folders of masks with the job.json that describes them.
+// Folders of masks with a job.json that describes them.
 #include <fmt/format.h>
 
 #include <array>

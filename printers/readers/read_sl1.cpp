@@ -1,4 +1,4 @@
-// SL1 archives: descriptions of `key = value` lines and layers that are sorted by their names.
+// SL1 archives: descriptions of `key = value` lines, and layers sorted by name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class Sl1File : public JobFile {
         facts_.fade_layers = count(machine, "numFade");
         facts_.print_time = positive(machine, "printTime");
         if (const auto ml = positive(machine, "usedMaterial")) facts_.volume = *ml * mm3_per_ml;
-        constexpr int first_layers = 3;  // that the machine exposes like the first one
+        constexpr int first_layers = 3;  // layers that the machine exposes like the first
         facts_.first_layers = first_layers;
         if (archive_.has("prusaslicer.ini"))
             read_display(parse(archive_.read("prusaslicer.ini", max_config_bytes)));
@@ -83,7 +83,8 @@ class Sl1File : public JobFile {
                            names_[static_cast<std::size_t>(index)]);
     }
 
-    /// The number of a key; empty where it is absent. Throws InputError where it is none.
+    /// Returns the number of a key; empty if the key is absent. Throws InputError if the value is not a
+    /// number.
     std::optional<double> number(const Description& from, std::string_view key) const {
         const std::string text = text_of(from, key);
         if (text.empty()) return std::nullopt;
@@ -101,7 +102,7 @@ class Sl1File : public JobFile {
         return count_or_none(number(from, key));
     }
 
-    /// Layers are the images whose names begin with jobDir, sorted as texts: so the machine finds them.
+    /// Layers are the images whose names begin with jobDir, sorted as text, as the machine does.
     void list_layers(const Description& machine) {
         const std::string prefix = text_of(machine, "jobDir");
         if (prefix.empty())
@@ -131,7 +132,7 @@ class Sl1File : public JobFile {
         facts_.layers = static_cast<int>(names_.size());
     }
 
-    /// One that stands upright has its axes swapped in the images.
+    /// Reads the display. In portrait the axes are swapped in the images.
     void read_display(const Description& programs) {
         const auto x = count(programs, "display_pixels_x"), y = count(programs, "display_pixels_y");
         if (!x || !y || *x < 1 || *y < 1) return;

@@ -1,4 +1,4 @@
-// A print without a printer: everything but the port.
+// Dry run: a print with the real sender and a simulated printer instead of a port.
 #include <algorithm>
 #include <chrono>
 
@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-/// Drives the real sender; every line it sends is answered before the next is looked at.
+/// Drives the real sender. Every line it sends is answered before the next one is processed.
 class DryRunOutput : public GcodeOutput {
   public:
     DryRunOutput(const LinkSettings& settings, DryRun& report)

@@ -12,17 +12,17 @@ bool is_digit(char c) { return '0' <= c && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 char upper(char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
-/// Text for a display, which may be cut.
+/// Returns true if the command shows a text, which may be cut.
 bool shows_text(const std::string& word) {
     return word == "M117" || word == "M118" || word == "M0" || word == "M1";
 }
 
-/// The name of a file, of which every letter counts.
+/// Returns true if the command names a file; the name must be kept unchanged.
 bool names_file(const std::string& word) {
     return word == "M23" || word == "M28" || word == "M30" || word == "M32";
 }
 
-/// Without "N12" at the front and "*34" at the end.
+/// Removes "N12" at the front and "*34" at the end.
 std::string_view without_number(std::string_view line) {
     line = line.substr(0, line.find('*'));
     if (line.size() < 2 || upper(line[0]) != 'N' || !is_digit(line[1])) return line;
@@ -43,7 +43,7 @@ std::string without_comments(std::string_view line) {
     return text;
 }
 
-/// "1.500" becomes "1.5", "2.0" becomes "2"; what is no decimal number stays.
+/// Turns "1.500" into "1.5" and "2.0" into "2". Leaves anything but a decimal number unchanged.
 void drop_trailing_zeros(std::string& word) {
     const auto point = word.find('.');
     if (point == std::string::npos || point + 1 >= word.size()) return;
@@ -53,7 +53,7 @@ void drop_trailing_zeros(std::string& word) {
     if (word.back() == '.') word.pop_back();
 }
 
-/// Words parted by single blanks.
+/// Returns the words separated by single blanks.
 std::string tidy_words(std::string_view text) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
@@ -109,7 +109,7 @@ std::string clean_command(std::string_view line, std::size_t longest) {
     } else {
         command = tidy_words(without_comments(bare));
     }
-    // Numbering the lines is the sender's business alone.
+    // M110 is dropped: only the sender numbers lines.
     if (command.empty() || command == "%" || word == "M110") return {};
     if (command[0] != '$' && !('A' <= command[0] && command[0] <= 'Z'))
         throw InputError("\"" + shown(line) + "\" is no G-code: a line begins with a letter");

@@ -1,4 +1,4 @@
-// A ready G-code file, cut into parts that are sent as wholes.
+// Splits a G-code file into parts and sends them.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -9,9 +9,9 @@
 namespace lamella {
 namespace {
 
-constexpr int lines_a_part = 500;  // where the file does not tell its layers
+constexpr int lines_a_part = 500;  // if the file does not mark its layers
 
-/// Calls take(part) for each part in order; parts begin where slicers announce a layer.
+/// Calls take(part) for each part in order. Parts begin at the layer comments of slicers.
 template <typename Take>
 void for_each_part(const std::filesystem::path& path, const Take& take) {
     std::ifstream in(path, std::ios::binary);
@@ -36,7 +36,7 @@ void for_each_part(const std::filesystem::path& path, const Take& take) {
 
 int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool resume,
                     const CancelToken* cancel) {
-    // FNV-1a of the whole file tells whether it is still the same when a print is taken up.
+    // An FNV-1a hash of the whole file shows whether it is unchanged when a print is resumed.
     std::uint64_t hash = 14695981039346656037ULL;
     int parts = 0;
     for_each_part(path, [&](const std::string& part) {

@@ -1,4 +1,4 @@
-// Words of GRBL, one by one.
+// Interpreter of the words of GRBL.
 #include "printers/serial/grbl_modes.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool is_one_of(double value, std::initializer_list<double> values) {
 }  // namespace
 
 double GrblModes::apply(std::string_view command) {
-    // Settings and homing are no modes; $J= moves, but only by hand.
+    // Settings and homing change no mode; $J= moves, but is only used by hand.
     if (command.empty() || command[0] == '$') return 0;
     named_ = {false, false};
     for (std::size_t at = 0; at < command.size();) {
@@ -101,8 +101,8 @@ std::vector<std::string> GrblModes::take_up() const {
     if (coolant_ != 9) lines.push_back(word('M', coolant_));
     if (feed_ > 0) lines.push_back(word('F', feed_));
     for (const double mode : {units_, distance_, feed_mode_}) lines.push_back(word('G', mode));
-    // G2 and G3 need the words of an arc: a line that goes on in such a mode is refused, not cut otherwise.
-    // The beam comes last: M3 burns where it stands.
+    // G2 and G3 need arc words: a line that continues in such a mode is refused, not cut wrongly. The beam
+    // comes last, because M3 burns at standstill.
     if (motion_ == 1 && feed_mode_ == 94) lines.push_back("G1");
     if (beam_ != 5) lines.push_back(word('M', beam_) + " " + word('S', power_));
     return lines;

@@ -1,4 +1,4 @@
-// GrblModes: the modes of GRBL behind the lines it was sent, and the way back into them.
+// GrblModes: the modal state of GRBL after the lines sent so far, and the commands that restore it.
 #pragma once
 
 #include <array>
@@ -9,24 +9,24 @@
 
 namespace lamella {
 
-/// Follows a job of GRBL 1.1 line by line: several words may stand in a line, with or without blanks, and a
-/// line without a G word moves as the one before. Lengths in mm, speeds in mm/min.
+/// Tracks a job of GRBL 1.1 line by line. A line may hold several words, with or without blanks; a line
+/// without a G word continues the motion mode of the line before. Lengths in mm, speeds in mm/min.
 class GrblModes {
   public:
-    /// Takes a clean command and returns the seconds its motion takes at the speed asked for; fast moves
-    /// count nothing, for their speed is a setting of the machine.
+    /// Applies a clean command (see clean_command). Returns the time of its motion at the programmed speed,
+    /// s. Rapid moves count as 0, because their speed is a setting of the machine.
     double apply(std::string_view command);
 
-    /// Why a machine cannot be brought back to this state; empty when it can. A tool that is moved in z
-    /// cannot be set down in the midst of a cut, and offsets that the job has set itself are gone with a
-    /// reset.
+    /// Returns why this state cannot be restored; empty if it can. A tool moved in z cannot be set down in
+    /// the middle of a cut, and offsets set by the job are lost in a reset.
     const std::string& obstacle() const { return obstacle_; }
 
     nlohmann::ordered_json to_json() const;
-    /// Throws nlohmann::json::exception when something is missing.
+    /// Throws nlohmann::json::exception if a field is missing.
     static GrblModes from_json(const nlohmann::ordered_json& json);
 
-    /// Lines that bring a machine whose origin is where it was to this state, with the beam off on the way.
+    /// Returns the commands that restore this state on a machine whose origin is unchanged. The beam is off
+    /// during the approach.
     std::vector<std::string> take_up() const;
 
   private:
@@ -34,14 +34,14 @@ class GrblModes {
     double move();
 
     std::array<double, 2> at_{0, 0};  // x, y
-    bool moved_ = false;              // they are known
-    double motion_ = 0;               // the G word, 0 to 3
+    bool moved_ = false;              // at_ is known
+    double motion_ = 0;               // G word of the motion mode, 0 to 3
     double plane_ = 17, units_ = 21, distance_ = 90, feed_mode_ = 94, offset_ = 54;
-    double beam_ = 5, coolant_ = 9;  // the M words
+    double beam_ = 5, coolant_ = 9;  // M words
     double feed_ = 0, power_ = 0;
     std::string obstacle_;
 
-    // Of the line that is read.
+    // Words of the line being read.
     std::array<double, 2> way_{0, 0};
     std::array<bool, 2> named_{false, false};
 };

@@ -1,4 +1,4 @@
-// Character counting, status reports, and the polite stop.
+// Character counting, status reports, and the controlled stop.
 #include "printers/serial/grbl_sender.h"
 
 #include <algorithm>
@@ -8,19 +8,19 @@
 namespace lamella {
 namespace {
 
-constexpr double grbl_status_interval = 0.2;  // s; more often costs the reply line
+constexpr double grbl_status_interval = 0.2;  // s; more frequent requests load the reply line
 constexpr double ask_patience = 2;            // s
 constexpr int max_tries = 10;
-constexpr double idle_patience = 3;  // s that GRBL is idle although lines are unanswered
+constexpr double idle_patience = 3;  // s that GRBL may be idle with lines unanswered
 constexpr double hold_interval = 0.1;
-constexpr double hold_patience = 5;  // s from the hold to standing still
+constexpr double hold_patience = 5;  // s from the hold to standstill
 
 bool goes_alone(const std::string& command) {
     const std::string word = command_word(command);
     return command[0] == '$' || word == "G10" || word == "G28.1" || word == "G30.1";
 }
 
-/// What a person can do about an error that is not the line's own fault.
+/// Returns a remedy for an error whose cause is not the line itself.
 std::string error_hint(std::int64_t error) {
     if (error == 9) return " (it is locked: home it with $H, or unlock it with $X)";
     return {};
@@ -96,7 +96,7 @@ void GrblSender::check_time(double now) {
 
 void GrblSender::refuse(const std::string& why) {
     stop(StopKind::refused, why);
-    // Lines behind it wait in the machine: it is held before it runs them.
+    // The lines after it already wait in the machine: hold it before it runs them.
     transmit_raw("!", false);
 }
 
@@ -141,13 +141,13 @@ void GrblSender::handle(const Reply& reply, double now) {
             }
             break;
         case ReplyKind::grbl_options:
-            // One byte less than the buffer is safe whatever it counts.
+            // One byte less than the buffer is safe, however GRBL counts.
             if (*reply.number > 16)
                 settings_.window = std::min(settings_.window, static_cast<std::size_t>(*reply.number) - 1);
             break;
         case ReplyKind::grbl_status:
             machine_status_ = reply.text;
-            // Standing still, so that the reset loses no steps.
+            // At standstill the reset loses no steps.
             if (state_ == State::holding && (reply.text == "Hold:0" || reply.text == "Idle"))
                 return reset("held, then reset: its position is kept");
             if (reply.text != "Idle" || bytes_ == 0) {
@@ -180,7 +180,7 @@ void GrblSender::feed(double now) {
     while (send_next(urgent_, false, now) || (!held_ && send_next(pending_, true, now))) {
     }
     if (!finishing_ || dwelt_ || !pending_.empty() || !urgent_.empty()) return;
-    // Answered when all motion before it is done.
+    // Is answered when all earlier motion is done.
     urgent_.emplace_back("G4 P0.01");
     dwelt_ = true;
     send_next(urgent_, false, now);

@@ -1,13 +1,13 @@
-// GrblSender: counts characters, and stops at the first thing that GRBL does not like.
+// GrblSender: streams G-code to GRBL by counting characters; stops at the first error.
 #pragma once
 
 #include "printers/serial/line_sender.h"
 
 namespace lamella {
 
-/// Keeps the receive buffer of GRBL 1.1 filled without ever overflowing it. GRBL goes on behind a line that
-/// it refuses, so the sender counts answers, names the line that was refused, and holds the machine. Lines
-/// that write settings ($..., G10, G28.1, G30.1) go alone: interrupts are off while they are written.
+/// Keeps the receive buffer of GRBL 1.1 filled without ever overflowing it. GRBL continues after a line that
+/// it refuses, so the sender counts answers, names the refused line, and holds the machine. Lines that write
+/// settings ($..., G10, G28.1, G30.1) are sent alone, because GRBL disables interrupts while it writes them.
 class GrblSender : public LineSender {
   public:
     using LineSender::LineSender;
@@ -18,11 +18,11 @@ class GrblSender : public LineSender {
     std::size_t unanswered() const override { return bytes_; }
     bool connected() const override { return state_ == State::running; }
     bool finished() const override;
-    /// Holds the motion, waits until it stands, then resets: the position is kept.
+    /// Holds the motion, waits for standstill, then resets, so that the position is kept.
     void halt(double now) override;
     bool halts_at_once() const override { return true; }
     void hold_motion(bool held) override;
-    /// Cycle start: ends M0 and what a button of the machine has held.
+    /// Cycle start: ends M0 and a hold by a button of the machine.
     void end_waiting() override { transmit_raw("~", false); }
     std::optional<UserWait> user_wait() const override;
 
@@ -50,9 +50,9 @@ class GrblSender : public LineSender {
     std::deque<Sent> sent_;
     std::size_t bytes_ = 0;
     double next_status_ = 0;
-    double idle_since_ = -1;      // GRBL said Idle although lines are unanswered
-    std::string machine_status_;  // as reported last
-    bool motion_held_ = false;    // on our demand
+    double idle_since_ = -1;      // when GRBL first reported Idle with lines unanswered; < 0: it has not
+    std::string machine_status_;  // last reported state
+    bool motion_held_ = false;    // on request of the host
     bool dwelt_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What all dialects share: lines in, bytes out, statistics.
+// Code shared by all dialects: received lines, output bytes, statistics.
 #include "printers/serial/line_sender.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void LineSender::transmit_raw(std::string_view bytes, bool on_own_line) {
 void LineSender::stop(StopKind kind, std::string why) {
     if (stop_) return;
     stop_ = SenderStop{kind, std::move(why)};
-    // What has not left yet is not to leave any more.
+    // Bytes that are not written yet must not be written any more.
     line_cut_ = out_at_ > 0 && out_[out_at_ - 1] != '\n';
     out_.clear();
     out_at_ = 0;

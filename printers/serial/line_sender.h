@@ -1,4 +1,4 @@
-// LineSender: a dialect of sending G-code lines and hearing their answers, without any port or clock.
+// LineSender: protocol of sending G-code lines and reading the answers, without a port or a clock.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,21 @@
 namespace lamella {
 
 struct SenderSettings {
-    std::size_t window = 127;   ///< bytes that may be unanswered; one less than the printer's receive buffer
-    bool ping_pong = false;     ///< one line at a time
-    bool within_slots = false;  ///< no more lines than the printer has slots for, if it tells (ADVANCED_OK)
-    double greeting = 3;        ///< s that a board which was reset by opening the port may stay silent
-    double byte_time = 10.0 / 250000;  ///< s that a byte takes on the wire
+    std::size_t window = 127;   ///< most bytes unanswered; one less than the printer's receive buffer
+    bool ping_pong = false;     ///< send one line at a time
+    bool within_slots = false;  ///< send no more lines than the printer reports free slots (ADVANCED_OK)
+    double greeting = 3;        ///< time that a board reset by opening the port may stay silent, s
+    double byte_time = 10.0 / 250000;  ///< time of a byte on the wire, s
 };
 
 /// Why a sender has stopped for good.
 enum class StopKind : unsigned char {
-    fatal,       ///< the printer has given up
-    reset,       ///< its board has begun anew
-    unanswered,  ///< no answer comes any more
-    lost_count,  ///< it asks for a line that it cannot want
+    fatal,       ///< the printer has halted itself
+    reset,       ///< the printer's board has restarted
+    unanswered,  ///< no answers arrive any more
+    lost_count,  ///< the printer asks for a line that it cannot need
     refused,     ///< GRBL has refused a line or raised an alarm
-    halted       ///< on our demand
+    halted       ///< halted on request of the host
 };
 
 struct SenderStop {
@@ -39,35 +39,48 @@ struct SenderStop {
     std::string why;
 };
 
-/// What is counted on the way.
+/// Counters of a sender.
 struct SenderStatistics {
-    std::int64_t lines = 0;     ///< sent, repeats included
-    std::int64_t bytes = 0;     ///< sent
-    std::int64_t repeated = 0;  ///< of `lines`
-    std::int64_t resends = 0;   ///< rounds of going back that the printer asked for
-    std::int64_t timeouts = 0;  ///< answers that did not come
-    std::int64_t surplus = 0;   ///< answers to nothing
-    std::int64_t advanced = 0;  ///< answers that told how full the planner is
-    std::int64_t starved = 0;   ///< of these: more than half of it was empty
-    double longest_gap = 0;     ///< s between two lines
+    std::int64_t lines = 0;     ///< lines sent, repeats included
+    std::int64_t bytes = 0;     ///< bytes sent
+    std::int64_t repeated = 0;  ///< lines that were repeats
+    std::int64_t resends = 0;   ///< rewinds that the printer asked for
+    std::int64_t timeouts = 0;  ///< timeouts while waiting for an answer
+    std::int64_t surplus = 0;   ///< answers that matched no line
+    std::int64_t advanced = 0;  ///< answers that reported the planner's free space
+    std::int64_t starved = 0;   ///< of those: the planner was more than half empty
+    double longest_gap = 0;     ///< longest time between two lines, s
 };
 
-/// Told as things happen; each may be empty.
+/// Callbacks of a sender; each may be empty.
 struct SenderListener {
-    /// A line that went out ('>') or came in ('<'), with the bytes then unanswered.
+    /// Called for each line sent ('>') or received ('<'), with the number of unanswered bytes at that time.
     std::function<void(char direction, std::string_view line, std::size_t in_flight)> on_line{};
-    /// What the printer asks of the host: "pause", "paused", "resume", "resumed", "cancel", "disconnect".
+    /// Called when the printer asks the host for an action: "pause", "paused", "resume", "resumed", "cancel",
+    /// "disconnect".
     std::function<void(const std::string& action)> on_action{};
 };
 
-/// What a printer waits for a person to do.
+/// A request to a person that the printer is waiting for.
 struct UserWait {
-    std::string text;                    ///< in the printer's words, or the command that waits
-    std::vector<std::string> buttons{};  ///< to choose from, in the order of their numbers; may be none
+    std::string text;                    ///< the printer's text, or the command that waits
+    std::vector<std::string> buttons{};  ///< buttons to choose from, by index; may be empty
 };
 
-/// Driven by bytes that came, by the time (s, any origin), and by taking the bytes to send. Lines are given
-/// clean (clean_command) and are sent in order.
+/// A state machine driven by received bytes and by the time (s, any origin). The caller writes `output` to
+/// the port. Lines must be clean (see clean_command) and are sent in order.
+///
+/// A loop that sends one line over any port:
+///
+///     MarlinSender sender(SenderSettings{}, SenderListener{});
+///     sender.connect(now());
+///     sender.push(clean_command("G1 X10 F3000"));
+///     sender.finish();
+///     while (!sender.finished() && !sender.stopped()) {
+///         sender.receive(read_port(), now());
+///         sender.tick(now());
+///         sender.wrote(write_port(sender.output()));
+///     }
 class LineSender {
   public:
     static constexpr double never = std::numeric_limits<double>::infinity();
@@ -78,60 +91,62 @@ class LineSender {
     LineSender(const LineSender&) = delete;
     LineSender& operator=(const LineSender&) = delete;
 
-    /// The port is open: gets to know the printer.
+    /// Starts the dialogue with the printer. Call when the port has been opened.
     virtual void connect(double now) = 0;
-    /// The port was lost and is open again. Goes on where the printer stands, unless it was reset.
+    /// Resumes after the port was lost and opened again, at the line where the printer stands, unless the
+    /// printer was reset.
     virtual void reconnect(double now) = 0;
-    /// What came from the printer.
+    /// Takes bytes received from the printer.
     void receive(std::string_view bytes, double now);
-    /// Does what has become due.
+    /// Handles timeouts and sends the lines that may be sent.
     void tick(double now);
-    /// When `tick` is to be called at the latest; `never` while only an answer can change anything.
+    /// Returns the latest time of the next call of `tick`; `never` if only an answer can change anything.
     virtual double wake_at() const = 0;
 
     /// Appends a line of the job.
     void push(std::string command) { pending_.push_back(std::move(command)); }
-    /// Puts a line of the host's own before those of the job; it does not count as one of them.
+    /// Inserts a line of the host before those of the job. It does not count as a line of the job.
     void interject(std::string command) { urgent_.push_back(std::move(command)); }
-    /// Lines of the job not sent yet.
+    /// Returns the number of lines of the job that are not sent yet.
     std::size_t pending() const { return pending_.size(); }
-    /// While held, no line of the job is sent; the host's own are.
+    /// Holds back the lines of the job; lines of the host are still sent.
     void hold(bool held) { held_ = held; }
-    /// Stops or goes on with the motion itself, where the machine can.
+    /// Pauses or continues the motion itself, if the machine can do so.
     virtual void hold_motion(bool /*held*/) {}
-    /// Forgets what was not sent yet.
+    /// Discards all lines that are not sent yet.
     void drop_pending() { pending_.clear(), urgent_.clear(); }
-    /// Nothing to send and nothing unanswered.
+    /// Returns true if nothing is left to send and nothing is unanswered.
     bool idle() const { return pending_.empty() && urgent_.empty() && unanswered() == 0; }
-    /// Nothing of the host's own to send, nothing unanswered.
+    /// Returns true if no line of the host is left to send and nothing is unanswered.
     bool quiet() const { return urgent_.empty() && unanswered() == 0; }
-    /// Lines of the job that are answered, from its first one on.
+    /// Returns the number of answered lines of the job, counted from its first line.
     std::int64_t answered() const { return answered_job_; }
-    /// Bytes that are sent and unanswered.
+    /// Returns the number of bytes sent and not answered.
     virtual std::size_t unanswered() const = 0;
-    /// The printer is known and lines are taken.
+    /// Returns true once the printer is known and accepts lines.
     virtual bool connected() const = 0;
-    /// Makes sure of the last answers: sends what waits for the end of all motion.
+    /// Ends the job: after its last line, sends a command that is answered only when all motion is done.
     void finish() { finishing_ = true; }
     virtual bool finished() const = 0;
 
-    /// Stops at once, as far as the printer can: Marlin halts until it is reset, GRBL holds.
+    /// Stops immediately, as far as the printer supports it: Marlin halts until it is reset, GRBL holds and
+    /// is then reset.
     virtual void halt(double now) = 0;
-    /// Whether `halt` works past lines that wait.
+    /// Returns true if `halt` takes effect before the lines that are still waiting.
     virtual bool halts_at_once() const = 0;
-    /// Ends a heat-up that the printer waits in, and its waiting for a person.
+    /// Ends a heat-up that the printer waits for, or its wait for a person.
     virtual void end_waiting() = 0;
-    /// What the printer waits for a person to do; empty while it waits for none. `end_waiting` says that it
-    /// is done, `choose` which button was pressed.
+    /// Returns the request to a person that the printer is waiting for; empty if there is none. Answer it by
+    /// `end_waiting` (done) or `choose` (button pressed).
     virtual std::optional<UserWait> user_wait() const = 0;
     virtual void choose(std::size_t) {}
 
     const std::optional<SenderStop>& stopped() const { return stop_; }
-    /// The bytes to send now; `wrote` says how many of them are gone.
+    /// Returns the bytes to send now. Call `wrote` with the number of bytes that were written.
     std::string_view output() const { return std::string_view(out_).substr(out_at_); }
     void wrote(std::size_t bytes);
     const SenderStatistics& statistics() const { return statistics_; }
-    /// What the machine does once it has done all that was sent.
+    /// Returns the state of the machine after all lines sent so far.
     const MachineState& machine() const { return machine_; }
     const Temperatures& temperatures() const { return temperatures_; }
     const std::string& firmware() const { return firmware_; }
@@ -140,14 +155,14 @@ class LineSender {
   protected:
     virtual void handle(const Reply& reply, double now) = 0;
     virtual void check_time(double now) = 0;
-    /// Sends what may be sent.
+    /// Sends the lines that may be sent now.
     virtual void feed(double now) = 0;
 
     void transmit(std::string_view line, double now);
-    /// Bytes that are no line of the stream; what is half out is ended first when `on_own_line`.
+    /// Sends bytes outside the stream of lines. With `on_own_line`, a partly sent line is ended first.
     void transmit_raw(std::string_view bytes, bool on_own_line);
     void stop(StopKind kind, std::string why);
-    /// Throws away what the wire has lost.
+    /// Discards the bytes that a lost connection has swallowed.
     void forget_wire();
 
     SenderSettings settings_;
@@ -162,12 +177,12 @@ class LineSender {
     MachineState machine_;
     Temperatures temperatures_;
     std::string firmware_;
-    double heard_ = 0;  // when the last byte came
+    double heard_ = 0;  // time of the last received byte
 
   private:
     std::string out_;
     std::size_t out_at_ = 0;
-    bool line_cut_ = false;  // stopped in the middle of a line
+    bool line_cut_ = false;  // output stopped in the middle of a line
     ReplyLines replies_;
     double last_line_ = -1;
 };

@@ -1,4 +1,4 @@
-// Following moves, modes and temperatures.
+// Tracks moves, modes and temperatures.
 #include "printers/serial/machine_state.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace lamella {
 namespace {
 
-constexpr double lift = 5;          // mm that a parked nozzle stands over the part
-constexpr double retraction = 2;    // mm that keep it from oozing there
-constexpr double prime = 8;         // mm of filament that fill a nozzle which has stood cold
-constexpr double min_nozzle = 150;  // degrees below which nothing is extruded
+constexpr double lift = 5;          // mm; height of a parked nozzle above the part
+constexpr double retraction = 2;    // mm; prevents oozing while parked
+constexpr double prime = 8;         // mm of filament that refill a nozzle which has stood cold
+constexpr double min_nozzle = 150;  // degrees Celsius; below it nothing is extruded
 
 std::optional<double> word(std::string_view command, char letter) {
     for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;

@@ -1,4 +1,4 @@
-// What a machine does behind the lines it was sent: where its nozzle goes, in which modes, how hot.
+// MachineState: position, modes and temperatures of a printer after the lines sent so far.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,13 +9,14 @@
 
 namespace lamella {
 
-/// Follows G-code line by line. Lengths in mm, speeds in mm/min, degrees Celsius.
+/// Tracks G-code line by line. Lengths in mm, speeds in mm/min, temperatures in degrees Celsius.
 class MachineState {
   public:
-    /// Takes a clean command and returns the seconds its motion takes at the speed asked for.
+    /// Applies a clean command (see clean_command). Returns the time of its motion at the programmed speed,
+    /// s.
     double apply(std::string_view command);
 
-    /// True once every axis is known, by homing or by a move.
+    /// Returns true once the position of x, y and z is known, by homing or by a move.
     bool located() const { return known_[0] && known_[1] && known_[2]; }
     double x() const { return at_[0]; }
     double y() const { return at_[1]; }
@@ -25,14 +26,15 @@ class MachineState {
     double bed() const { return bed_; }
 
     nlohmann::ordered_json to_json() const;
-    /// Throws nlohmann::json::exception when something is missing.
+    /// Throws nlohmann::json::exception if a field is missing.
     static MachineState from_json(const nlohmann::ordered_json& json);
 
-    /// Lines that take the nozzle off the part and aside, and those that bring it back as it was.
+    /// Returns the commands that lift the nozzle off the part and park it, and those that return it as it
+    /// was.
     std::vector<std::string> leave(double park_x, double park_y, double highest) const;
     std::vector<std::string> come_back(double highest) const;
-    /// Lines that bring a machine that may have been reset to this state, with the part on its bed: the
-    /// nozzle stands at height `z`. X and Y are homed, never Z.
+    /// Returns the commands that restore this state on a machine that may have been reset, with the part on
+    /// its bed and the nozzle at height `z`. They home X and Y, never Z.
     std::vector<std::string> take_up(double z, double park_x, double park_y, double highest) const;
 
   private:

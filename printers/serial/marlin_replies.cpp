@@ -1,4 +1,4 @@
-// What MarlinSender makes of the printer's replies.
+// MarlinSender: handling of the printer's replies.
 #include <algorithm>
 #include <utility>
 
@@ -7,12 +7,12 @@
 namespace lamella {
 namespace {
 
-constexpr int max_askings = 10;              // for one line
-constexpr std::int64_t believable = 32;      // lines that the count of oks may be ahead of the truth
+constexpr int max_askings = 10;              // resend requests for one line
+constexpr std::int64_t believable = 32;      // lines by which the count of oks may be ahead of the printer
 constexpr std::int64_t careful_lines = 256;  // after a resend
-constexpr double missing_ok = 0.5;           // s in which the ok of a resend comes, if it does
-constexpr double straggling = 0.05;          // s after which a resend is about the line as sent again
-constexpr double boot_quiet = 0.5;           // s from a board's first word to its readiness
+constexpr double missing_ok = 0.5;           // s to wait for the ok of a resend request, which may not come
+constexpr double straggling = 0.05;          // s after which a resend request refers to the repeated line
+constexpr double boot_quiet = 0.5;           // s from a board's first word until it is ready
 
 }  // namespace
 
@@ -76,8 +76,9 @@ void MarlinSender::on_action(const std::string& text) {
     if (listener_.on_action) listener_.on_action(text);
 }
 
-/// A dialog, told line by line: prompt_begin TEXT, prompt_button LABEL for each button, prompt_show. Nobody
-/// but the person knows the answer: Marlin asks whether filament was loaded, or whether to purge more of it.
+/// Handles a prompt, which arrives line by line: prompt_begin TEXT, prompt_button LABEL for each button,
+/// prompt_show. Only a person can answer it: Marlin asks whether filament was loaded, or whether to purge
+/// more.
 void MarlinSender::on_prompt(std::string_view text) {
     const std::string_view word = text.substr(0, text.find(' '));
     const std::string rest(text.substr(std::min(text.size(), word.size() + 1)));
@@ -148,7 +149,7 @@ void MarlinSender::on_ok(const Reply& reply, double now) {
             ++statistics_.surplus;
             return;
         }
-        // After a timeout it may be the answer of an earlier M105: the end is not taken on its word.
+        // After a timeout this may be the answer to an earlier M105, so it does not count as the end.
         if (*marker == tickled_ && finishing_ && finish_step_ == 3 && barriers_++ < 5) finish_step_ = 2;
         acknowledge(*marker);
         return;
@@ -167,7 +168,7 @@ void MarlinSender::on_resend(std::int64_t number, double now) {
     if (state_ != State::running && state_ != State::asking) return;
     sign_of_work_ = now;
     if (number == cursor_) {
-        // Of the same burst, or for a line that is about to be sent anyway.
+        // Belongs to the same burst, or to a line that is about to be sent anyway.
         if (going_back_) go_back_at_ = now + missing_ok;
         return;
     }
@@ -208,7 +209,7 @@ void MarlinSender::go_back(std::int64_t number, double now) {
 }
 
 void MarlinSender::on_impossible(std::int64_t number, double now) {
-    // Noise can make any number of it: it has to be said twice.
+    // Noise can produce any number, so the request must be repeated once.
     if (impossible_ != number) {
         impossible_ = number;
         probe_at_ = now + missing_ok;

@@ -1,4 +1,4 @@
-// Sending to Marlin: the window, the lines kept, and the clock.
+// MarlinSender: window, kept lines, and timeouts.
 #include "printers/serial/marlin_sender.h"
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 namespace lamella {
 namespace {
 
-constexpr std::int64_t history = 1000;         // lines kept that are answered
+constexpr std::int64_t history = 1000;         // answered lines that are kept
 constexpr std::int64_t marker_interval = 256;  // lines between two M105 that check the count
-constexpr double sync_patience = 2;            // s for the first line to be answered
+constexpr double sync_patience = 2;            // s to wait for an answer to the first line
 constexpr int sync_most = 10;
-constexpr double impatient = 3;         // s without an ok from firmware that says when it is busy
-constexpr double patient = 30;          // and from any other
-constexpr double slow_impatient = 4.5;  // for commands that take long: busy comes every 2 s
+constexpr double impatient = 3;         // s without an ok from firmware that reports when it is busy
+constexpr double patient = 30;          // s without an ok from any other firmware
+constexpr double slow_impatient = 4.5;  // s for slow commands: busy lines come every 2 s
 constexpr double slow_patient = 60;
 constexpr int max_tickles = 20;
 constexpr int silent_tickles = 5;
-constexpr double careful_pause = 0.1;  // s between lines while the link has faults, unless all are answered
-constexpr double relink_patience = 3;  // s in which a board that was reset says so
+constexpr double careful_pause = 0.1;  // s between lines on a link with faults, unless all lines are answered
+constexpr double relink_patience = 3;  // s within which a restarted board reports it
 
 bool is_any(const std::string& command, std::initializer_list<const char*> names) {
     const std::string word = command_word(command);
@@ -87,7 +87,7 @@ void MarlinSender::settle() {
         urgent_.push_front("M115");
         return;
     }
-    // What is not known may have any buffer.
+    // Unknown firmware may have a receive buffer of any size.
     if (!known_firmware_) settings_.ping_pong = true;
     if (reports_temperatures_) urgent_.push_front("M155 S1");
     state_ = State::running;
@@ -104,10 +104,11 @@ bool MarlinSender::fits(std::size_t bytes, double now) const {
     const std::size_t before = unanswered();
     if (before == 0) return true;
     if (settings_.ping_pong || state_ != State::running) return false;
-    // Firmware without an emergency parser reads the M108 that ends a wait only when no line is before it.
+    // Without an emergency parser, firmware reads the M108 that ends a wait only if no other line is before
+    // it.
     if (waits_unanswered()) return false;
     if (cursor_ < careful_until_ && now < last_start_ + careful_pause) return false;
-    // No more lines than there are slots for, where the printer tells their number and the one that runs.
+    // Send no more lines than free slots, if the printer reports their number, plus the line that runs.
     if (settings_.within_slots && max_slots_free_ >= 0 && cursor_ - 1 - acked_ > max_slots_free_)
         return false;
     return before + bytes <= settings_.window;
@@ -115,7 +116,7 @@ bool MarlinSender::fits(std::size_t bytes, double now) const {
 
 void MarlinSender::send(std::int64_t number, double now) {
     if (unanswered() == 0) sign_of_work_ = now;
-    // After a pause the count of oks is in doubt.
+    // After a pause the count of oks is uncertain.
     if (unanswered() > 0 && cursor_ < careful_until_) marker_due_ = !sent(number).marker;
     last_start_ = now;
     wire_free_ = std::max(now, wire_free_) + static_cast<double>(sent(number).size) * settings_.byte_time;
@@ -211,7 +212,7 @@ double MarlinSender::patience() const {
     if (unanswered() == 0) return never;
     if (slow_unanswered()) return busy_seen_ ? slow_impatient : slow_patient;
     const bool busy_known = busy_seen_ || known_firmware_ || state_ == State::asking;
-    // Firmware that is only believed to say when it is busy gets more time before it is asked again.
+    // Firmware that is only assumed to report when it is busy gets more time before it is asked again.
     return busy_seen_ || (busy_known && tickles_ == 0) ? impatient : patient;
 }
 
@@ -223,7 +224,7 @@ double MarlinSender::wake_at() const {
     if (!going_back_ && has_more()) {
         at = std::min(at, paced() ? wire_free_ + wire_gap() : never);
         if (cursor_ < careful_until_) at = std::min(at, last_start_ + careful_pause);
-        // What is due already waits for an answer.
+        // A step that is already due waits for an answer.
         if (at <= last_fed_) at = std::min({sign_of_work_ + patience(), recheck_at_, probe_at_});
     }
     return std::min({at, recheck_at_, probe_at_});
@@ -257,8 +258,8 @@ void MarlinSender::check_time(double now) {
 }
 
 void MarlinSender::tickle(double now) {
-    // Firmware that never says when it is busy may be silent for as long as homing, levelling or a person
-    // take. It is asked again while there is room, in case an answer was lost, but not given up.
+    // Firmware that never reports when it is busy may be silent during homing, levelling or a wait for a
+    // person. It is asked again while there is room, in case an answer was lost, but is not given up.
     const bool may_be_silent = !busy_seen_ && slow_unanswered();
     if (may_be_silent && tickles_ > 0 && heard_ < first_tickle_) {
         sign_of_work_ = now;
@@ -276,8 +277,8 @@ void MarlinSender::tickle(double now) {
         stop(StopKind::unanswered, "the printer talks but answers no line any more");
         return;
     }
-    // Not the line that is unanswered: Marlin 2 drops a line it has accepted already without a word. The next
-    // one makes it answer either way.
+    // Do not repeat the unanswered line: Marlin 2 silently drops a line that it has already accepted. The
+    // next line gets an answer in either case.
     if (cursor_ < next_) {
         ++statistics_.repeated;
         send(cursor_, now);
@@ -294,11 +295,12 @@ bool MarlinSender::finished() const {
 void MarlinSender::halt(double now) {
     stop(StopKind::halted, "halted");
     (void)now;
-    // Plain: early commands are matched without line numbers only.
+    // Sent without line numbers: the emergency parser matches only plain commands.
     transmit_raw("M108\nM112\n", true);
 }
 
-// Both go plain, past the lines that wait. Their oks answer no numbered line, so the count is put right then.
+// Both commands go without a line number, ahead of the waiting lines. Their oks answer no numbered line, so
+// the count is corrected afterwards.
 void MarlinSender::end_waiting() {
     transmit_raw("M108\n", true);
     marker_due_ = true;

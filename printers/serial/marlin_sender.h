@@ -1,4 +1,4 @@
-// MarlinSender: numbered lines with checksums, a window of unanswered bytes, and every way of losing count.
+// MarlinSender: sends numbered lines with checksums to Marlin and recovers from every loss of count.
 #pragma once
 
 #include "printers/serial/line_sender.h"
@@ -7,12 +7,12 @@ namespace lamella {
 
 /// Keeps at most a window of bytes unanswered, so that the receive buffer never overflows and the printer
 /// never waits for the host. Every line is numbered; the printer alone decides which line is next, and
-/// executes none twice. Oks only pace the stream; since they carry no number, their count drifts when some
-/// are lost or surplus. A numbered M105, whose answer is told apart from any other ok, puts it right: after
-/// every disturbance, and now and then. Firmware with ADVANCED_OK tells the number in each ok.
+/// executes none twice. Oks only pace the stream. They carry no number, so their count drifts when some are
+/// lost or surplus. A numbered M105, whose answer differs from any other ok, corrects the count: after every
+/// disturbance, and from time to time. Firmware with ADVANCED_OK reports the line number in each ok.
 ///
-/// Lines that do not count as sent until known: the printer's line number starts at N0 M110 N0, then M115 and
-/// M105 in single file tell what it can do.
+/// On connection N0 M110 N0 sets the printer's line number. M115 and M105, sent one at a time, then tell what
+/// the firmware can do. Lines of the job follow only after that.
 class MarlinSender : public LineSender {
   public:
     using LineSender::LineSender;
@@ -29,7 +29,7 @@ class MarlinSender : public LineSender {
     std::optional<UserWait> user_wait() const override;
     void choose(std::size_t button) override;
 
-    /// Number of the next line that was never sent.
+    /// Returns the number of the next new line.
     std::int64_t next_number() const { return next_; }
 
   protected:
@@ -39,13 +39,13 @@ class MarlinSender : public LineSender {
 
   private:
     enum class State : unsigned char { idle, greeting, syncing, asking, running, relinking };
-    /// A line that was sent, kept for the printer to ask for again.
+    /// A sent line, kept in case the printer asks for it again.
     struct Sent {
         std::string command;
-        std::int64_t job = 0;  ///< lines of the job up to and including it
-        bool marker = false;   ///< an M105, whose ok tells temperatures
+        std::int64_t job = 0;  ///< number of lines of the job up to and including this one
+        bool marker = false;   ///< is an M105, whose ok reports temperatures
         bool slow = false;     ///< may take minutes
-        bool waits = false;    ///< for heat or for a person: nothing is sent behind it until it is answered
+        bool waits = false;    ///< waits for heat or a person: nothing is sent after it until it is answered
         std::size_t size = 0;  ///< bytes on the wire
     };
 
@@ -82,7 +82,7 @@ class MarlinSender : public LineSender {
     double state_until_ = 0;
     int sync_tries_ = 0;
 
-    // Lines base_ .. next_-1 are kept; up to acked_ they are answered; cursor_ is the one to send next.
+    // Lines base_ .. next_-1 are kept. Lines up to acked_ are answered. cursor_ is the next line to send.
     std::deque<Sent> sent_;
     std::int64_t base_ = 1;
     std::int64_t acked_ = 0;
@@ -91,42 +91,42 @@ class MarlinSender : public LineSender {
     std::int64_t job_lines_ = 0;
     std::int64_t dropped_job_ = 0;  // Sent::job of line base_ - 1
 
-    // The oks of resends, which answer nothing.
+    // The ok that follows a resend request answers no line.
     bool swallow_ok_ = false;
     double swallow_until_ = 0;
-    // Going back waits until the wire is quiet: what is still on it makes the printer ask again and throw
-    // away what it has received.
+    // A rewind waits until the wire is quiet. Bytes still on the wire make the printer ask again and discard
+    // what it has received.
     bool going_back_ = false;
     double go_back_at_ = 0;
-    std::int64_t asked_ = -1;  // the line asked for last
+    std::int64_t asked_ = -1;  // line of the last resend request
     int asked_times_ = 0;
-    double asked_sent_ = -1;  // when it was sent again; < 0: not yet
+    double asked_sent_ = -1;  // when that line was sent again; < 0: not yet
     double recheck_at_ = never;
     std::int64_t impossible_ = -1;
     double probe_at_ = never;
-    // A printer that asks for a line throws away what it has received. Where that cuts the line behind in two
-    // between its number and its command, it executes the rest as a command without a number. Therefore no
-    // line follows another on the wire without a gap in which the printer can look at it; and on a link with
-    // faults hardly any line follows one that is unanswered.
+    // A printer that asks for a line discards its receive buffer. If that cuts the next line between its
+    // number and its command, the printer executes the rest as a command without a number. Therefore each
+    // line on the wire is followed by a gap in which the printer can process it, and on a link with faults a
+    // line is rarely sent while another one is unanswered.
     std::int64_t careful_until_ = 0;
     double last_start_ = 0;
     double wire_free_ = 0;
     double last_fed_ = 0;
-    bool real_wire_ = true;  // answers never come sooner than bytes could go over a wire of this speed
+    bool real_wire_ = true;  // false once an answer came sooner than the bytes could travel at this baud rate
 
-    bool paused_for_user_ = false;  // the last busy line said so
+    bool paused_for_user_ = false;  // the last busy line reported a wait for a person
     std::optional<UserWait> dialog_;
     bool dialog_shown_ = false;
 
     bool busy_seen_ = false;
-    double sign_of_work_ = 0;  // last ok, busy or heating line, or the first line after a pause
-    int tickles_ = 0;          // in a row without an ok
+    double sign_of_work_ = 0;  // last ok, busy or heating line, or first line after a pause
+    int tickles_ = 0;          // timeouts in a row without an ok
     double first_tickle_ = 0;
     std::int64_t tickled_ = -1;
     bool tells_temperatures_ = false;  // M105 is answered by "ok T:"
     bool marker_due_ = false;
     std::int64_t last_marker_ = 0;
-    bool numbers_oks_ = false;  // ADVANCED_OK
+    bool numbers_oks_ = false;  // the firmware has ADVANCED_OK
 
     bool emergency_parser_ = false;
     bool reports_temperatures_ = false;
@@ -135,7 +135,7 @@ class MarlinSender : public LineSender {
     int max_planner_free_ = 0;
     int max_slots_free_ = -1;
 
-    // The end: reports off, all motion done, and an answer that can only be that of the last line.
+    // Steps of the end: reports off, all motion done, and an answer that can only belong to the last line.
     std::size_t finish_step_ = 0;
     int barriers_ = 0;
 };

@@ -1,4 +1,4 @@
-// Ending a print before its end.
+// PrintLink: ending a print early.
 #include "engine/base/error.h"
 #include "printers/serial/print_link.h"
 
@@ -27,7 +27,7 @@ void PrintLink::halt_at_once(double now) {
 }
 
 void PrintLink::abort(double now) {
-    // A laser or a spindle goes off with the reset that ends every stop of GRBL.
+    // GRBL is always stopped by a reset, which switches off a laser or a spindle.
     if (settings_.grbl && sender_->connected()) return halt_at_once(now);
     sender_->drop_pending();
     current_ = {};
@@ -52,7 +52,7 @@ void PrintLink::abort(double now) {
 void PrintLink::go_on_aborting(double now) {
     const bool late = now >= phase_until_;
     if (phase_ == Phase::halting) {
-        // GRBL stands still before it is reset; Marlin is given the time to say so.
+        // GRBL must stand still before it is reset; Marlin is given time to report its halt.
         const bool gone = sender_->output().empty() && (!settings_.grbl || sender_->stopped());
         if (!late && !(settings_.grbl && gone)) return;
         if (settings_.grbl) abort_words_ = sender_->stopped() ? sender_->stopped()->why : "GRBL is silent";

@@ -1,4 +1,4 @@
-// Stripping whole layers.
+// Strips the text of layers and measures its rates.
 #include "printers/serial/print_chunk.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace lamella {
 
 std::string ChunkMaker::clean(std::string_view text) {
-    constexpr std::int64_t frame = 11;  // number, checksum and line end of a usual line
+    constexpr std::int64_t frame = 11;  // number, checksum and line end of a typical line
     std::string clean_lines;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));

@@ -1,4 +1,4 @@
-// From G-code text to lines ready to send, and what they ask of the link.
+// ChunkMaker: turns G-code text into lines ready to send, and measures the required link speed.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,32 @@
 
 namespace lamella {
 
-/// How many lines and bytes a second a job needs at its densest.
+/// Highest rate of lines and bytes of a job.
 struct LinkNeed {
-    double lines = 0;  ///< a second
-    double bytes = 0;  ///< a second, with numbers and checksums
+    double lines = 0;  ///< lines per second
+    double bytes = 0;  ///< bytes per second, including numbers and checksums
 };
 
-/// Strips a job's text, layer by layer, and follows the machine through it.
+/// Strips the text of a job, layer by layer, and tracks the state of the machine.
 class ChunkMaker {
   public:
     explicit ChunkMaker(bool grbl) : grbl_(grbl) {}
 
-    /// Clean lines of a text, each with its end. Throws InputError for a line that cannot be sent.
+    /// Returns the clean lines of a text, each with a line end. Throws InputError for a line that cannot be
+    /// sent.
     std::string clean(std::string_view text);
     std::int64_t lines() const { return lines_; }
-    /// Wire bytes of all lines so far.
+    /// Returns the bytes of all lines so far on the wire.
     std::int64_t bytes() const { return bytes_; }
-    /// Time of all motion so far at the speeds asked for, s.
+    /// Returns the time of all motion so far at the programmed speeds, s.
     double seconds() const { return seconds_; }
-    /// The densest stretch of at least a second so far.
+    /// Returns the highest rates over any stretch of at least a second so far.
     const LinkNeed& need() const { return need_; }
-    /// What the machine does behind all lines so far: of these, the one that is followed.
+    /// The state after all lines so far. Only the one of the job's dialect is tracked.
     const MachineState& machine() const { return machine_; }
     const GrblModes& grbl_modes() const { return modes_; }
     nlohmann::ordered_json machine_to_json() const { return grbl_ ? modes_.to_json() : machine_.to_json(); }
-    /// Throws nlohmann::json::exception when something is missing.
+    /// Throws nlohmann::json::exception if a field is missing.
     void restore_machine(const nlohmann::ordered_json& json);
 
   private:

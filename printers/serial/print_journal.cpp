@@ -33,7 +33,7 @@ void PrintJournal::remove() {
     }
     changed_.notify_all();
     if (thread_.joinable()) thread_.join();
-    std::error_code ignored;  // one that stays behind is asked about before the next print
+    std::error_code ignored;  // if the file stays behind, the next print asks about it
     std::filesystem::remove(path_, ignored);
 }
 

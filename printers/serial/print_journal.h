@@ -1,4 +1,4 @@
-// What is known of a print on disk, so that it can go on after the host was killed.
+// PrintJournal: the progress of a print on disk, from which it is resumed if the host was killed.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,7 @@
 
 namespace lamella {
 
-/// Writes a small file whole or not at all, on a thread of its own: a slow disk holds up no line.
+/// Writes a small file atomically, on a thread of its own, so that a slow disk delays no line.
 class PrintJournal {
   public:
     explicit PrintJournal(std::filesystem::path path);
@@ -19,11 +19,11 @@ class PrintJournal {
     PrintJournal(const PrintJournal&) = delete;
     PrintJournal& operator=(const PrintJournal&) = delete;
 
-    /// Has the file written anew soon; of several in a row the last one counts.
+    /// Schedules the file to be rewritten. Of several calls in quick succession the last one counts.
     void write(std::string text);
-    /// Waits until all is written, then forgets the file.
+    /// Waits until all is written, then deletes the file.
     void remove();
-    /// Why the last writing failed; empty when it did not.
+    /// Returns why the last write failed; empty if it succeeded.
     std::string trouble() const;
 
   private:

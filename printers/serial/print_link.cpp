@@ -1,4 +1,4 @@
-// The queue of a print, and the rounds of its thread.
+// PrintLink: the queue of a print and the loop of its thread.
 #include "printers/serial/print_link.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t lines_before_sender = 64;
 constexpr double journal_interval = 2;  // s
 constexpr double status_interval = 0.05;
-constexpr double cancel_interval = 0.02;  // s between two looks at the token
+constexpr double cancel_interval = 0.02;  // s between two checks of the cancel token
 constexpr double retry_interval = 0.5;
 
 }  // namespace
@@ -62,7 +62,7 @@ double PrintLink::now() const {
 
 void PrintLink::wake() {
     const std::uint64_t one = 1;
-    if (write(wake_, &one, sizeof one) < 0) return;  // full: it will wake anyway
+    if (write(wake_, &one, sizeof one) < 0) return;  // the counter is full, so the thread wakes anyway
 }
 
 void PrintLink::request(std::atomic<bool>& flag) {
@@ -132,7 +132,8 @@ std::string PrintLink::end_words() {
 }
 
 void PrintLink::work() {
-    // Layers are computed on all cores meanwhile: lines go first, where the system allows it.
+    // Layers are computed on all cores at the same time, so this thread gets priority if the system allows
+    // it.
     const sched_param priority{1};
     pthread_setschedparam(pthread_self(), SCHED_RR, &priority);
     try {
@@ -185,7 +186,7 @@ void PrintLink::take_requests(double now) {
     }
 }
 
-/// What the printer asks of its host.
+/// Handles an action that the printer asks of the host.
 void PrintLink::heed(const std::string& action) {
     if (action == "pause") begin_pause(false);
     if (action == "paused") begin_pause(true);
@@ -195,7 +196,7 @@ void PrintLink::heed(const std::string& action) {
         end(std::make_exception_ptr(FaultError("the printer has asked to be disconnected" + where())));
 }
 
-/// A printer that has paused by itself has parked its nozzle by itself.
+/// A printer that paused by itself has also parked its nozzle.
 void PrintLink::begin_pause(bool by_printer) {
     if (paused_ || phase_ != Phase::printing || !sender_->connected()) return;
     paused_ = true;
@@ -225,7 +226,7 @@ void PrintLink::come_back() {
     for (std::string& line : left_.come_back(settings_.highest)) sender_->interject(std::move(line));
 }
 
-/// Moves lines from the queue to the sender. A layer is taken only when it is whole.
+/// Moves lines from the queue to the sender. A layer is taken only when it is complete.
 void PrintLink::take_lines(double now) {
     if (!sender_->connected()) return;
     while (sender_->pending() < lines_before_sender) {
@@ -255,7 +256,7 @@ void PrintLink::take_lines(double now) {
     }
 }
 
-/// Takes the nozzle off the part when no layer is ready.
+/// Parks the nozzle off the part if no layer is ready.
 void PrintLink::watch_queue(double now) {
     if (!started_ || paused_ || parked_ || !sender_->idle() || current_at_ < current_.lines.size()) return;
     {
@@ -333,7 +334,7 @@ void PrintLink::watch_answers(double now) {
         changed_.notify_all();
     }
     if (sender_->stopped() && phase_ == Phase::printing) {
-        // What the sender still wants to say, such as GRBL's hold, leaves first.
+        // First send what the sender still has to say, such as GRBL's hold.
         move_bytes(now);
         write_journal(now);
         return end(std::make_exception_ptr(FaultError(sender_->stopped()->why + where())));
@@ -393,7 +394,7 @@ void PrintLink::note_status(double now, bool at_once) {
     status_.underrun_seconds = underrun_seconds_ + (dry_since_ >= 0 ? now - dry_since_ : 0);
 }
 
-/// Sleeps until a byte comes or can go, the sender or a request wants something.
+/// Sleeps until a byte can be read or written, or the sender or a request is due.
 void PrintLink::wait(double now) {
     double until = std::min(sender_->wake_at(), now + 0.5);
     if (settings_.cancel != nullptr) until = std::min(until, now + cancel_interval);

@@ -1,4 +1,4 @@
-// PrintLink: the thread that owns a port and a sender, and the queue of whole layers before it.
+// PrintLink: a print over a serial port: a thread that owns the port and the sender, and a queue of layers.
 #pragma once
 
 #include <atomic>
@@ -22,29 +22,29 @@ namespace lamella {
 struct LinkSettings {
     std::string port;
     int baud = 250000;
-    bool reset_board = false;  ///< by DTR, before anything is sent
+    bool reset_board = false;  ///< reset the board by DTR before anything is sent
     bool grbl = false;
     SenderSettings sender;
-    std::string log;                ///< file for every line; empty: none
-    std::string journal;            ///< file; empty: none
-    double park_x = 0, park_y = 0;  ///< where the nozzle waits, off the part, mm
-    double highest = 250;           ///< of the nozzle, mm
-    std::size_t layers_ahead = 8;   ///< in the queue at most
+    std::string log;                ///< file that logs every line; empty: none
+    std::string journal;            ///< path of the journal; empty: none
+    double park_x = 0, park_y = 0;  ///< parking position of the nozzle, off the part, mm
+    double highest = 250;           ///< greatest height of the nozzle, mm
+    std::size_t layers_ahead = 8;   ///< most layers in the queue
     std::size_t bytes_ahead = 64u << 20;
-    double park_after = 0.5;    ///< s without a layer
-    double reconnect_for = 60;  ///< s that a lost port is tried again
+    double park_after = 0.5;    ///< time without a layer after which the nozzle is parked, s
+    double reconnect_for = 60;  ///< time during which a lost port is tried again, s
     const CancelToken* cancel = nullptr;
 };
 
-/// Lines that are sent together, once they are all there.
+/// Lines that belong together, usually a layer. Sending starts only when all of them are there.
 struct PrintChunk {
-    std::string lines;                ///< clean, each with its end
-    std::int64_t count = 0;           ///< of lines
-    int layer = -1;                   ///< -1: before the first
-    nlohmann::ordered_json resume{};  ///< what the journal says once it is answered
+    std::string lines;                ///< clean lines, each with a line end
+    std::int64_t count = 0;           ///< number of lines
+    int layer = -1;                   ///< layer index; -1: before the first layer
+    nlohmann::ordered_json resume{};  ///< what the journal records once the lines are answered
 };
 
-/// How a print stands.
+/// Status of a print.
 struct LinkStatus {
     std::string firmware;
     bool emergency_parser = false;
@@ -52,51 +52,60 @@ struct LinkStatus {
     bool paused = false;
     bool parked = false;
     bool stopping = false;            ///< the print is being ended
-    std::optional<UserWait> waits{};  ///< what the printer waits for a person to do
-    std::string journal_trouble;      ///< why the journal cannot be written; empty when it can
-    bool lost = false;                ///< the port is gone for now
-    int layer = -1;                   ///< that lines are answered of
+    std::optional<UserWait> waits{};  ///< request to a person that the printer is waiting for
+    std::string journal_trouble;      ///< why the journal cannot be written; empty if it can
+    bool lost = false;                ///< the port is lost at the moment
+    int layer = -1;                   ///< layer whose lines are being answered
     std::int64_t lines_queued = 0, lines_answered = 0;
     std::size_t layers_ready = 0;
     double z = 0;
     Temperatures temperatures;
     SenderStatistics statistics;
-    int underruns = 0;  ///< times the printer had nothing left because no layer was ready
+    int underruns = 0;  ///< times the printer ran out of lines because no layer was ready
     double underrun_seconds = 0;
-    double seconds = 0;  ///< since the printer was connected
+    double seconds = 0;  ///< time since the printer was connected
 };
 
+/// A print over a serial port. A thread of its own owns the port. `status` and the requests `pause`,
+/// `resume`, `choose`, `stop` and `halt` may be called from any thread.
+///
+///     LinkSettings settings;
+///     settings.port = "/dev/ttyACM0";
+///     PrintLink link(settings);
+///     link.connect();  // waits until the printer is known
+///     link.submit({.lines = "G28\nG1 Z5 F600\n", .count = 2, .layer = 0});
+///     link.finish();  // waits until all lines are answered
 class PrintLink {
   public:
     explicit PrintLink(LinkSettings settings);
-    /// Stops the print unless it was finished.
+    /// Stops the print unless it has finished.
     ~PrintLink();
     PrintLink(const PrintLink&) = delete;
     PrintLink& operator=(const PrintLink&) = delete;
 
-    /// Opens the port and gets to know the printer. Throws InputError, FaultError, Interrupted.
+    /// Opens the port and waits until the printer is known. Throws InputError, FaultError, Interrupted.
     void connect();
-    /// Queues lines; waits while enough are queued. Throws FaultError when the print has failed, Interrupted
-    /// when it was cancelled.
+    /// Queues lines; blocks while the queue is full. Throws FaultError if the print has failed, Interrupted
+    /// if it was cancelled.
     void submit(PrintChunk chunk);
-    /// What the journal holds besides: the job's stamp.
+    /// Sets the job's stamp, which the journal records with the progress.
     void set_stamp(nlohmann::ordered_json stamp) { stamp_ = std::move(stamp); }
-    /// Waits until all is answered. Throws like submit.
+    /// Waits until all lines are answered. Throws like submit.
     void finish();
 
     void pause() { request(pausing_); }
-    /// Ends a pause, or tells a printer that waits for a person to go on.
+    /// Ends a pause, or tells a printer that waits for a person to continue.
     void resume() { request(resuming_); }
-    /// Presses a button of what the printer asks, by its index.
+    /// Presses a button of the printer's prompt, by index.
     void choose(std::size_t button);
-    /// Ends the print cleanly, when what the printer has already got is done.
+    /// Ends the print cleanly, after the moves that the printer has already received.
     void stop() { request(stopping_); }
-    /// Halts the machine at once, in the midst of its moves: by M112 where it has an emergency parser, by `!`
-    /// and a reset on GRBL, else by resetting the board over DTR.
+    /// Halts the machine immediately, in the middle of its moves: by M112 if it has an emergency parser, by
+    /// `!` and a reset on GRBL, otherwise by resetting the board over DTR.
     void halt() { request(halting_); }
     LinkStatus status() const;
-    /// Waits until the print has ended, cleanly where it was cancelled, and tells what became of the machine;
-    /// empty when it was never reached.
+    /// Stops the print if it is still running, waits for its end and returns why it ended and in which state
+    /// it left the machine. Empty if the print did not fail or never started.
     std::string end_words();
 
   private:
@@ -137,23 +146,23 @@ class PrintLink {
     int wake_ = -1;
     std::thread thread_;
 
-    // Of the thread alone.
+    // Used by the thread only.
     Phase phase_ = Phase::printing;
     double phase_until_ = 0;
     PrintChunk current_;
     std::size_t current_at_ = 0;
     struct Answering {
-        std::int64_t last = 0;  ///< lines up to its end
+        std::int64_t last = 0;  ///< number of the last line of the chunk
         int layer = -1;
         nlohmann::ordered_json resume;
     };
     std::deque<Answering> answering_;
     nlohmann::ordered_json resume_;
     std::int64_t pushed_ = 0;
-    int layer_ = -1;  // of the line that is to be answered next
+    int layer_ = -1;  // layer of the next line to be answered
     bool paused_ = false, parked_ = false, started_ = false;
-    bool away_ = false;  // the nozzle was taken off the part
-    MachineState left_;  // where it was
+    bool away_ = false;  // the nozzle has left the part
+    MachineState left_;  // state in which it left
     double dry_since_ = -1;
     int underruns_ = 0;
     double underrun_seconds_ = 0;
@@ -163,7 +172,7 @@ class PrintLink {
     double connected_at_ = -1;
     std::string abort_words_;
 
-    // Shared.
+    // Shared between threads.
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<PrintChunk> queue_;

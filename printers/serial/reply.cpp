@@ -1,4 +1,4 @@
-// Reading replies word by word.
+// Parser of replies, word by word.
 #include "printers/serial/reply.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::optional<Number> leading_number(std::string_view text) {
     return value;
 }
 
-/// The whole text as a number that is not negative.
+/// Parses the whole text as a non-negative number.
 template <typename Number>
 std::optional<Number> whole_number(std::string_view text) {
     Number value{};
@@ -40,10 +40,10 @@ std::optional<Number> whole_number(std::string_view text) {
     return value;
 }
 
-/// The two numbers of "T:20.5 /60.0": what is and what is wanted.
+/// Reads the two numbers of "T:20.5 /60.0": actual and target temperature.
 bool read_heater(std::string_view text, std::string_view key, double& is, double& wanted) {
     std::size_t at = text.find(key);
-    // "B:" also ends "@:0 B@:0"-like words; a heater's key stands at the front or behind a blank.
+    // "@:0 B@:0" contains similar keys. A heater's key stands at the front or after a blank.
     while (at != std::string_view::npos && at > 0 && text[at - 1] != ' ') at = text.find(key, at + 1);
     if (at == std::string_view::npos) return false;
     const std::string_view rest = text.substr(at + key.size());
@@ -65,7 +65,7 @@ std::optional<Temperatures> read_temperatures(std::string_view text) {
     return found;
 }
 
-/// "N16 P0 B2", each word at most once and whole; otherwise nothing of it counts.
+/// Parses "N16 P0 B2". Each word must be complete and occur at most once; otherwise all are ignored.
 void read_advanced(std::string_view words, Reply& reply) {
     Reply found;
     while (!words.empty()) {
@@ -91,7 +91,7 @@ Reply read_ok(std::string_view line) {
     return reply;
 }
 
-/// "Resend: 5", "Resend:5", "rs 5", "rs N5", "Resend: N:5".
+/// Parses "Resend: 5", "Resend:5", "rs 5", "rs N5", "Resend: N:5".
 std::optional<std::int64_t> read_resend(std::string_view line) {
     const std::string text = lowered(line);
     std::string_view rest;
@@ -122,7 +122,7 @@ ReplyKind error_kind(const std::string& text) {
     return ReplyKind::error;
 }
 
-/// What Marlin says when its board begins anew, behind an optional "echo:".
+/// Returns true for the first words of a restarted Marlin board, after an optional "echo:".
 bool tells_reset(const std::string& text) {
     std::string_view words = text;
     if (words.starts_with("echo:")) words = trim_blanks(words.substr(5));

@@ -1,4 +1,4 @@
-// Replies of printers: one line in, one typed reply out.
+// Reply: a line received from a printer, parsed into a typed reply.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,26 @@ namespace lamella {
 
 enum class ReplyKind : unsigned char {
     other,         ///< echoes, banners, noise: never an answer
-    ok,            ///< answers a line; `number`, `planner_free`, `slots_free` with ADVANCED_OK
+    ok,            ///< answers a line; with ADVANCED_OK also `number`, `planner_free`, `slots_free`
     resend,        ///< asks for line `number`
-    line_error,    ///< about a checksum or a line number; a resend follows
-    error,         ///< any other complaint
+    line_error,    ///< about a checksum or a line number; a resend request follows
+    error,         ///< any other error
     fatal,         ///< the printer has given up: halted, overheated, killed
     busy,          ///< a command takes long
     heating,       ///< a command waits for a temperature
-    temperatures,  ///< reported by itself
-    reset,         ///< the board has begun anew
-    action,        ///< `text` is what the host is to do: pause, resume, cancel, prompt_...
+    temperatures,  ///< automatic temperature report
+    reset,         ///< the board has restarted
+    action,        ///< `text` is the action asked of the host: pause, resume, cancel, prompt_...
     capability,    ///< `text` is NAME:0 or NAME:1
-    firmware,      ///< `text` is its name and version
-    grbl_banner,   ///< GRBL has begun anew
-    grbl_error,    ///< answers a line: refused, `number` says why
-    grbl_alarm,    ///< `number` says why
+    firmware,      ///< `text` is name and version
+    grbl_banner,   ///< GRBL has restarted
+    grbl_error,    ///< answers a line that GRBL refuses; `number` is the error code
+    grbl_alarm,    ///< `number` is the alarm code
     grbl_status,   ///< `text` is the state, such as Idle or Hold:0
-    grbl_options   ///< `number` is the size of its receive buffer
+    grbl_options   ///< `number` is the size of the receive buffer
 };
 
-/// Degrees Celsius; targets are 0 where nothing is heated.
+/// Degrees Celsius; a target is 0 if the heater is off.
 struct Temperatures {
     double nozzle = 0, nozzle_target = 0, bed = 0, bed_target = 0;
 };
@@ -43,16 +43,16 @@ struct Reply {
     std::string text{};
 };
 
-/// What a line of Marlin (1.1, 2.x), its relatives, or GRBL 1.1 says. The line is without its end. What is
-/// not wholly an answer is none: a line with a single wrong byte in its `ok` is `other`.
+/// Parses a line of Marlin (1.1, 2.x), its relatives, or GRBL 1.1, without its line end. An incomplete or
+/// garbled answer is no answer: a line with a single wrong byte in its `ok` is `other`.
 Reply parse_reply(std::string_view line);
 
-/// Cuts what arrives into lines, wherever it was split. Carriage returns are dropped, bytes that are no ASCII
-/// become '?', so that they never complete a word by vanishing.
+/// Splits received bytes into lines, regardless of how they were chunked. Drops carriage returns. Replaces
+/// non-ASCII bytes by '?', so that no word becomes valid by losing a byte.
 class ReplyLines {
   public:
     void feed(std::string_view bytes) { waiting_ += bytes; }
-    /// The next complete line, or nothing. Longer ones than 512 bytes are cut.
+    /// Returns the next complete line, or nothing. Cuts lines longer than 512 bytes.
     std::optional<std::string> next();
     void clear() { waiting_.clear(), line_.clear(), at_ = 0; }
 

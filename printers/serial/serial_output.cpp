@@ -1,4 +1,4 @@
-// Layers into a link, and the way back into a print that was stopped.
+// SerialOutput: sends layers over a link and resumes an interrupted print.
 #include "printers/serial/serial_output.h"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ class SerialOutput : public GcodeOutput {
         check_same_job(record["stamp"], stamp, settings_.journal);
         return record;
     }
-    /// Lines that bring the machine to where the first missing layer begins.
+    /// Returns the lines that bring the machine to the start of the first missing layer.
     std::vector<std::string> way_back(double z) const {
         if (!settings_.grbl)
             return maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest);

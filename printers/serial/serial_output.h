@@ -1,4 +1,4 @@
-// G-code to a machine at the other end of a serial line, or to one that is only imagined.
+// Outputs of G-code to a machine on a serial line, and to a simulated machine (dry run).
 #pragma once
 
 #include <filesystem>
@@ -14,33 +14,33 @@
 namespace lamella {
 
 struct SerialOutputOptions {
-    bool force = false;         ///< discard the journal of a print that was stopped
-    std::optional<double> z{};  ///< where the nozzle stands when a print is taken up; else as journaled
-    std::function<void(const std::string&)> warn{};  ///< of what the user should know beforehand
+    bool force = false;         ///< discard the journal of an interrupted print
+    std::optional<double> z{};  ///< height of the nozzle when a print is resumed; default: from the journal
+    std::function<void(const std::string&)> warn{};  ///< called with warnings for the user
 };
 
-/// Sends to a link. Layers are done when the printer has answered all their lines. A print that is taken up
-/// goes on with the first layer that was not: heated, homed in X and Y alone, its height set from the
-/// journal.
+/// Makes an output that sends a job over a link. A layer is complete when the printer has answered all its
+/// lines. A resumed print continues with the first incomplete layer: the printer is heated, X and Y are
+/// homed, and Z is set from the journal.
 std::unique_ptr<GcodeOutput> make_serial_output(std::shared_ptr<PrintLink> link, const LinkSettings& settings,
                                                 SerialOutputOptions options);
 
-/// What a print would send.
+/// Result of a dry run.
 struct DryRun {
     std::int64_t lines = 0, bytes = 0;
-    double seconds = 0;  ///< of motion at the speeds asked for, acceleration not counted
+    double seconds = 0;  ///< time of motion at the programmed speeds, without acceleration, s
     LinkNeed need;
-    double sending_seconds = 0;  ///< that a machine which answers at once took here
+    double sending_seconds = 0;  ///< time that sending took here, to a machine that answers at once, s
 };
 
-/// Goes through everything against a machine that answers at once; fills `report`.
+/// Makes an output that sends a job to a simulated machine, which answers at once. Fills `report`.
 std::unique_ptr<GcodeOutput> make_dry_run(const LinkSettings& settings, DryRun& report);
 
-/// Whether the link is too slow for a job, in words; empty when it is not.
+/// Returns a warning if the link is too slow for a job; empty if it is not.
 std::string link_warning(const LinkNeed& need, int baud);
 
-/// Sends a ready file, layer by layer where its comments tell them, else in stretches of lines. Returns the
-/// number of its parts.
+/// Sends an existing G-code file in parts: layers if comments mark them, otherwise blocks of lines. Returns
+/// the number of parts.
 int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool resume,
                     const CancelToken* cancel);
 

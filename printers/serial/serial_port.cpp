@@ -1,4 +1,4 @@
-// Opening and setting up a tty.
+// Opens and configures a tty.
 #include "printers/serial/serial_port.h"
 
 #include <asm/termbits.h>
@@ -27,7 +27,7 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Eight bits, no parity, one stop bit, nothing interpreted, any speed.
+/// Sets eight data bits, no parity, one stop bit, no processing, and any baud rate.
 void make_raw(int descriptor, const std::string& path, int baud) {
     termios2 mode{};
     if (ioctl(descriptor, TCGETS2, &mode) != 0) throw InputError(path + " is no serial port");
@@ -37,14 +37,14 @@ void make_raw(int descriptor, const std::string& path, int baud) {
     mode.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (BOTHER << IBSHIFT);
     mode.c_ispeed = mode.c_ospeed = static_cast<speed_t>(baud);
     std::fill(std::begin(mode.c_cc), std::end(mode.c_cc), cc_t{0});
-    // A read of nothing then means a line that is cut, and only that.
+    // With this, a read of zero bytes means a disconnected line, and nothing else.
     mode.c_cc[VMIN] = 1;
     if (ioctl(descriptor, TCSETS2, &mode) != 0) {
         throw InputError(path + " cannot be set to " + std::to_string(baud) + " baud: " + reason(errno));
     }
 }
 
-/// Adapters hold small packets back for up to 16 ms unless told not to. Not all know the request.
+/// Asks for low latency: adapters otherwise delay small packets by up to 16 ms. Not all support the request.
 void ask_for_low_latency(int descriptor) {
     serial_struct settings{};
     if (ioctl(descriptor, TIOCGSERIAL, &settings) != 0) return;
@@ -59,7 +59,7 @@ std::string first_line(const fs::path& path) {
     return line;
 }
 
-/// What a USB device says of itself; the folder of its tty lies some levels below that of the device.
+/// Returns the description of a USB device. The folder of its tty lies some levels below that of the device.
 std::string usb_description(const std::string& name) {
     std::error_code error;
     fs::path folder = fs::canonical("/sys/class/tty/" + name + "/device", error);
@@ -99,7 +99,7 @@ SerialPort SerialPort::open(const std::string& path, int baud) {
         throw FaultError("cannot open " + path + ": " + reason(error));
     }
     if (isatty(port.descriptor_) == 0) throw InputError(path + " is no serial port");
-    // TIOCEXCL does not keep root out; the lock does, among programs that ask for it.
+    // TIOCEXCL does not exclude root. The lock does, among programs that use it.
     if (flock(port.descriptor_, LOCK_EX | LOCK_NB) != 0)
         throw InputError(path + " is in use by another program");
     ioctl(port.descriptor_, TIOCEXCL);
@@ -158,7 +158,7 @@ std::vector<PortInfo> serial_ports() {
         const std::string name = entry.path().filename().string();
         const bool serial = name.starts_with("ttyUSB") || name.starts_with("ttyACM") ||
                             name.starts_with("ttyAMA") || name.starts_with("ttyS");
-        // Most ttyS0 to ttyS31 stand for no hardware: those have type 0.
+        // Most of ttyS0 to ttyS31 have no hardware: their type is 0.
         if (!serial || (name.starts_with("ttyS") && first_line(entry.path() / "type") == "0")) continue;
         const std::string path = "/dev/" + name;
         if (!fs::exists(path, error)) continue;

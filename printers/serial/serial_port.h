@@ -1,4 +1,4 @@
-// SerialPort: a tty of Linux, opened for a printer.
+// SerialPort: a Linux tty opened for a printer.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace lamella {
 
-/// What a read or a write came to.
+/// Result of a read or a write.
 struct PortOutcome {
     std::size_t bytes = 0;
     bool lost = false;  ///< the device is gone
 };
 
-/// Raw, exclusive, never blocking. Closing leaves DTR alone, so that the board behind it is not reset.
+/// A tty in raw mode, exclusive and non-blocking. Closing does not touch DTR, so that the board is not reset.
 class SerialPort {
   public:
     SerialPort() = default;
@@ -22,16 +22,16 @@ class SerialPort {
     SerialPort& operator=(SerialPort&& other) noexcept;
     ~SerialPort();
 
-    /// Throws InputError for what is no serial port or is not free, FaultError for what fails otherwise.
+    /// Throws InputError if the path is not a serial port or is in use, FaultError for any other failure.
     static SerialPort open(const std::string& path, int baud);
 
     int descriptor() const { return descriptor_; }
     bool is_open() const { return descriptor_ >= 0; }
-    /// Appends what has arrived.
+    /// Appends the bytes that have arrived.
     PortOutcome read(std::string& bytes);
-    /// Writes as much as there is room for.
+    /// Writes as many bytes as the buffer takes.
     PortOutcome write(std::string_view bytes);
-    /// Pulls DTR for a moment, which resets most boards. False where the port has no such line.
+    /// Pulses DTR, which resets most boards. Returns false if the port has no DTR line.
     bool reset_board();
     void close();
 
@@ -40,17 +40,16 @@ class SerialPort {
     int descriptor_ = -1;
 };
 
-/// The name of a port that stays the same when the device is plugged in again: its link in
-/// /dev/serial/by-id, or the path itself.
+/// Returns a port name that survives replugging: the device's link in /dev/serial/by-id, or the path itself.
 std::string lasting_name(const std::string& path);
 
 struct PortInfo {
     std::string path;         ///< /dev/ttyUSB0
-    std::string by_id;        ///< its lasting name; empty when there is none
-    std::string description;  ///< maker and product, as the device tells
+    std::string by_id;        ///< its lasting name; empty if there is none
+    std::string description;  ///< manufacturer and product, as reported by the device
 };
 
-/// The serial ports of this computer: USB and the built-in ones that exist.
+/// Returns the serial ports of this computer: USB ports and the built-in ones that exist.
 std::vector<PortInfo> serial_ports();
 
 }  // namespace lamella

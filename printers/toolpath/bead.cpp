@@ -1,4 +1,4 @@
-// Cross-sections of beads: rectangles with round sides.
+// Cross-sections of beads: rectangles with semicircular sides.
 #include "printers/toolpath/bead.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A bead of filament.
+// Bead: an extruded line of filament, its cross-section and its volume.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// What a bead is for.
+/// Purpose of a bead.
 enum class Role : std::uint8_t {
     external_perimeter,
     perimeter,
@@ -20,54 +20,57 @@ enum class Role : std::uint8_t {
     support
 };
 
-/// A path along which filament is laid, mm.
+/// A path along which filament is extruded, mm.
 struct Bead {
     std::vector<dvec2> points;
-    double width = 0;  ///< mm, the widest; the cross-section is bead_area(width, height)
+    double width = 0;  ///< largest width, mm; the cross-section is bead_area(width, height)
     Role role = Role::external_perimeter;
-    bool closed = false;           ///< the last point is joined with the first
-    int island = 0;                ///< beads of one island follow each other
-    std::vector<double> widths{};  ///< at each point, mm, where the width changes; else empty
-    bool hangs = false;            ///< there is nothing under it
-    double flow = 1;  ///< plastic over what the cross-section takes, for round ends of short beads
+    bool closed = false;           ///< the last point is joined to the first
+    int island = 0;                ///< index of the island; beads of one island follow each other
+    std::vector<double> widths{};  ///< width at each point, mm, if it varies; otherwise empty
+    bool hangs = false;            ///< nothing supports it from below
+    double flow = 1;  ///< extruded volume relative to the cross-section times the length; > 1 fills the round
+                      ///< ends of short beads
 
     double width_at(std::size_t point) const { return widths.empty() ? width : widths[point]; }
 };
 
-/// Plastic that a bead takes in a layer of this height, mm^3.
+/// Returns the volume of plastic in a bead of a layer of this height, mm^3.
 double bead_volume(const Bead& bead, double height);
 
-/// Cross-section of a bead, mm^2: a rectangle with round sides, an ellipse when narrower than high.
+/// Returns the cross-section of a bead, mm^2: a rectangle with semicircular sides, or an ellipse if it is
+/// narrower than high.
 double bead_area(double width, double height);
-/// The width of the bead of this cross-section, mm.
+/// Returns the width of a bead with this cross-section, mm.
 double bead_width(double area, double height);
 
-/// What a height's two round sides take from a bead's width together, mm.
+/// Returns the width that both semicircular sides together lose against a rectangle, mm.
 double side_loss(double height);
 
-/// The line that all beads are made of, and how far they may differ from it. Lengths in mm.
+/// The nominal line of all beads, and the permitted deviations from it. Lengths in mm.
 struct LineSettings {
     double width = 0.45;
-    double height = 0.2;       ///< of the layer, at most width
-    double tolerance = 0.025;  ///< by how much paths may leave the contours' offsets
+    double height = 0.2;       ///< layer height, at most the width
+    double tolerance = 0.025;  ///< largest deviation of paths from the contours' offsets
 
-    /// From bead to bead when they fill the plane.
+    /// Returns the distance between adjacent beads that fill the plane.
     double spacing() const { return width - side_loss(height); }
-    /// The width of a bead that lays `area` mm^2 over `length`, as far as it does not bulge over the layer.
+    /// Returns the width of a bead that covers `area` mm^2 over `length` mm, limited so that it does not
+    /// bulge over the layer.
     double width_for(double area, double length) const {
         return std::min(bead_width(area / length * height, height), width * max_extra_flow);
     }
-    /// Thickness of a wall that one bead with all its extra flow fills.
+    /// Returns the largest wall thickness that one bead with maximal extra flow fills.
     double thickest() const { return max_extra_flow * width - side_loss(height); }
-    /// The same where the bead's width follows the wall's thickness.
+    /// Returns the largest wall thickness that one bead fills if its width follows the thickness.
     double thickest_tapered() const { return widest_tapered * width - side_loss(height); }
-    /// Smaller pieces get no bead, mm^2.
+    /// Returns the area below which a piece gets no bead, mm^2.
     double min_area() const { return width * width / 4; }
 
-    static constexpr double max_extra_flow = 1.3;  ///< more would bulge
-    static constexpr double min_flow = 0.7;        ///< less would leave gaps
-    static constexpr double narrowest = 0.3;       ///< thinner threads, in widths, tear
-    static constexpr double widest_tapered = 1.5;  ///< in widths; thicker parts take two beads
+    static constexpr double max_extra_flow = 1.3;  ///< more flow would make the bead bulge
+    static constexpr double min_flow = 0.7;        ///< less flow would leave gaps
+    static constexpr double narrowest = 0.3;       ///< in nominal widths; thinner threads tear
+    static constexpr double widest_tapered = 1.5;  ///< in nominal widths; thicker parts get two beads
 };
 
 }  // namespace lamella

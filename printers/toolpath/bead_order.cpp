@@ -1,4 +1,4 @@
-// Nearest neighbours, and 2-opt among them.
+// Nearest-neighbour tours, improved by 2-opt.
 #include "printers/toolpath/bead_order.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ double squared_distance(dvec2 a, dvec2 b) {
     return d.x * d.x + d.y * d.y;
 }
 
-/// How far the border turns left at a loop's point, radians; loops run counter-clockwise round solid.
+/// Returns the left turn of the border at a loop's point, radians. Loops run counter-clockwise around solid.
 double turn_at(const std::vector<dvec2>& points, std::size_t i) {
     const std::size_t n = points.size();
     const dvec2 in = points[i] - points[(i + n - 1) % n], out = points[(i + 1) % n] - points[i];
     return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
 }
 
-/// The point at which a loop begins and ends.
+/// Returns the index of the point at which a loop begins and ends.
 std::size_t start_of(const std::vector<dvec2>& points, Seam seam, dvec2 from) {
     std::size_t best = 0;
     double least = 0;
@@ -46,7 +46,7 @@ void begin_at(Bead& loop, std::size_t point) {
 
 dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
 
-/// The nearest few points of each, by a grid of about two points a cell.
+/// Returns the nearest few neighbours of each point, by a grid with about two points per cell.
 std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> points) {
     constexpr std::size_t wanted = 8;
     Rect box;
@@ -88,7 +88,7 @@ std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> poi
 }  // namespace
 
 void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bead>& out) {
-    std::vector<dvec2> ends;  // two for each bead; a loop may begin anywhere, its first point stands for it
+    std::vector<dvec2> ends;  // two per bead; a loop may begin anywhere, its first point stands for it
     for (const Bead& bead : beads) {
         ends.push_back(bead.points.front());
         ends.push_back(bead.closed ? bead.points.front() : bead.points.back());
@@ -125,7 +125,7 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
     for (std::size_t i = 0; i < n; ++i) place[tour[i]] = i;
     const auto length = [&](dvec2 a, dvec2 b) { return std::sqrt(squared_distance(a, b)); };
     const auto before = [&](std::size_t i) { return i == 0 ? start : points[tour[i - 1]]; };
-    // Turning [i, j] round replaces the ways into i and out of j; the last point has no way out.
+    // Reversing [i, j] replaces the edges into i and out of j. The last point has no edge out.
     const auto gain = [&](std::size_t i, std::size_t j) {
         double saved = length(before(i), points[tour[i]]) - length(before(i), points[tour[j]]);
         if (j + 1 < n)
@@ -138,7 +138,7 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
                      tour.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (std::size_t k = i; k <= j; ++k) place[tour[k]] = k;
     };
-    // Long stretches cost as much as they are long, so that many points get shorter ones only.
+    // Reversal costs as much as the stretch is long, so large sets of points only get shorter stretches.
     const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
     constexpr double min_gain = 1e-6;  // mm
     constexpr int max_rounds = 20;
@@ -148,8 +148,8 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
             for (const std::uint32_t q : neighbours[p]) {
                 const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
                 if (b - a > longest) continue;
-                // To bring p and q together: turn what lies between them, with the later or the earlier of
-                // both.
+                // To make p and q adjacent, reverse the stretch between them, including the later or the
+                // earlier of both.
                 if (a + 1 <= b && gain(a + 1, b) > min_gain) {
                     turn(a + 1, b);
                     shorter = true;

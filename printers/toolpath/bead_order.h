@@ -1,4 +1,4 @@
-// In which order beads are printed, and where each begins.
+// Order in which beads are printed, and where each begins.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace lamella {
 
-/// Appends beads to `out` by nearest neighbour from `at`, which moves along. Open ones are turned round where
-/// that is nearer, loops begin where `seam` says.
+/// Appends beads to `out` in nearest-neighbour order, starting from `at`, which is updated. Open beads are
+/// reversed if that is nearer; loops begin according to `seam`.
 void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bead>& out);
 
-/// An order in which points are visited from `start`: nearest neighbour, then made shorter by turning
-/// stretches round (2-opt, among the eight nearest of each point) until nothing more is gained.
+/// Returns an order in which to visit points from `start`: nearest neighbour, then improved by 2-opt
+/// (reversing stretches, among the eight nearest neighbours of each point) until nothing more is gained.
 std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Every direction tried, and the spans compared.
+// Tries every direction and compares the spans.
 #include "printers/toolpath/bridge_direction.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace lamella {
 namespace {
 
 struct Spans {
-    double unheld = 0;   ///< length of spans times their ends without a hold, mm
-    double longest = 0;  ///< mm
+    double unheld = 0;   ///< sum over spans of length times number of unsupported ends, mm
+    double longest = 0;  ///< longest span, mm
 };
 
 Spans spans_along(const Polygons& hanging, const LayerBelow& footing, dvec2 direction, double width) {
@@ -33,7 +33,7 @@ Spans spans_along(const Polygons& hanging, const LayerBelow& footing, dvec2 dire
 
 dvec2 bridge_direction(const Polygons& hanging, const LayerBelow& footing, double width) {
     constexpr int tries = 36;
-    constexpr double alike = 0.02;  // share of the region by which directions may differ and count as equal
+    constexpr double alike = 0.02;  // share of the region within which directions count as equal
     std::array<dvec2, tries> directions;
     std::array<Spans, tries> spans;
     for (std::size_t i = 0; i < tries; ++i) {

@@ -1,13 +1,13 @@
-// Along which direction straight beads bridge what has nothing under it.
+// Direction of the straight beads that bridge an unsupported region.
 #pragma once
 
 #include "printers/toolpath/layer_below.h"
 
 namespace lamella {
 
-/// The direction, of unit length, in which the fewest lines through a region that hangs end without a hold,
-/// and of such directions, tried every five degrees, the one whose longest span is the shortest. A line is
-/// held where there is footing a `width` mm beyond its end; lines lie a width apart.
+/// Returns the unit vector along which the fewest lines through an unsupported region have an unsupported
+/// end. Among such directions, tried every five degrees, it is the one with the shortest longest span. A line
+/// end is supported if there is `footing` a `width` mm beyond it. Lines are spaced a width apart.
 dvec2 bridge_direction(const Polygons& hanging, const LayerBelow& footing, double width);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A ribbon round the middle of the walls, walked once.
+// Erodes walls to a ribbon around their middle and walks its border once.
 #include "printers/toolpath/center_lines.h"
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 namespace lamella {
 namespace {
 
-constexpr double ribbon_share = 0.125;    // half the ribbon's width, of the thickness
-constexpr double pairing_share = 0.5;     // how far apart, of the thickness, there and back may run
-constexpr double opposite_cosine = -0.5;  // cosine from which on directions count as there and back
+constexpr double ribbon_share = 0.125;  // half the ribbon's width, relative to the thickness
+constexpr double pairing_share = 0.5;   // largest distance between opposite passes, relative to the thickness
+constexpr double opposite_cosine = -0.5;  // cosine below which two directions count as opposite
 
 struct Edge {
     dvec2 a;
     dvec2 b;
     dvec2 direction;
     double length;
-    std::vector<Interval> kept;  ///< from a, mm
+    std::vector<Interval> kept;  ///< kept intervals, measured from a, mm
     Edge(dvec2 from, dvec2 to, double l) : a(from), b(to), direction((to - from) / l), length(l) {}
     dvec2 at(double s) const { return a + direction * s; }
 };
@@ -31,7 +31,7 @@ double distance_to(dvec2 p, dvec2 a, dvec2 b) {
     return length(p - a - way * t);
 }
 
-/// What stays of [0, l] without some intervals.
+/// Returns the complement of some intervals in [0, l].
 std::vector<Interval> without(double l, std::vector<Interval> covered) {
     std::ranges::sort(covered, {}, &Interval::lo);
     std::vector<Interval> rest;
@@ -45,7 +45,7 @@ std::vector<Interval> without(double l, std::vector<Interval> covered) {
     return rest;
 }
 
-/// The ribbon's border as edges, walked in order.
+/// The ribbon's border as edges, in walking order.
 class Ribbon {
   public:
     Ribbon(const Polygons& border, double thickness) : thickness_(thickness) {
@@ -59,14 +59,15 @@ class Ribbon {
         index_ = IntervalIndex(intervals, keys);
     }
 
-    /// The way along the border without what only comes back.
+    /// Walks the border and omits the stretches that run back along a kept one.
     std::vector<CenterLine> walk() {
         std::vector<CenterLine> lines;
         for (std::size_t r = 0; r + 1 < rings_.size(); ++r) walk_ring(rings_[r], rings_[r + 1], lines);
         return lines;
     }
 
-    /// Halfway from a point of the border to the border's opposite_cosine side; the point itself without one.
+    /// Returns the midpoint between a point of the border and the opposite border; the point itself if there
+    /// is no opposite border.
     dvec2 middle(dvec2 p, dvec2 direction) {
         double least = reach();
         std::optional<dvec2> across;
@@ -86,7 +87,8 @@ class Ribbon {
   private:
     double reach() const { return pairing_share * thickness_; }
 
-    /// A ring's edges, from its point farthest from its middle on: that is the end of a wall if there is any.
+    /// Appends a ring's edges, starting at the point farthest from its centre: that is the end of a wall if
+    /// there is any.
     void add(std::vector<dvec2> points) {
         dvec2 sum(0);
         for (const dvec2& p : points) sum += p / static_cast<double>(points.size());
@@ -105,7 +107,7 @@ class Ribbon {
         index_.query({std::min(a.y, b.y) - reach(), std::max(a.y, b.y) + reach()}, found_);
     }
 
-    /// Where on `edge` the way back along `other` is kept already.
+    /// Appends the intervals of `edge` that run back along kept stretches of `other`.
     void cover(const Edge& edge, const Edge& other, std::vector<Interval>& covered) const {
         const dvec2 normal(-edge.direction.y, edge.direction.x);
         for (const Interval& kept : other.kept) {
@@ -115,7 +117,7 @@ class Ribbon {
             double s1 = dot(d, edge.direction);
             const double h0 = dot(c, normal);
             const double h1 = dot(d, normal);
-            Interval t{0, 1};  // of the way from c to d, where it runs close enough
+            Interval t{0, 1};  // part of the segment from c to d that is close enough
             if (h0 == h1) {
                 if (std::abs(h0) > reach()) continue;
             } else {
@@ -126,7 +128,7 @@ class Ribbon {
             }
             const double from = s0 + (s1 - s0) * t.lo;
             const double to = s0 + (s1 - s0) * t.hi;
-            // At bends the two ways cast shadows of unequal length on each other.
+            // At bends the two passes cover intervals of unequal length on each other.
             const double more = ribbon_share * thickness_;
             covered.push_back({std::min(from, to) - more, std::max(from, to) + more});
         }
@@ -135,7 +137,7 @@ class Ribbon {
     void walk_ring(std::size_t first, std::size_t last, std::vector<CenterLine>& lines) {
         const std::size_t before = lines.size();
         bool whole = true;
-        bool joined = false;  // the way has been kept up to the present point
+        bool joined = false;  // the stretch just before this point has been kept
         for (std::size_t i = first; i < last; ++i) {
             Edge& edge = edges_[i];
             std::vector<Interval> covered;
@@ -169,12 +171,12 @@ class Ribbon {
 
     double thickness_;
     std::vector<Edge> edges_;
-    std::vector<std::size_t> rings_{0};  // first edge of each, and the end
+    std::vector<std::size_t> rings_{0};  // index of each ring's first edge, and the number of edges
     IntervalIndex index_;
     std::vector<std::uint32_t> found_;
 };
 
-/// Takes off the turn round the ribbon's end.
+/// Removes the turn around the ribbon's end.
 void trim_end(std::vector<dvec2>& points, double half_ribbon) {
     double taken = 0;
     while (points.size() > 2) {
@@ -207,7 +209,7 @@ void center(CenterLine& line, Ribbon& ribbon) {
     line.points.erase(std::unique(line.points.begin(), line.points.end()), line.points.end());
 }
 
-/// Joins lines whose ends meet, `gap` mm apart at most.
+/// Joins lines whose ends are at most `gap` mm apart.
 void join(std::vector<CenterLine>& lines, double gap) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         for (std::size_t j = i + 1; j < lines.size(); ++j) {
@@ -221,7 +223,7 @@ void join(std::vector<CenterLine>& lines, double gap) {
             if (!meet(a.back(), b.front())) std::ranges::reverse(b);
             a.insert(a.end(), b.begin(), b.end());
             lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(j));
-            j = i;  // the longer line has another end
+            j = i;  // the joined line has a new end, so all others are compared again
         }
         if (!lines[i].closed && lines[i].points.size() > 3 &&
             length(lines[i].points.front() - lines[i].points.back()) <= gap) {
@@ -230,7 +232,7 @@ void join(std::vector<CenterLine>& lines, double gap) {
     }
 }
 
-/// Whether a line's end lies within a thickness of another line, or of itself farther back.
+/// Returns true if a line's end lies within a thickness of another line, or of an earlier part of itself.
 bool ends_at_line(std::size_t index, const std::vector<CenterLine>& lines, double thickness) {
     const std::vector<dvec2>& points = lines[index].points;
     const dvec2 end = points.back();
@@ -250,20 +252,21 @@ bool ends_at_line(std::size_t index, const std::vector<CenterLine>& lines, doubl
     return false;
 }
 
-/// Lengthens a line at its end unless it meets a line there.
+/// Extends a line at its end unless that end meets a line.
 void extend_end(std::size_t index, std::vector<CenterLine>& lines, double by, double thickness) {
     if (ends_at_line(index, lines, thickness)) return;
     std::vector<dvec2>& points = lines[index].points;
     const dvec2 end = points.back();
-    std::size_t back = points.size() - 1;  // a point far enough back to give the direction
+    std::size_t back = points.size() - 1;  // a point far enough back to determine the direction
     while (back > 0 && length(end - points[back]) < thickness / 2) --back;
     const dvec2 way = end - points[back];
     if (const double l = length(way); l > 0) points.back() = end + way * (by / l);
 }
 
-/// Whether walls this thick round the ribbon make up the piece.
+/// Returns true if walls of this thickness around the ribbon make up the piece.
 bool is_even(const Polygons& piece, const Polygons& ribbon, double thickness, double tolerance) {
-    constexpr double widest_joint = 0.8;  // half the thickness where walls cross at right angles is 0.71
+    // Radius of the largest disc, in thicknesses: 0.71 where walls cross at right angles.
+    constexpr double widest_joint = 0.8;
     if (!offset_polygons(piece, -widest_joint * thickness).empty()) return false;
     const double grow = (0.5 - ribbon_share) * thickness + tolerance;
     const Polygons rest = subtract_polygons(piece, offset_polygons(ribbon, grow));
@@ -281,7 +284,7 @@ double length_of(const CenterLine& line) {
 }
 
 double wall_thickness(const Polygons& piece) {
-    // Each end of a wall adds its thickness to half the perimeter, each branch and loop takes it away again:
+    // Each end of a wall adds its thickness to half the perimeter; each branch and each loop subtracts it:
     // area = thickness (perimeter / 2 - thickness * Euler characteristic).
     const double half = perimeter_of(piece) / 2;
     const double euler = 2 - static_cast<double>(piece.size());
@@ -311,7 +314,7 @@ std::vector<CenterLine> center_lines(const Polygons& piece, double thickness, do
             std::ranges::reverse(lines[i].points);
         }
     }
-    // The lines must carry the piece's volume with the flow that belongs to the thickness.
+    // The lines must be able to carry the piece's volume at a flow that suits the thickness.
     double total = 0;
     for (const CenterLine& line : lines) total += length_of(line);
     constexpr double min_flow = 0.85;

@@ -1,4 +1,4 @@
-// Center lines of walls: where one bead along the middle fills what is too thin for two.
+// Centre lines of walls that are too thin for two beads; one bead along the middle fills them.
 #pragma once
 
 #include <vector>
@@ -7,25 +7,26 @@
 
 namespace lamella {
 
-/// A line along the middle of a wall, mm.
+/// The centre line of a wall, mm.
 struct CenterLine {
     std::vector<dvec2> points;
-    bool closed = false;  ///< the last point is joined with the first
+    bool closed = false;  ///< the last point is joined to the first
 };
 
 double length_of(const CenterLine& line);
 
-/// The thickness that walls of this area and outline have when it is the same everywhere, mm: exact for
-/// rectangles, for what is joined of them at right angles, and for rings. One connected piece with its holes.
+/// Returns the thickness of walls with this area and outline, assuming that it is uniform, mm. Exact for
+/// rectangles, for rectangles joined at right angles, and for rings. `piece` is one connected piece with its
+/// holes.
 double wall_thickness(const Polygons& piece);
 
-/// The lines along the middles of walls of one thickness (mm), each wall once however they branch; they end a
-/// quarter of the thickness before the walls do. Empty when the piece is no such network of walls: when parts
-/// of it are much thicker or thinner, or when it is hardly longer than thick. `tolerance` mm of unevenness
-/// count as even.
+/// Returns the centre lines of walls of uniform thickness (mm), each wall once, however the walls branch.
+/// Lines end a quarter of the thickness before the walls do. Empty if the piece is not such a network: if
+/// parts of it are much thicker or thinner, or if it is hardly longer than thick. Unevenness up to
+/// `tolerance` mm is ignored.
 ///
-/// The piece is shrunk to a ribbon round its middle; its border runs along each wall there and back, and of
-/// the two ways the first is kept.
+/// The piece is eroded to a ribbon around its middle. The ribbon's border runs along each wall in both
+/// directions; of the two passes the first is kept.
 std::vector<CenterLine> center_lines(const Polygons& piece, double thickness, double tolerance);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Beads sampled along their way, and cut.
+// Samples beads along their length and splits them.
 #include "printers/toolpath/hanging_beads.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double samples_a_width = 4;
 
-/// A stretch along a bead, mm from its beginning.
+/// A stretch of a bead, mm from its start.
 struct Stretch {
     double from = 0;
     double to = 0;
@@ -16,7 +16,7 @@ struct Stretch {
     double length() const { return to - from; }
 };
 
-/// A bead's points as an open line, with the way to each and the width there, mm.
+/// A bead as an open line, with the length up to each point and the width there, mm.
 struct Line {
     std::vector<dvec2> points;
     std::vector<double> ways;
@@ -59,8 +59,8 @@ std::vector<Stretch> stretches_of(const Line& line, const LayerBelow& footing, d
     return stretches;
 }
 
-/// Turns stretches of one kind that are too short into what lies beside them. In a loop the first goes on
-/// from the last.
+/// Merges stretches of one kind that are too short into their neighbours. In a loop the first stretch
+/// continues the last.
 std::vector<Stretch> without_short(const std::vector<Stretch>& stretches, bool hanging, double least,
                                    bool closed) {
     std::vector<Stretch> longer;

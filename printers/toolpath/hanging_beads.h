@@ -1,4 +1,4 @@
-// Which parts of beads have nothing under them.
+// Detection of unsupported parts of beads.
 #pragma once
 
 #include "printers/toolpath/bead.h"
@@ -6,9 +6,9 @@
 
 namespace lamella {
 
-/// Cuts beads where their middle leaves what is under them, and marks what hangs; the pieces follow each
-/// other and lay the same volume. Stretches shorter than a bead's own width count as what lies beside them.
-/// Beads that are marked already stay as they are.
+/// Splits beads where their centre line leaves the layer below, and marks the unsupported pieces. The pieces
+/// follow each other and have the same total volume. Stretches shorter than the bead's width are merged into
+/// their neighbours. Beads that are already marked stay unchanged.
 std::vector<Bead> cut_hanging(const std::vector<Bead>& beads, const LayerBelow& footing);
 
 }  // namespace lamella

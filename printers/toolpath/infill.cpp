@@ -1,4 +1,4 @@
-// Lines and loops, clipped to their region.
+// Lines and loops of infill, clipped to their region.
 #include "printers/toolpath/infill.h"
 
 #include <cmath>
@@ -9,7 +9,8 @@
 namespace lamella {
 namespace {
 
-/// A line's round end reaches further than its last point; a quarter width of overlap bonds it.
+/// Returns the region for the centre lines. The round end of a line reaches beyond its last point; an overlap
+/// of a quarter width bonds it.
 Polygons room_for_lines(const Polygons& region, const LineSettings& line) {
     return offset_polygons(region, line.width / 4 - line.spacing() / 2);
 }
@@ -49,7 +50,7 @@ std::vector<Bead> solid_lines(const Polygons& region, dvec2 direction, const Lin
     const int count = std::max(1, static_cast<int>(std::lround(across.width() / spacing)));
     const double pitch = across.width() / count;
     const Polygons room = room_for_lines(region, line);
-    // In a narrow region the lines' ends matter: there they are taken up to its border.
+    // In a narrow region the ends of the lines matter, so they extend to its border.
     for (const Polygons* within : {&room, &region}) {
         const std::vector<Segment> lines =
             lines_in(*within, direction, across.lo + pitch / 2, pitch, count, line);
@@ -67,7 +68,7 @@ std::vector<Bead> concentric_loops(const Polygons& region, double density, const
     const double pitch = line.spacing() / density;
     const Role role = density < 1 ? Role::internal_infill : Role::solid_infill;
     std::vector<Bead> beads;
-    // From loop to loop, for what lies far inside is soon little.
+    // Each loop is offset from the one before, not from the border: the inner loops are soon small.
     Polygons loops = offset_polygons(region, -pitch / 2);
     while (!loops.empty()) {
         for (const ClipperLib::Path& loop : loops)

@@ -1,4 +1,4 @@
-// Beads that fill the inside of a layer's islands.
+// Infill: beads that fill the interior of a layer's islands.
 #pragma once
 
 #include "printers/polygons/polygons.h"
@@ -6,15 +6,17 @@
 
 namespace lamella {
 
-/// Straight lines along `direction` (of unit length) that take a share of a connected region; one lattice for
-/// the whole plane, so that the lines of one layer stand on those of another. `density` is more than 0.
+/// Returns straight lines along `direction` (a unit vector) that fill a share `density` > 0 of a connected
+/// region. All lines belong to one lattice of the plane, so that the lines of successive layers stand on each
+/// other.
 std::vector<Bead> sparse_lines(const Polygons& region, double density, dvec2 direction,
                                const LineSettings& line);
 
-/// Straight lines spread evenly over a connected region, with the flow that gives its volume.
+/// Returns straight lines that are evenly spread over a connected region, with the flow that gives the
+/// region's volume.
 std::vector<Bead> solid_lines(const Polygons& region, dvec2 direction, const LineSettings& line);
 
-/// Loops within one another that take a share of a region; at density 1 all of it.
+/// Returns nested loops that fill a share `density` of a region; at density 1 all of it.
 std::vector<Bead> concentric_loops(const Polygons& region, double density, const LineSettings& line);
 
 }  // namespace lamella

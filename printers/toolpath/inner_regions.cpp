@@ -1,4 +1,4 @@
-// Booleans of a region with the layers round it.
+// Booleans of a region with the adjacent layers.
 #include "printers/toolpath/inner_regions.h"
 
 #include <algorithm>
@@ -8,17 +8,17 @@
 namespace lamella {
 namespace {
 
-constexpr double anchor = 3;       // by which bridges and solid parts reach over what holds them, in widths
-constexpr double min_bridge = 9;   // what is smaller, in widths squared, is filled as if it were held
-constexpr double min_sparse = 64;  // what is smaller, in widths squared, becomes solid
+constexpr double anchor = 3;       // overlap of bridges and solid parts with their surroundings, in widths
+constexpr double min_bridge = 9;   // in widths squared; smaller unsupported regions are no bridges
+constexpr double min_sparse = 64;  // in widths squared; smaller sparse regions become solid
 
-/// Without what is narrower than `width` mm.
+/// Returns the opening: removes everything narrower than `width` mm.
 Polygons opened(const Polygons& polygons, double width) {
     return intersect_polygons(offset_polygons(offset_polygons(polygons, -width / 2), width / 2 * 1.01),
                               polygons);
 }
 
-/// Whether as much of a region hangs as a bridge has at least; by points a width apart.
+/// Returns true if the unsupported part of a region may be large enough for a bridge; sampled a width apart.
 bool may_hang(const Polygons& region, const LayerBelow& footing, double width) {
     const Interval across = extent(region, {0, 1});
     const int rows = std::max(1, static_cast<int>(across.width() / width));
@@ -31,15 +31,15 @@ bool may_hang(const Polygons& region, const LayerBelow& footing, double width) {
                 hanging += pitch * s.length() / points;
         }
     }
-    return hanging > min_bridge * width * width / 2;  // for the points are coarse
+    return hanging > min_bridge * width * width / 2;  // half, because the sampling is coarse
 }
 
-/// Where infill must be solid, because a surface is near.
+/// Returns the part where infill must be solid, because a surface is near.
 Polygons solid_part(const Polygons& region, const PlacedPolygons& core, double width) {
     Polygons bare = opened(subtract_polygons(region, core.near(box_of(region))), width / 2);
     if (bare.empty()) return bare;
     Polygons solid = intersect_polygons(offset_polygons(bare, anchor * width), region);
-    // What is left sparse has room for more than its own border.
+    // A region stays sparse only if it has room for more than its own border.
     for (const Polygons& rest : split_pieces(subtract_polygons(region, solid))) {
         if (area_of(rest) < min_sparse * width * width || opened(rest, 2 * width).empty())
             solid = unite_polygons(solid, rest);
@@ -47,7 +47,7 @@ Polygons solid_part(const Polygons& region, const PlacedPolygons& core, double w
     return solid;
 }
 
-/// What nothing is under, as far as a bead hangs over it as a whole.
+/// Returns the unsupported part of a region, where at least a whole bead's width hangs.
 Polygons hanging_part(const Polygons& region, const LayerBelow& footing, double width) {
     if (!may_hang(region, footing, width)) return {};
     Polygons bridges;
@@ -59,7 +59,8 @@ Polygons hanging_part(const Polygons& region, const LayerBelow& footing, double 
     return bridges;
 }
 
-/// The bridges over what hangs of a solid region, with a strip beside it that anchors their lines.
+/// Returns the bridges over the unsupported part of a solid region, with a strip of their surroundings that
+/// anchors their lines.
 std::vector<InnerRegion> bridges_over(const Polygons& hanging, const Polygons& solid,
                                       const LayerBelow& footing, double width) {
     std::vector<InnerRegion> bridges;

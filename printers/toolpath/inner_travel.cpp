@@ -1,4 +1,4 @@
-// The outline inset, and the shortest way in that.
+// Shortest paths within the inset outline.
 #include "printers/toolpath/inner_travel.h"
 
 #include <utility>
@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-constexpr double max_detour = 3;  // beyond it the filament is better drawn back
+constexpr double max_detour = 3;  // longer detours are worse than a retraction
 
 }  // namespace
 
@@ -24,8 +24,8 @@ std::optional<std::vector<dvec2>> InnerTravel::way(dvec2 from, dvec2 to) {
 
 std::optional<std::vector<dvec2>> InnerTravel::way_within(Region& region, dvec2 from, dvec2 to) const {
     if (!region.sight) region.sight.emplace(offset_polygons(outline_, -region.inset));
-    // Beads begin and end on the region's border or, rounded, beside it. Up to the inset the way there cannot
-    // leave the island.
+    // Beads begin and end on the region's border or, after rounding, beside it. Within the inset, the path to
+    // such a point cannot leave the island.
     constexpr double share = 0.8;
     const double reach = share * region.inset * polygon_scale;
     const ClipperLib::Path ends = to_polygon({from, to});

@@ -1,4 +1,4 @@
-// Ways over one island of a layer, on which the nozzle crosses no outline.
+// InnerTravel: travel paths inside one island of a layer that cross no outline.
 #pragma once
 
 #include <array>
@@ -9,21 +9,23 @@
 
 namespace lamella {
 
-/// Finds them for as many travels as an island has. They keep half a line's width from the outline, so that
-/// they cross no outer wall; a tenth where the island is too thin for that, as struts of foams are.
+/// Finds travel paths for any number of travels in an island. They keep half a line width from the outline,
+/// so that they cross no outer wall; a tenth where the island is too thin for that, such as in the struts of
+/// foams.
 class InnerTravel {
   public:
-    /// The outline as of Toolpaths::outlines; width of a line in mm.
+    /// `outline` is one of Toolpaths::outlines; `line_width` in mm.
     InnerTravel(Polygons outline, double line_width);
 
-    /// The corners of the shortest way, ends left out; nothing where there is none or it would take too long
-    /// to find (see shortest_way), or where it is more than three times as long as the straight one.
+    /// Returns the inner corners of the shortest path. Returns nothing if there is no path, if the search
+    /// takes too long (see shortest_way), or if the path is more than three times as long as the straight
+    /// line.
     std::optional<std::vector<dvec2>> way(dvec2 from, dvec2 to);
 
   private:
     struct Region {
         double inset = 0;                        ///< mm
-        std::optional<PolygonSight> sight = {};  ///< once it has been needed
+        std::optional<PolygonSight> sight = {};  ///< built on first use
     };
     std::optional<std::vector<dvec2>> way_within(Region& region, dvec2 from, dvec2 to) const;
 

@@ -1,4 +1,4 @@
-// Thin parts, walls from the outside in, and what fills the rest.
+// Plans thin parts, walls from the outside in, and the filling of the rest.
 #include "printers/toolpath/island_planner.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace lamella {
 namespace {
 
-constexpr double shortest_loop = 1;  // shorter islands, in thicknesses, get a chord
+constexpr double shortest_loop = 1;  // in thicknesses; shorter islands get a chord
 
 Role wall_role(int walls_laid) { return walls_laid == 0 ? Role::external_perimeter : Role::perimeter; }
 
@@ -34,7 +34,7 @@ std::vector<Bead> IslandPlanner::plan(const Polygons& island) {
     Polygons piece = simplified(island, line_.tolerance / 2);
     if (piece.empty()) piece = island;
     fill(island, piece, 0);
-    // Threads that would tear are left out, unless they are all there is.
+    // Drops threads that would tear, unless the island has no other beads.
     const auto is_thread = [&](const Bead& bead) {
         return bead.width < LineSettings::narrowest * line_.width;
     };
@@ -52,16 +52,16 @@ double IslandPlanner::volume_from(std::size_t first) const {
     return sum;
 }
 
-/// Fills a piece inside so many walls; `exact` before it was simplified.
+/// Fills a piece inside `walls_laid` walls; `exact` is the piece before simplification.
 void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls_laid) {
     stop_if_cancelled(cancel_);
-    // The flow makes up for what a coarse outline loses; its axis is found much faster.
+    // A coarse outline makes the axis much faster. The flow compensates for the lost area.
     const Polygons outline = simplified(piece, 1.5 * line_.tolerance);
     const ThinParts thin =
         find_thin_parts(medial_axis(outline, line_.tolerance / 2), LineSettings::narrowest * line_.width,
                         line_.thickest_tapered(), line_.tolerance);
     if (thin.lines.empty()) return fill_thick(exact, piece, walls_laid);
-    // What is left in pieces too small for beads of their own comes with the lines, too.
+    // The area of remaining pieces too small for beads of their own is added to the lines.
     double area = area_of(exact);
     if (!thin.whole && area - thin.area >= line_.min_area()) {
         for (const Polygons& rest : split_pieces(subtract_polygons(piece, thin.covered))) {
@@ -73,7 +73,7 @@ void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls
     const Role role = walls_laid == 0 ? Role::external_perimeter : Role::gap_fill;
     std::vector<Bead> lines = tapered_beads(thin, area, line_, role);
     constexpr double enough = 0.9;
-    // A piece hardly longer than thick has a line too short for its plastic.
+    // The line of a piece hardly longer than thick is too short for the piece's volume.
     if (thin.whole && lines.size() == 1 &&
         bead_volume(lines.front(), line_.height) < enough * area * line_.height) {
         return fill_thick(exact, piece, walls_laid);
@@ -81,14 +81,14 @@ void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls
     add(std::move(lines));
 }
 
-/// Walls and infill of a piece with its volume, as far as beads neither starve nor bulge.
+/// Lays walls and infill with the volume of the piece, as far as the limits of flow permit.
 void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int walls_laid) {
     const std::size_t first = beads_.size();
     const double area = area_of(exact), wanted = area * line_.height;
     if (!lay_walls(exact, piece, walls_laid)) return;
     const auto starves = [&] { return volume_from(first) * LineSettings::max_extra_flow < wanted; };
     if (starves()) {
-        // Its wall is a speck: loops nearer to the border are longer, and a chord spans it.
+        // The wall is tiny. Loops nearer to the border are longer, and a chord spans the piece.
         beads_.resize(first);
         add(loop_beads(exact, line_.width / 4, area, line_, wall_role(walls_laid)));
         if (starves()) {
@@ -109,22 +109,22 @@ void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int
     }
 }
 
-/// The same before the volume is looked at. False where the beads do not fill the piece, because its inside
-/// is to be sparse.
+/// Lays walls and infill without regard to the volume. Returns false if the beads do not fill the piece
+/// because its interior is sparse.
 bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid) {
     stop_if_cancelled(cancel_);
     const Role role = wall_role(walls_laid);
     if (fill_even_wall(piece, area_of(exact), role)) return true;
-    // Outside, a bead's whole width lies within; further in, beads overlap by their round sides.
+    // The outermost bead lies entirely inside the contour; inner beads overlap by their round sides.
     const double spacing = line_.spacing();
     const Polygons wall = offset_polygons(piece, -(walls_laid == 0 ? line_.width : spacing) / 2);
     const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing / 2);
     if (inside.empty()) {
-        fill_narrow(exact, !wall.empty(), role);  // simplified, a sliver could leave its own outline
+        fill_narrow(exact, !wall.empty(), role);  // exact: a simplified sliver might leave its own outline
         return true;
     }
     std::vector<Polygons> regions = split_pieces(inside);
-    // What is too narrow for a bead of its own comes with the wall.
+    // The area of regions too narrow for a bead of their own is added to the wall.
     double narrow = 0;
     std::erase_if(regions, [&](const Polygons& region) {
         if (wall_thickness(region) >= line_.width * LineSettings::narrowest) return false;
@@ -145,7 +145,7 @@ bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int 
     return sparse_regions_ == sparse_before;
 }
 
-/// One bead along the middle, or two side by side, in a piece of even thickness for which that is right.
+/// Lays one bead along the middle, or two side by side, if the piece has a suitable uniform thickness.
 bool IslandPlanner::fill_even_wall(const Polygons& piece, double area, Role role) {
     const double thickness = wall_thickness(piece);
     if (std::vector<Bead> beads = center_line_beads(piece, thickness, area, line_, role); !beads.empty()) {
@@ -164,7 +164,7 @@ bool IslandPlanner::fill_even_wall(const Polygons& piece, double area, Role role
     return !loops.empty();
 }
 
-/// A piece that has room for loops at most.
+/// Fills a piece that has no room for more than loops.
 void IslandPlanner::fill_narrow(const Polygons& piece, bool full_width_fits, Role role) {
     const double area = area_of(piece);
     const auto lay = [&](double inset) {
@@ -173,7 +173,8 @@ void IslandPlanner::fill_narrow(const Polygons& piece, bool full_width_fits, Rol
         return !loops.empty();
     };
     if (full_width_fits) {
-        // Two full beads side by side would be too much: take the width at which they just fill it.
+        // Two full beads side by side would be too much, so the width is chosen at which they exactly fill
+        // it.
         const double half_thickness = area / perimeter_of(piece);
         if (lay(std::clamp(half_thickness, line_.width / 2, line_.width) / 2)) return;
     }
@@ -183,7 +184,7 @@ void IslandPlanner::fill_narrow(const Polygons& piece, bool full_width_fits, Rol
     add(chord_bead(piece, area, line_));
 }
 
-/// Infill of one connected region inside the walls, as the layers round it ask for it.
+/// Fills one connected region inside the walls with the infill that the adjacent layers require.
 void IslandPlanner::fill_inside(const Polygons& inside) {
     stop_if_cancelled(cancel_);
     for (const InnerRegion& part : divide_inside(inside, around_, settings_.density, line_)) {

@@ -1,4 +1,4 @@
-// The beads of one island of a layer.
+// IslandPlanner: plans the beads of one island of a layer.
 #pragma once
 
 #include "printers/polygons/polygons.h"
@@ -6,13 +6,13 @@
 
 namespace lamella {
 
-/// Plans island after island of one layer; see plan_toolpaths.
+/// Plans the islands of one layer one after another; see plan_toolpaths.
 class IslandPlanner {
   public:
     IslandPlanner(const ToolpathSettings& settings, int layer_index, const LayerNeighborhood& around,
                   const CancelToken* cancel);
 
-    /// Beads of a connected piece with its holes, of at least LineSettings::min_area().
+    /// Plans the beads of a connected piece with its holes, of at least LineSettings::min_area().
     std::vector<Bead> plan(const Polygons& island);
 
   private:
@@ -31,7 +31,7 @@ class IslandPlanner {
     LayerNeighborhood around_;
     const CancelToken* cancel_;
     dvec2 direction_;
-    int sparse_regions_ = 0;  ///< of the island, that beads do not fill
+    int sparse_regions_ = 0;  ///< regions of the island that beads do not fill
     std::vector<Bead> beads_;
 };
 

@@ -1,4 +1,4 @@
-// Rows through the layer below.
+// LayerBelow: rows of intervals through the layer below.
 #include "printers/toolpath/layer_below.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// LayerBelow: what a layer rests on.
+// LayerBelow: the section that a layer rests on.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace lamella {
 
-/// The section of the layer below, of the part and of its supports. Immutable; any thread may ask it.
+/// The section of the layer below, part and supports. Immutable; thread-safe.
 class LayerBelow {
   public:
-    /// `pitch` mm is how finely `holds` looks.
+    /// `pitch` is the row spacing of `holds`, mm.
     LayerBelow(Polygons below, double pitch);
 
-    /// Whether there is something under p: exact along x, by the nearest of the rows along y.
+    /// Returns true if p is supported from below. Exact along x; along y the nearest row decides.
     bool holds(dvec2 p) const;
     const PlacedPolygons& section() const { return section_; }
 
@@ -21,8 +21,8 @@ class LayerBelow {
     PlacedPolygons section_;
     double pitch_;
     double first_ = 0;                 // y of the first row, mm
-    std::vector<Interval> solid_;      // along x, row by row, ascending
-    std::vector<std::size_t> starts_;  // of each row in solid_, one more than there are rows
+    std::vector<Interval> solid_;      // intervals along x, row by row, ascending
+    std::vector<std::size_t> starts_;  // first interval of each row in solid_; one more entry than rows
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Sections traced once, and their booleans.
+// Traces each section once, and intersects sections.
 #include "printers/toolpath/neighbour_layers.h"
 
 #include <utility>

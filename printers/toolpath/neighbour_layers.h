@@ -1,4 +1,4 @@
-// NeighbourLayers: the sections of a job's layers, for what a layer's toolpaths must know of those round it.
+// NeighbourLayers: cached sections of a job's layers, for toolpaths that depend on adjacent layers.
 #pragma once
 
 #include <map>
@@ -15,29 +15,29 @@ struct LayerOutlines {
     std::vector<Contour> supports;
 };
 
-/// Traces the sections of layers once and keeps them until they are forgotten, so that neighbours share them:
-/// in a stream that goes upwards this costs one section a layer. Thread-safe; what it tells depends on the
-/// job alone. The job must outlive it.
+/// Traces each layer's section once and keeps it until it is forgotten, so that adjacent layers share it: a
+/// stream in ascending order costs one section per layer. Thread-safe; results depend on the job alone. The
+/// job must outlive the object.
 class NeighbourLayers {
   public:
     /// `tolerance` of contours, mm.
     NeighbourLayers(const Job& job, double tolerance) : job_(&job), tolerance_(tolerance) {}
 
-    /// The sections of a layer, 0 <= index < Job::layer_count.
+    /// Returns the sections of a layer, 0 <= index < Job::layer_count.
     std::shared_ptr<const LayerOutlines> outlines(int index) const;
-    /// The layer below this one, which must not be the first.
+    /// Returns the layer below layer `index`, which must not be the first; `pitch` as for LayerBelow.
     LayerBelow footing(int index, double pitch) const;
-    /// What is solid in each of so many layers below and above this one; there are none below the first and
-    /// above the last.
+    /// Returns the intersection of the sections of `below` layers below and `above` layers above layer
+    /// `index`. Empty if any of them is beyond the first or last layer.
     PlacedPolygons core(int index, int below, int above) const;
-    /// Drops the layers below this one.
+    /// Drops the layers below `index`.
     void forget_below(int index);
 
   private:
     struct Entry {
         std::once_flag traced, simplified;
         LayerOutlines outlines;
-        Polygons coarse;  // the part's, as coarse as no bead can follow anyway
+        Polygons coarse;  // section of the part, simplified to what a bead can follow
     };
     std::shared_ptr<Entry> entry(int index) const;
 

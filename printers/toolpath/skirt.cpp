@@ -1,4 +1,4 @@
-// Offsets of the first layer's outer borders.
+// Brim and skirt as offsets of the first layer's outer borders.
 #include "printers/toolpath/skirt.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ int brim_loops(const ToolpathProfile& profile, const LineSettings& line) {
     return static_cast<int>(std::ceil(profile.brim / line.spacing() - 1e-9));
 }
 
-/// Distance from the border to the middle of a brim's loop.
+/// Returns the distance from the border to the centre line of a brim loop.
 double brim_place(int loop, const LineSettings& line) { return line.width / 2 + loop * line.spacing(); }
 
 double skirt_place(int loop, const ToolpathProfile& profile, const LineSettings& line) {

@@ -1,4 +1,4 @@
-// Loops round the first layer: a brim that holds it to the bed, and a skirt that fills the nozzle.
+// Brim and skirt: loops around the first layer that hold it to the bed and prime the nozzle.
 #pragma once
 
 #include "printers/common/profile.h"
@@ -7,12 +7,12 @@
 
 namespace lamella {
 
-/// From the outside in, for what holds comes last. `standing` is all that the first layer holds; loops run
-/// round its outer borders, those near to each other as one.
+/// Returns the loops from the outside in, so that the brim is printed last. `standing` is the whole section
+/// of the first layer. Loops follow its outer borders; adjacent borders share loops.
 std::vector<Bead> skirt_beads(const Polygons& standing, const ToolpathProfile& profile,
                               const LineSettings& line);
 
-/// How far they reach beyond what stands on the bed, mm.
+/// Returns the reach of the loops beyond the first layer, mm.
 double skirt_reach(const ToolpathProfile& profile, const LineSettings& line);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Widths and flows of beads from the volume they have to lay.
+// Widths and flows of beads, computed from the volume to be laid.
 #include "printers/toolpath/thin_beads.h"
 
 #include <algorithm>

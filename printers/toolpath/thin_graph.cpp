@@ -1,4 +1,4 @@
-// Flat stretches, the knots between them, and what hangs off them.
+// Finds flat stretches of the axis, the junctions between them, and the branches off them.
 #include "printers/toolpath/thin_graph.h"
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace lamella {
 namespace {
 
-/// How fast the radius may change along a line: in the middle of a wall, and towards its ends.
+/// Largest change of the radius per length of a line: in the middle of a wall, and towards its ends.
 constexpr double flat = 0.25, tapering = 0.7;
-/// How much thicker than the limit the knots may be that lines pass: where two walls cross, it is sqrt(2).
+/// Largest radius, relative to the limit, of junctions that lines pass; where two walls cross it is sqrt(2).
 constexpr double thickest_knot = 1.45;
 
 }  // namespace
@@ -59,7 +59,7 @@ bool ThinGraph::goes_with_line(std::uint32_t node) const {
     return std::ranges::any_of(at_node_[node], [&](std::uint32_t e) { return kind_[e] != Kind::rest; });
 }
 
-/// Cuts edges where the axis grows thicker than the limit.
+/// Splits edges where the radius exceeds the limit.
 void ThinGraph::split_at_limit() {
     for (const MedialEdge& e : axis_.edges) {
         const double r0 = radius(e.node[0]), r1 = radius(e.node[1]);
@@ -80,7 +80,7 @@ void ThinGraph::split_at_limit() {
     kind_.assign(edges_.size(), Kind::rest);
 }
 
-/// Joins nodes that are next to each other, so that four ways that meet do so in one place.
+/// Merges nodes that almost coincide, so that four branches that meet share one node.
 void ThinGraph::join_nodes() {
     std::vector<std::uint32_t> same(axis_.nodes.size());
     std::iota(same.begin(), same.end(), 0U);
@@ -101,7 +101,7 @@ void ThinGraph::join_nodes() {
     }
 }
 
-/// Lines are connected stretches that taper at most, of which enough is flat.
+/// Selects the lines: connected stretches that taper at most, with a sufficient flat part.
 void ThinGraph::choose_lines() {
     std::vector<bool> seen(edges_.size());
     for (std::uint32_t start = 0; start < edges_.size(); ++start) {
@@ -126,12 +126,12 @@ void ThinGraph::choose_lines() {
     }
 }
 
-/// Where lines meet it is thicker than along them; they go on through what is not much thicker.
+/// Junctions of lines are thicker than the lines. Lines continue through junctions that are not much thicker.
 void ThinGraph::cross_knots() {
     std::vector<bool> seen(edges_.size());
     for (std::uint32_t start = 0; start < edges_.size(); ++start) {
         if (seen[start] || is_point(start) || kind_[start] != Kind::rest) continue;
-        // All that is connected with it and no line.
+        // The connected component of edges that are not lines.
         std::vector<std::uint32_t> knot{start};
         seen[start] = true;
         double widest = 0;
@@ -150,7 +150,7 @@ void ThinGraph::cross_knots() {
     }
 }
 
-/// Makes lines of the ways through a knot from line to line, and sides of the rest.
+/// Turns the paths through a junction from line to line into lines, and the rest into sides.
 void ThinGraph::pass_lines(const std::vector<std::uint32_t>& knot) {
     std::vector<std::uint32_t> degree(axis_.nodes.size()), ends, loose;
     for (const std::uint32_t e : knot) {
@@ -165,7 +165,7 @@ void ThinGraph::pass_lines(const std::vector<std::uint32_t>& knot) {
             if (degree[node] == 1 && std::ranges::find(ends, node) == ends.end()) loose.push_back(node);
         }
     }
-    // Dead ends go, edge by edge, as far as a line's round end covers what they lead to.
+    // Dead ends become sides, edge by edge, as far as the round end of a line covers what they lead to.
     constexpr double covers = 1.5;  // radii
     std::vector<double> reach(axis_.nodes.size());
     while (!loose.empty()) {
@@ -186,7 +186,7 @@ void ThinGraph::pass_lines(const std::vector<std::uint32_t>& knot) {
     }
 }
 
-/// What hangs on a line goes with it; where that leads on to something thicker, the line does.
+/// A branch of a line becomes its side. If the branch leads to a thicker part, the path there becomes a line.
 void ThinGraph::absorb_ends() {
     for (std::uint32_t node = 0; node < at_node_.size(); ++node) {
         if (!on_line(node) || at_limit(node)) continue;
@@ -215,7 +215,7 @@ void ThinGraph::absorb_ends() {
         }
     }
 }
-/// Edges without a length go with the lines about them.
+/// Edges of zero length join the lines around them.
 void ThinGraph::absorb_points() {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         if (is_point(e) && goes_with_line(link_[e][0])) kind_[e] = Kind::side;

@@ -1,4 +1,4 @@
-// The medial axis as a graph of which every edge is known to be thin or not.
+// ThinGraph: the medial axis as a graph whose edges are classified as thin or not.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace lamella {
 
-/// Which edges of a medial axis are the middles of thin parts. Lengths in mm.
+/// Finds the edges of a medial axis that are centre lines of thin parts. Lengths in mm.
 class ThinGraph {
   public:
     enum class Kind : std::uint8_t {
         rest,
         line,  ///< part of a line
-        side   ///< covered by the line that it hangs on
+        side   ///< covered by the line that it branches from
     };
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -23,7 +23,7 @@ class ThinGraph {
 
     std::size_t edges() const { return edges_.size(); }
     Kind kind(std::size_t e) const { return kind_[e]; }
-    /// The ends of an edge; ends that are next to each other are one node.
+    /// Returns the end nodes of an edge. Ends that almost coincide are one node.
     const std::array<std::uint32_t, 2>& link(std::size_t e) const { return link_[e]; }
     std::uint32_t other(std::uint32_t e, std::uint32_t node) const {
         return link_[e][0] == node ? link_[e][1] : link_[e][0];
@@ -32,12 +32,13 @@ class ThinGraph {
 
     dvec2 at(std::uint32_t node) const { return axis_.nodes[node].at; }
     double radius(std::uint32_t node) const { return axis_.nodes[node].radius; }
-    double limit() const { return limit_; }  ///< of radii
+    double limit() const { return limit_; }  ///< largest radius of a thin part
     bool at_limit(std::uint32_t node) const { return radius(node) > limit_ - slack; }
-    /// Area of the sides that hang on a node, mm^2.
+    /// Returns the area of the sides that hang on a node, mm^2.
     double tail(std::uint32_t node) const { return tail_[node]; }
 
-    /// An edge's share of the island: from its contacts on the right to those on the left.
+    /// Returns the polygon of the island that belongs to an edge: from its contact points on the right to
+    /// those on the left.
     std::array<dvec2, 6> share(std::size_t e) const;
     double share_area(std::size_t e) const;
 

@@ -1,4 +1,4 @@
-// The lines of a graph's thin edges, traced from end to end.
+// Traces lines along the thin edges of a graph from end to end.
 #include "printers/toolpath/thin_parts.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using EndKind = ThinGraph::Kind;
 
-/// Takes `by` mm off the end of a line.
+/// Removes `by` mm from the end of a line.
 void shorten(TaperedLine& line, double by) {
     while (line.points.size() > 2) {
         const double l = length(line.points.back() - line.points[line.points.size() - 2]);
@@ -27,7 +27,7 @@ void shorten(TaperedLine& line, double by) {
     line.thickness[n - 1] += (line.thickness[n - 2] - line.thickness[n - 1]) * t;
 }
 
-/// With fewer points (Douglas and Peucker 1973), thickness taken as a third coordinate.
+/// Simplifies a line by Douglas and Peucker (1973), with the thickness as a third coordinate.
 TaperedLine simplified(const TaperedLine& line, double tolerance) {
     const std::size_t n = line.points.size();
     std::vector<bool> kept(n);
@@ -73,7 +73,7 @@ class LineTracer {
     std::vector<TaperedLine> trace() const {
         std::vector<TaperedLine> lines;
         std::vector<bool> done(graph_.edges());
-        for (const bool ends : {true, false}) {  // lines that end somewhere, then those that do not
+        for (const bool ends : {true, false}) {  // lines with an end, then closed ones
             for (std::uint32_t e = 0; e < graph_.edges(); ++e) {
                 for (const std::uint32_t node : graph_.link(e)) {
                     if (done[e] || graph_.kind(e) != EndKind::line ||
@@ -83,7 +83,7 @@ class LineTracer {
                 }
             }
         }
-        // What remains of a branch between a line's flank and its own end may be too short to be worth a way.
+        // The rest of a branch outside the flank of the line it joins may be too short to be worth a travel.
         const auto is_speck = [](const TaperedLine& line) {
             const double widest = std::ranges::max(line.thickness);
             return area_of(line) < 0.25 * widest * widest;
@@ -93,9 +93,10 @@ class LineTracer {
     }
 
   private:
-    /// The edge on which a line that comes by `e` goes on behind `node`: of those that go straight on best.
+    /// Returns the edge on which a line that arrives by `e` continues after `node`: the one that is most
+    /// nearly straight on.
     std::uint32_t next(std::uint32_t e, std::uint32_t node) const {
-        constexpr double straight = -0.3;  // cosine between the two ways out of the node
+        constexpr double straight = -0.3;  // cosine between the directions of two edges away from the node
         const auto out = [&](std::uint32_t edge) {
             const dvec2 w = graph_.at(graph_.other(edge, node)) - graph_.at(node);
             const double l = length(w);
@@ -162,13 +163,13 @@ class LineTracer {
         if (line.points.size() >= 2) lines.push_back(simplified(line, tolerance_));
     }
 
-    /// Brings the last end of a line to its place.
+    /// Moves the last end of a line to its final position.
     void end_line(TaperedLine& line, std::uint32_t node) const {
         if (line.points.size() < 2) return;
         const auto lines = std::ranges::count_if(
             graph_.edges_at(node), [&](std::uint32_t e) { return graph_.kind(e) == EndKind::line; });
         if (lines > 1) {
-            // It meets one that passes, and ends in that one's flank.
+            // The line ends in the flank of another line that passes.
             shorten(line, graph_.radius(node) * 0.75);
             return;
         }

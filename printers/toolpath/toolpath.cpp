@@ -1,4 +1,4 @@
-// From contours to islands, from islands to beads, and the beads into an order.
+// Splits contours into islands, plans the beads of each, and orders them.
 #include "printers/toolpath/toolpath.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace lamella {
 namespace {
 
-/// The outer contours with the holes directly in them.
+/// Groups the contours into islands: an outer contour with the holes directly in it.
 std::vector<Polygons> find_islands(const std::vector<Contour>& contours) {
     std::vector<std::size_t> island_of(contours.size());
     std::vector<Polygons> islands;
@@ -60,7 +60,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
         ++number;
         result.outlines.push_back(beads.size() > 1 ? simplified(*outlines[next], settings.line.tolerance / 2)
                                                    : Polygons());
-        // Walls before infill: they hold what comes inside.
+        // Walls are printed before infill, because they hold it.
         const auto infill =
             std::stable_partition(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; });
         const auto walls = static_cast<std::size_t>(infill - beads.begin());

@@ -1,4 +1,4 @@
-// Beads of filament that fill the contours of a layer: walls, infill, and whatever it takes for thin islands.
+// Toolpath planning: beads that fill the contours of a layer: walls, infill, and beads for thin islands.
 #pragma once
 
 #include <vector>
@@ -14,37 +14,39 @@ namespace lamella {
 struct ToolpathSettings {
     LineSettings line;
     int walls = 1;
-    double density = 1;  ///< share of the inside that infill takes, 0 to 1
+    double density = 1;  ///< share of the interior that infill fills, 0 to 1
     InfillPattern infill = InfillPattern::lines;
     Seam seam = Seam::nearest;
 };
 
-/// What a layer's paths must know of the layers round it.
+/// Adjacent layers, as far as a layer's paths depend on them.
 struct LayerNeighborhood {
-    const LayerBelow* footing = nullptr;   ///< what it rests on; null: the bed
-    const PlacedPolygons* core = nullptr;  ///< where layers below and above are solid, so that infill may be
-                                           ///< sparse; null: everywhere
+    const LayerBelow* footing = nullptr;   ///< the layer below; null: the bed
+    const PlacedPolygons* core = nullptr;  ///< where the layers below and above are solid, so that infill may
+                                           ///< be sparse; null: everywhere
 };
 
 struct Toolpaths {
-    std::vector<Bead> beads;         ///< in the order of printing
-    std::vector<Polygons> outlines;  ///< by Bead::island, of those with several beads; within the tolerance
-    int islands = 0;                 ///< pieces of the layer
-    int islands_left_out = 0;        ///< those smaller than a quarter of line_width^2, which get no bead
+    std::vector<Bead> beads;         ///< in printing order
+    std::vector<Polygons> outlines;  ///< of islands with several beads, by Bead::island; within tolerance
+    int islands = 0;                 ///< number of pieces of the layer
+    int islands_left_out = 0;        ///< islands smaller than a quarter of line_width^2: no bead
 };
 
-/// Plans a layer: for each island its walls, the outermost half a width inside its contours, then infill. At
-/// density 1 infill has the volume of the region inside the walls, as has every island that is all beads.
+/// Plans the beads of a layer. Each island gets its walls, the outermost half a width inside its contours,
+/// then infill. At density 1 infill has the volume of the region inside the walls, and the beads of
+/// every island without sparse infill have the island's volume.
 ///
-/// Parts that one bead fills get one along their middle, of changing width (see find_thin_parts). Every other
-/// island of at least a quarter of the line's width squared gets a bead, too: where a wall would vanish,
-/// narrower ones are tried down to a quarter of the width with the flow that gives the island's volume, and
-/// at last a short bead along its longest chord. No bead is wider than 1.5 widths. Islands and lines are
+/// Parts that one bead fills get one along their middle, of varying width (see find_thin_parts). Every other
+/// island of at least a quarter of the line width squared also gets a bead. Where a wall would vanish,
+/// narrower walls are tried, down to a quarter of the width, with the flow that gives the island's volume,
+/// and finally a short bead along its longest chord. No bead is wider than 1.5 widths. Islands and lines are
 /// visited by nearest neighbour from the contours' lower left corner, and the tour of the islands is
-/// shortened (see short_tour): the result depends on the arguments alone.
+/// shortened (see short_tour). The result depends on the arguments alone.
 ///
-/// Infill over the void runs along the bridge (see bridge_direction), and what hangs of any bead is marked
-/// and a bead by itself (see cut_hanging). Throws Interrupted when `cancel`, which may be null, asks for it.
+/// Unsupported infill runs along the bridge (see bridge_direction). The unsupported part of any bead is
+/// marked and becomes a bead by itself (see cut_hanging). Throws Interrupted when `cancel` (which may be
+/// null) requests it.
 Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSettings& settings,
                          int layer_index, const LayerNeighborhood& around = {},
                          const CancelToken* cancel = nullptr);

@@ -1,4 +1,4 @@
-// Nodes by rounding, XML in pieces, the package's three parts.
+// Rounds ends to nodes, writes XML in pieces, and builds the package of three parts.
 #include "printers/vector/beam_lattice.h"
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace {
 
 constexpr int lattice_decimals = 5;
 constexpr double units_per_mm = 1e5;
-constexpr double shortest = 1 / units_per_mm;  // mm; nodes that differ are at least this far apart
+constexpr double shortest = 1 / units_per_mm;  // mm; distinct nodes are at least this far apart
 constexpr double farthest = 1e6;               // mm
 constexpr std::size_t max_beams = (std::size_t{1} << 31U) - 1;
 
-/// A place in units of 1e-5 mm.
+/// A point in units of 1e-5 mm.
 using Node = std::array<std::int64_t, 3>;
 
-/// Halves away from zero, as numbers are written.
+/// Rounds halves away from zero, as numbers are written.
 std::int64_t rounded(double mm) { return std::llround(mm * units_per_mm); }
 Node node_at(dvec3 p) { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
 
@@ -57,7 +57,7 @@ void check(std::span<const Beam> beams) {
     }
 }
 
-/// Text that goes to the archive in pieces.
+/// Buffers text and passes it to the archive in pieces.
 class Piecewise {
   public:
     explicit Piecewise(ZipWriter& zip) : zip_(zip) {}
@@ -105,7 +105,7 @@ class LatticeWriter {
     }
 
   private:
-    /// Nodes are numbered as the beams name them first; a beam without a length names none.
+    /// Nodes are numbered in the order in which beams mention them. Beams of zero length are skipped.
     void write_nodes() {
         for (const Beam& beam : beams_) {
             const Node a = node_at(beam.a), b = node_at(beam.b);
@@ -129,7 +129,7 @@ class LatticeWriter {
         out_.number(static_cast<double>(node[2]) / units_per_mm) << "\"/>\n";
     }
 
-    /// Radii that a beam does not state are the lattice's: the first beam's.
+    /// The lattice's radius, the default of beams that state none, is that of the first beam.
     void write_beams() {
         std::int64_t common = 0;
         for (const Beam& beam : beams_) {

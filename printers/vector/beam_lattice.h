@@ -1,4 +1,4 @@
-// A foam's beams as a 3MF file with the beam lattice extension: the exact graph, for programs that take one.
+// Export of a foam's beams as 3MF with the beam lattice extension: the exact graph.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,25 @@
 
 namespace lamella {
 
-/// What a lattice file holds.
+/// Counts of a written lattice file.
 struct BeamLatticeReport {
     std::size_t vertices = 0;  ///< nodes
     std::size_t beams = 0;
-    std::size_t dropped = 0;  ///< beams whose two ends are written as one point, which the format forbids
+    std::size_t dropped = 0;  ///< beams whose ends round to one point, which the format forbids
 };
 
 /// Writes beams (mm) as a 3MF model: one object of nodes and beams with sphere caps, no triangles (3MF core
-/// specification 1.x; beam lattice extension 1.2, section 2). Lengths are rounded to 1e-5 mm; ends that are
-/// then equal are one node. Radii below 1e-5 mm are written as that.
+/// specification 1.x; beam lattice extension 1.2, section 2). Coordinates are rounded to 1e-5 mm; ends that
+/// are then equal share a node. Radii below 1e-5 mm are written as 1e-5 mm.
 ///
-/// The format's beam is a frustum between two balls, ours their convex hull: where the radii of a beam of
-/// length L differ, its flank is thinner than ours by up to r (1 / cos a - 1), sin a = (ra - rb) / L.
+/// The format's beam is a frustum between two balls, ours is their convex hull. If the radii at the ends of a
+/// beam of length L differ, the flank of the format's beam is thinner by up to r (1 / cos a - 1), sin a = (ra
+/// - rb) / L.
 ///
-/// `name` is the object's name, UTF-8; characters that XML cannot hold are left out. A file of that path is
-/// replaced, once the new one is complete. Equal beams give equal bytes. Memory: 40 bytes or so a node, in
-/// addition to the beams. Throws InputError when there are no beams, or one that is not finite, lies more
-/// than 1e6 mm from the origin or has a radius that is not positive; FaultError when the file cannot be
-/// written.
+/// `name` is the object's name, UTF-8; characters that XML cannot represent are dropped. An existing file is
+/// replaced once the new one is complete. Equal beams give equal bytes. Memory: about 40 bytes per node, in
+/// addition to the beams. Throws InputError if there are no beams, or if a beam is not finite, lies more than
+/// 1e6 mm from the origin or has a radius that is not positive; FaultError if the file cannot be written.
 BeamLatticeReport write_beam_lattice(const std::filesystem::path& path, std::span<const Beam> beams,
                                      const std::string& name);
 

@@ -1,4 +1,4 @@
-// The header, and polylines as text or as numbers.
+// Writes the header, and polylines as text or as binary numbers.
 #include "printers/vector/cli.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,10 @@ namespace {
 
 constexpr int part_id = 1, support_id = 2;
 constexpr std::uint64_t layer_command = 127, polyline_command = 130;
-constexpr double max_units = 1e9;  // that a coordinate may be
+constexpr double max_units = 1e9;  // largest coordinate
 
-/// What goes into a label: printable ASCII without what parts fields and begins commands.
+/// Returns the text reduced to printable ASCII, without the characters that separate fields and begin
+/// commands.
 std::string label_text(const std::string& name) {
     constexpr std::size_t longest = 80;
     constexpr std::string_view special = ",/$";
@@ -31,7 +32,7 @@ std::string label_text(const std::string& name) {
     return text;
 }
 
-/// Decimals of a unit that keep the grid's precision.
+/// Returns the number of decimals of a unit that keeps the grid's precision.
 int decimals_for(double units) {
     constexpr int most = 9;
     int decimals = 0;
@@ -39,7 +40,7 @@ int decimals_for(double units) {
     return decimals;
 }
 
-/// Layers as commands of one of the two kinds.
+/// Writes layers as commands, in ASCII or binary.
 class CliText {
   public:
     CliText(bool binary, double units)
@@ -55,7 +56,7 @@ class CliText {
             return;
         }
         text_ += "$$LAYER/";
-        append_number(text_, z / units_, std::min(decimals_ + 2, 9));  // layers may be of any height
+        append_number(text_, z / units_, std::min(decimals_ + 2, 9));  // layer heights need more decimals
         text_ += '\n';
     }
 

@@ -1,4 +1,4 @@
-// Counting and telling.
+// Counts peculiarities and describes them.
 #include "printers/vector/cut_notes.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Counts the warnings that arise while cuts are planned.
+// CutNotes: counts the warnings that arise while cuts are planned.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace lamella {
 
-/// Counts what a user should know about the layers that were cut.
+/// Counts the layers with peculiarities that a user should know.
 class CutNotes {
   public:
-    /// Throws ConstraintError for a layer of several pieces when the profile refuses those.
+    /// Counts a layer. Throws ConstraintError for a layer of several pieces if the profile refuses those.
     void count(int layer, const CutPlan& plan, const CuttingProfile& profile);
-    /// A sentence each.
+    /// Returns the warnings, one sentence each.
     std::vector<std::string> texts(const CuttingProfile& profile) const;
 
   private:
-    /// How many layers something befell, and the first of them.
+    /// Number of layers with a peculiarity, and the first of them.
     struct Tally {
         int layers = 0;
         int first = 0;

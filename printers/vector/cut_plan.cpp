@@ -1,4 +1,4 @@
-// From a layer's section to paths: ties, kerf, scores, numbers, order.
+// Turns a layer's section into paths: ties, kerf, scores, numbers, order.
 #include "printers/vector/cut_plan.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace lamella {
 namespace {
 
-constexpr double score_inset = 0.2;       // mm; nearer to the border the cut itself shows the place
+constexpr double score_inset = 0.2;       // mm; closer to the border the cut itself shows the outline
 constexpr double shortest_score = 1;      // mm
-constexpr double min_digit = 1.5;         // mm; what a laser still engraves legibly
+constexpr double min_digit = 1.5;         // mm; smallest legible engraving
 constexpr double number_clearance = 0.5;  // mm
 
 double length_of(const std::vector<dvec2>& line) {
@@ -34,7 +34,7 @@ Borders count_borders(const Polygons& polygons) {
     return borders;
 }
 
-/// The section with its borders out of the material by half the kerf.
+/// Returns the section with its borders moved out of the material by half the kerf.
 Polygons moved_by_kerf(const Polygons& section, double kerf, CutPlan& plan) {
     if (kerf == 0) return section;
     Polygons moved = offset_polygons(section, kerf / 2);
@@ -44,7 +44,7 @@ Polygons moved_by_kerf(const Polygons& section, double kerf, CutPlan& plan) {
     return moved;
 }
 
-/// Where the layer above comes to lie on this one.
+/// Returns the outline of the layer above where it lies on this one.
 std::vector<ClipperLib::Path> next_outline(const Job& job, int index, const Polygons& section,
                                            double tolerance) {
     if (index + 1 >= job.layer_count) return {};
@@ -54,7 +54,7 @@ std::vector<ClipperLib::Path> next_outline(const Job& job, int index, const Poly
     return lines;
 }
 
-/// The middle of the largest piece where a disc of this radius lies clear; nothing where there is none.
+/// Returns the middle of the largest piece where a disc of this radius fits; nothing if there is none.
 std::optional<dvec2> clear_place(const Polygons& section, const std::vector<ClipperLib::Path>& scores,
                                  double radius) {
     Polygons clear = erode_polygons(section, radius);
@@ -73,7 +73,7 @@ struct NumberPlace {
     double height = 0;
 };
 
-/// Where the number is largest, up to the height asked for.
+/// Returns the place where the number is largest, up to the requested height.
 std::optional<NumberPlace> number_place(const Polygons& section, const std::vector<ClipperLib::Path>& scores,
                                         int number, double height) {
     const dvec2 unit = number_size(number, 1);
@@ -142,7 +142,7 @@ CutPlan plan_cuts(const Job& job, const Layer& layer, const CuttingProfile& prof
         }
     }
     for (const ClipperLib::Path& score : scores) planner.line(CutPurpose::score, to_points(score));
-    // Marks lie on the part; the bars are cut off.
+    // Marks are placed on the part only, because the tie bars are removed later.
     if (profile.ties == Ties::join && pieces.size() > 1) {
         section = unite_polygons(section, tie_bars(pieces, profile.tie_width));
     }

@@ -1,4 +1,4 @@
-// Planning in parallel, laying out in order.
+// Plans layers in parallel and lays them out in order.
 #include "printers/vector/cut_sheets.h"
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ std::string settings_of(const PrinterProfile& profile) {
         c.next_outline, sheet, c.sheet_margin);
 }
 
-/// What all have in common: planning, and what is told at the end.
+/// Common base of the back-ends: planning, and the notes at the end.
 class CutBackend : public Backend {
   public:
     CutBackend(const PrinterProfile& profile, std::shared_ptr<const SheetFormat> format)
@@ -91,7 +91,8 @@ class CutBackend : public Backend {
         job_ = job;
         return {job.identity, settings_of(profile_), range};
     }
-    /// The layer's plan, once what it says is counted. Throws ConstraintError when it may not be cut.
+    /// Counts a layer's peculiarities and returns its plan. Throws ConstraintError if the layer may not be
+    /// cut.
     CutPlan take(const Layer& layer, LayerProduct& product) {
         CutPlan plan = std::move(dynamic_cast<CutProduct&>(product).plan);
         notes_.count(layer.index(), plan, profile_.cutting);
@@ -121,7 +122,7 @@ void shift(CutPlan& plan, dvec2 by) {
     }
 }
 
-/// One sheet a layer, all alike.
+/// One sheet per layer, all of the same size.
 class LayerSheets : public CutBackend {
   public:
     using CutBackend::CutBackend;
@@ -234,7 +235,7 @@ class NestedSheets : public CutBackend {
             shift(plan, *corner - plan.extent.lo);
             std::ranges::move(plan.paths, std::back_inserter(paths_));
         }
-        // The last sheet goes with the last layer, not with the end: what is written is then noted down.
+        // The last sheet is written with the last layer, not in `end`, so that it is recorded.
         if (layer.index() + 1 == last_ && !shelves_.empty()) finish_sheet(last_);
     }
 
@@ -243,7 +244,7 @@ class NestedSheets : public CutBackend {
   private:
     ShelfSheet empty_sheet() const { return {size_, profile().cutting.sheet_margin}; }
 
-    /// Whole sheets are written with the layers [begun_, next).
+    /// Writes the current sheet, which holds the layers [begun_, next).
     void finish_sheet(int next) {
         nlohmann::ordered_json& done = description_["sheets"];
         const std::size_t number = done.size() + 1;
@@ -268,7 +269,7 @@ class NestedSheets : public CutBackend {
             format_number(available.y, 4)));
     }
 
-    /// Refuses a layer that fits no sheet before anything is written.
+    /// Throws before anything is written if a layer does not fit the sheet.
     void check_room(LayerRange range) const {
         const dvec2 available = usable_sheet_size(size_, profile().cutting.sheet_margin);
         const double allowance = cut_allowance(profile().cutting) + profile().vector.tolerance;

@@ -1,4 +1,4 @@
-// Back-ends that cut: layers planned as paths and laid out on sheets, in files of any vector format.
+// Back-ends for cutters: plan layers as paths and lay them out on sheets, in any vector format.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,14 @@
 
 namespace lamella {
 
-/// How a kind of file says what is on sheets. Pure.
+/// A file format for sheets. Pure.
 class SheetFormat {
   public:
     virtual ~SheetFormat() = default;
-    /// With the dot.
+    /// Returns the file name extension, with the dot.
     virtual std::string extension() const = 0;
-    /// What stands before the sheets of a file, all of this size (mm); a sheet; and what ends the file.
+    /// Return the text before the sheets of a file, which all have `size` (mm); the text of a sheet; and the
+    /// end of the file.
     virtual std::string start(dvec2 size) const = 0;
     virtual std::string content(const Sheet& sheet) const = 0;
     virtual std::string end() const = 0;
@@ -24,17 +25,18 @@ class SheetFormat {
     std::string file(const Sheet& sheet) const { return start(sheet.size) + content(sheet) + end(); }
 };
 
-/// Whether a profile asks for more than plain contours.
+/// Returns true if a profile needs more than plain contours.
 bool asks_for_cutting(const PrinterProfile& profile);
 
-/// One sheet a layer: a folder with PATH/00000.svg and so on, all of the part's size and a margin, or one
-/// file with a group a layer.
+/// Makes a back-end with one sheet per layer. It writes a folder with PATH/00000.svg and so on, all with the
+/// part's size plus a margin, or one file with a group per layer.
 std::unique_ptr<Backend> make_layer_sheets(const PrinterProfile& profile,
                                            const std::shared_ptr<const SheetFormat>& format,
                                            const std::string& path, bool force);
 
-/// Several layers a sheet, in their order, on sheets of CuttingProfile::sheet: PATH/sheet_001.svg and so on,
-/// each written when it is full. Of a range of layers, sheets begin with its first one.
+/// Makes a back-end with several layers per sheet, in order, on sheets of CuttingProfile::sheet. It writes
+/// PATH/sheet_001.svg and so on, each when it is full. For a range of layers the first sheet begins with the
+/// range's first layer.
 std::unique_ptr<Backend> make_nested_sheets(const PrinterProfile& profile,
                                             const std::shared_ptr<const SheetFormat>& format,
                                             const std::string& path, bool force);

@@ -1,4 +1,4 @@
-// A search over pairs, and over thirds for the best pair.
+// Searches pairs of positions, and a third position for the best pair.
 #include "printers/vector/dowel_places.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-constexpr int grid = 24;  // candidates along either side
+constexpr int grid = 24;  // candidates along each axis
 constexpr std::size_t max_border_points = 200;
 constexpr double min_distance = 3;  // diameters
 
@@ -26,7 +26,7 @@ std::vector<dvec2> candidates(const Polygons& clear) {
             if (is_inside(clear, p)) found.push_back(p);
         }
     }
-    // Regions thinner than the grid still have a border.
+    // Regions thinner than the grid are represented by their border.
     std::vector<dvec2> border;
     for (const ClipperLib::Path& polygon : clear) {
         for (const dvec2& p : to_points(polygon)) border.push_back(p);
@@ -36,8 +36,8 @@ std::vector<dvec2> candidates(const Polygons& clear) {
     return found;
 }
 
-/// How far the pair is, at its farthest hole, from its image turned over or round about the middle; the least
-/// of the three ways.
+/// Returns how far a pair, at its worst hole, is from its flipped or rotated image; the least of the three
+/// transformations.
 double asymmetry(dvec2 a, dvec2 b, dvec2 middle) {
     double least = infinity;
     for (const dvec2 sign : {dvec2(-1, 1), dvec2(1, -1), dvec2(-1, -1)}) {

@@ -1,4 +1,4 @@
-// Where pins through a stack of layers keep each of them from being turned over.
+// Positions of dowel holes that make each layer of a stack fit in one orientation only.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace lamella {
 
-/// Two or three places within `clear`, as far apart as a search over some hundred candidates finds, at least
-/// three diameters; fewer (none) where there is no room.
+/// Returns two or three positions inside `clear`, as far apart as a search over some hundred candidates
+/// finds, and at least three diameters. Returns fewer (or none) if there is no room.
 ///
-/// Three make a triangle whose sides differ by at least a diameter, which is as high as that: it fits one
-/// way only. Two pins fit their own layer turned about the line through them, always; they are placed such
-/// that a layer turned over about the middle lines of its bounds, or by half a turn about its `middle`, has
-/// a hole at least a diameter off.
+/// Three positions form a triangle whose side lengths differ by at least a diameter and whose height is at
+/// least a diameter, so it fits in one way only. Two pins always fit their own layer rotated about the line
+/// through them. They are placed such that a layer flipped about the centre lines of its bounds, or rotated
+/// by half a turn about its `middle`, has a hole that is off by at least a diameter.
 std::vector<dvec2> dowel_places(const Polygons& clear, dvec2 middle, int count, double diameter);
 
-/// Whether a point lies within polygons whose holes run clockwise, borders included.
+/// Returns true if a point lies inside the polygons or on their border. Holes run clockwise.
 bool is_inside(const Polygons& polygons, dvec2 point);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// DXF groups: a code on one line, its value on the next.
+// Writes DXF groups: a code on one line, its value on the next.
 #include "printers/vector/dxf.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ constexpr int dxf_decimals = 4;  // 0.1 um
 
 struct DxfLayer {
     const char* name;
-    int colour;  ///< of AutoCAD's index: 1 red, 3 green, 5 blue, 7 black or white
+    int colour;  ///< colour index of AutoCAD: 1 red, 3 green, 5 blue, 7 black or white
 };
 constexpr DxfLayer dxf_layers[cut_purposes] = {
     {"ENGRAVE", 7}, {"SCORE", 3}, {"CUT_INNER", 5}, {"CUT_OUTER", 1}};

@@ -1,4 +1,4 @@
-// One row a kind of software: engrave, score, inner cut, outer cut.
+// Stroke tables, one per laser software: engrave, score, inner cut, outer cut.
 #include "printers/vector/laser_strokes.h"
 
 namespace lamella {
@@ -6,11 +6,12 @@ namespace {
 
 using LaserStrokes = std::array<LaserStroke, cut_purposes>;
 
-constexpr double hairline_width = 0.01;  // every driver's cut
+constexpr double hairline_width = 0.01;  // every driver takes it for a cut
 constexpr double inch_thousandth = 0.0254;
-constexpr double engraved = 0.3;  // every driver's engraving
+constexpr double engraved = 0.3;  // every driver takes it for an engraving
 
-// Red cuts and black engraves everywhere; blue for what is cut before the outline is the workshops' habit.
+// All software takes red for cuts and black for engravings. Workshops usually use blue for cuts made before
+// the outline.
 constexpr LaserStrokes plain{{{"#000000", hairline_width},
                               {"#0000ff", hairline_width},
                               {"#ff0000", hairline_width},
@@ -19,12 +20,13 @@ constexpr LaserStrokes generic{{{"#000000", engraved},
                                 {"#00ff00", hairline_width},
                                 {"#0000ff", hairline_width},
                                 {"#ff0000", hairline_width}}};
-// LightBurn's palette begins with black, blue, red and a green; it goes by colour alone.
+// LightBurn uses the colour alone; its palette begins with black, blue, red and a green.
 constexpr LaserStrokes lightburn{{{"#000000", hairline_width},
                                   {"#00e000", hairline_width},
                                   {"#0000ff", hairline_width},
                                   {"#ff0000", hairline_width}}};
-// Glowforge makes a step of every colour. These rise as numbers, in case it takes them in that order.
+// Glowforge makes a step for each colour. As numbers these colours ascend, in case it executes them in that
+// order.
 constexpr LaserStrokes glowforge{{{"#000000", hairline_width},
                                   {"#0000ff", hairline_width},
                                   {"#00ff00", hairline_width},

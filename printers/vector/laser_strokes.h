@@ -1,4 +1,4 @@
-// Colours and widths by which laser software tells cuts from engravings.
+// Stroke colours and widths by which laser software distinguishes cuts from engravings.
 #pragma once
 
 #include <array>
@@ -13,8 +13,9 @@ struct LaserStroke {
     double width;        ///< mm
 };
 
-/// By CutPurpose. Drivers that print take thin lines for cuts and wide ones for engravings (Universal: 0.2 mm
-/// and more; Epilog: cuts 0.001 inch), the others go by colour alone.
+/// Returns the strokes, indexed by CutPurpose. Drivers that work like printers take thin lines for cuts and
+/// wide ones for engravings (Universal: 0.2 mm and more; Epilog: cuts 0.001 inch); other software uses the
+/// colour alone.
 const std::array<LaserStroke, cut_purposes>& laser_strokes(Laser laser);
 
 }  // namespace lamella

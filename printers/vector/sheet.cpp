@@ -1,4 +1,4 @@
-// The order of work on a sheet.
+// Order of execution on a sheet.
 #include "printers/vector/sheet.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is on a sheet to be cut: paths with a purpose, in millimetres, whatever file says it.
+// Sheet: paths to be cut, scored or engraved, in millimetres, independent of the file format.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace lamella {
 
-/// What a cutter does along a path, in the order in which it is done.
+/// Operation of the cutter along a path. The values are in the order of execution.
 enum class CutPurpose : unsigned char {
     engrave,  ///< layer numbers
     score,    ///< outlines of the layer above
     inner,    ///< cut, within another contour
-    outer     ///< cut that frees a piece from the sheet
+    outer     ///< cut that separates a piece from the sheet
 };
 inline constexpr int cut_purposes = 4;
 
@@ -23,19 +23,19 @@ struct SheetPath {
 
     CutPurpose purpose = CutPurpose::outer;
     int layer = 0;
-    bool closed = true;         ///< without a repeated last point
+    bool closed = true;         ///< closed paths do not repeat the first point
     std::vector<dvec2> points;  ///< mm
 };
 
-/// One sheet of material: its lower left corner at the origin, y upwards.
+/// A sheet of material. The origin is its lower left corner, y points upwards.
 struct Sheet {
-    std::string id;     ///< "layer0042", "sheet001"
-    std::string label;  ///< for people
+    std::string id;     ///< such as "layer0042" or "sheet001"
+    std::string label;  ///< title for people
     dvec2 size{0};      ///< mm
     std::vector<SheetPath> paths;
 };
 
-/// Orders the paths of a sheet by purpose, and keeps their order otherwise.
+/// Sorts the paths of a sheet by purpose. The sort is stable.
 void order_by_purpose(std::vector<SheetPath>& paths);
 
 }  // namespace lamella

@@ -1,10 +1,10 @@
-// First fit by shelves.
+// First-fit shelf packing.
 #include "printers/vector/sheet_nesting.h"
 
 namespace lamella {
 
 std::optional<dvec2> ShelfSheet::place(dvec2 rectangle) {
-    constexpr double rounding = 1e-6;  // mm; of sums that should fill the sheet exactly
+    constexpr double rounding = 1e-6;  // mm; tolerance of sums that should fill the sheet exactly
     const double right = size_.x - margin_ + rounding;
     const double bottom = size_.y - margin_ + rounding;
     const auto put = [&](Shelf& shelf) {

@@ -1,4 +1,4 @@
-// Slic3r's slices.
+// The back-end for Slic3r's SVG dialect.
 #include "printers/vector/slic3r_svg.h"
 
 #include <fmt/format.h>

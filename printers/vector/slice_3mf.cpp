@@ -1,4 +1,4 @@
-// The package: parts of slices as they come, then the model that refers to them.
+// Writes the parts of slices as they are computed, then the model that refers to them.
 #include "printers/vector/slice_3mf.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int height_decimals = 6;
 
-// Numbers of resources in the model, and of the stacks in each part of the package.
+// Resource numbers in the model, and of the stacks in each part of the package.
 constexpr int part_stack = 1, support_stack = 2, part_object = 3, support_object = 4;
 
 constexpr std::string_view slice_model_start =
@@ -30,8 +30,8 @@ void append_grid(std::string& out, std::int64_t units) {
     append_number(out, static_cast<double>(units) / grid_units_per_mm, grid_decimals);
 }
 
-/// A slice by the height of its top. Outlines run counter-clockwise and holes clockwise, as the positive fill
-/// rule wants.
+/// Returns a slice, identified by the height of its top. Outer contours run counter-clockwise and holes
+/// clockwise, as the positive fill rule requires.
 std::string slice_text(double top, const std::vector<GridPolygon>& polygons) {
     std::string text = "<s:slice ztop=\"" + format_number(top, height_decimals) + "\"";
     if (polygons.empty()) return text + "/>\n";
@@ -64,7 +64,7 @@ struct Slice3mfProduct : LayerProduct {
     }
 
     DeflatedPiece part;
-    DeflatedPiece supports;  ///< empty for a job without
+    DeflatedPiece supports;  ///< empty for a job without supports
 };
 
 class Slice3mf : public Backend {
@@ -139,7 +139,7 @@ class Slice3mf : public Backend {
     int parts() const { return part_number(range_.last - 1) + 1; }
     static std::string part_path(int number) { return fmt::format("2D/slices{:05}.model", number); }
 
-    /// Where the stack begins, mm over the plate.
+    /// Returns the height at which the stack begins, mm above the plate.
     double bottom(int part = 0) const { return (range_.first + part * package_layers_) * layer_height_; }
 
     std::string stack_start(int id, int part) const {
@@ -186,7 +186,7 @@ class Slice3mf : public Backend {
         return text + "</s:slicestack>\n";
     }
 
-    /// The box around the job as a mesh that stands in for the slices.
+    /// Returns the bounding box of the job as the mesh that represents the slices.
     std::string object(int id, const char* type, int stack_id, const std::string& name) const {
         const double top = range_.last * layer_height_;
         return fmt::format(
@@ -227,7 +227,7 @@ class Slice3mf : public Backend {
     double layer_height_ = 0;  ///< mm
     LayerRange range_;
     bool with_supports_ = false;
-    std::vector<DeflatedPiece> part_, supports_;  ///< of the part of the package that is being filled
+    std::vector<DeflatedPiece> part_, supports_;  ///< slices of the package part that is being filled
 };
 
 }  // namespace

@@ -9,14 +9,14 @@
 
 namespace lamella {
 
-/// Writes one package. The model holds an object for the part and, where there are supports, one for them;
-/// their slices stand in parts of the package with ExchangeProfile::package_layers slices each, to which the
-/// model's slice stacks refer. What is held in memory is one such part, compressed, and a run that was
-/// stopped is continued where the last one begins.
+/// Makes a back-end that writes one package. The model holds an object for the part and, if there are
+/// supports, one for them. Their slices are in separate parts of the package with
+/// ExchangeProfile::package_layers slices each, to which the model's slice stacks refer. Memory: one such
+/// part, compressed. An interrupted run is resumed at the start of the last part.
 ///
-/// The format wants a mesh of each object: it is the box around the job, declared to be of low resolution, so
-/// the package requires the extension. Slices have the part's own x and y, heights over the plate, and points
-/// rounded to 0.1 um; the build item moves them to where x and y are positive.
+/// The format requires a mesh for each object. It is the bounding box of the job, declared as low resolution,
+/// so the package requires the extension. Slices use the part's own x and y, heights above the plate, and
+/// points rounded to 0.1 um; the build item moves them to positive x and y.
 std::unique_ptr<Backend> make_slice_3mf(const PrinterProfile& profile, const std::string& path, bool force);
 
 }  // namespace lamella

@@ -8,7 +8,7 @@ namespace lamella {
 namespace {
 
 constexpr double digit_width = 0.6;  // in heights
-constexpr double advance = 0.85;     // from digit to digit, in heights
+constexpr double advance = 0.85;     // distance between digits, in heights
 
 using DigitStrokes = std::vector<std::vector<dvec2>>;
 

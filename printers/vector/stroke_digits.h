@@ -1,4 +1,4 @@
-// Numbers as single strokes: what an engraver follows, for fonts differ from machine to machine.
+// Numbers drawn with single strokes for engravers, independent of the machine's fonts.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace lamella {
 
-/// Width and height of a number (>= 0) whose digits are `height` mm high, mm.
+/// Returns the width and height of a number (>= 0) whose digits are `height` mm high, mm.
 dvec2 number_size(int number, double height);
 
-/// The strokes of a number about a centre, y upwards, mm: open polylines, none drawn twice.
+/// Returns the strokes of a number about a centre, y upwards, mm: open polylines, no stroke twice.
 std::vector<std::vector<dvec2>> number_strokes(int number, dvec2 center, double height);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// SVG pages and paths.
+// The back-ends for SVG files and folders of them.
 #include "printers/vector/svg.h"
 
 #include <fmt/format.h>
@@ -23,10 +23,10 @@ struct SvgProduct : LayerProduct {
     void serialize(Archive& parcel) override { parcel(path, supports); }
 
     std::string path;      ///< path data; empty for an empty layer
-    std::string supports;  ///< the same of what holds the part
+    std::string supports;  ///< path data of the supports
 };
 
-/// The sheet that all layers share.
+/// The page that all layers share.
 struct Page {
     double left = 0;  ///< x of the part at the left edge, mm
     double top = 0;   ///< y of the part at the upper edge, mm
@@ -40,7 +40,7 @@ Page make_page(const VectorProfile& profile, const Box& bounds) {
             bounds.size().y + 2 * profile.margin};
 }
 
-/// How many contours enclose each contour.
+/// Returns the number of contours that enclose each contour.
 std::vector<int> nesting_depths(const std::vector<Contour>& contours) {
     std::vector<int> depths(contours.size(), 0);
     for (std::size_t i = 0; i < contours.size(); ++i) {
@@ -50,7 +50,8 @@ std::vector<int> nesting_depths(const std::vector<Contour>& contours) {
     return depths;
 }
 
-/// Path data of the contours, the innermost first: a cutter must not free a piece before its holes are cut.
+/// Returns the path data of the contours, the innermost first: a cutter must not release a piece before its
+/// holes are cut.
 std::string path_data(const std::vector<Contour>& contours, const Page& page) {
     const std::vector<int> depths = nesting_depths(contours);
     std::vector<std::size_t> order(contours.size());
@@ -63,19 +64,19 @@ std::string path_data(const std::vector<Contour>& contours, const Page& page) {
     return data;
 }
 
-/// Attributes of the paths.
+/// Attributes of the paths of part and supports.
 struct Style {
     const char* part;
     const char* supports;
 };
 constexpr Style filled{"fill=\"#000000\" stroke=\"none\"",
                        "class=\"support\" fill=\"#0080ff\" stroke=\"none\""};
-// The widest stroke that every cutter's driver still takes for a line to cut is 0.025 mm (0.001 inch). Red
-// and blue are what drivers tell apart without fail.
+// The widest stroke that every cutter's driver still takes for a cut is 0.025 mm (0.001 inch). All drivers
+// distinguish red from blue.
 constexpr Style hairline{"fill=\"none\" stroke=\"#ff0000\" stroke-width=\"0.01\"",
                          "class=\"support\" fill=\"none\" stroke=\"#0000ff\" stroke-width=\"0.01\""};
 
-/// The layer as an Inkscape layer and a Slic3r slice.
+/// Returns the layer as an Inkscape layer and a Slic3r slice.
 std::string group(const Layer& layer, const SvgProduct& product, const Style& style) {
     std::string text = fmt::format(
         "<g id=\"layer{0:04}\" inkscape:groupmode=\"layer\" inkscape:label=\"{0:04} z={1}\" "
@@ -95,7 +96,7 @@ std::string settings_of(const VectorProfile& vector) {
                        vector.margin);
 }
 
-/// What both kinds share: the page, and rendering a layer to path data.
+/// Common base of both outputs: the page, and rendering a layer to path data.
 class Svg : public Backend {
   public:
     explicit Svg(const PrinterProfile& profile) : profile_(profile) {}

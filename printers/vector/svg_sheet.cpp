@@ -1,4 +1,4 @@
-// A group a sheet, an element for each purpose of each layer.
+// Writes a group per sheet, and an element per layer and purpose.
 #include "printers/vector/svg_sheet.h"
 
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
-// Sheets as SVG: strokes in a laser's colours, one Inkscape layer a sheet.
+// SvgSheetFormat: sheets as SVG, with strokes in a laser's colours and one Inkscape layer per sheet.
 #pragma once
 
 #include "printers/vector/cut_sheets.h"
 
 namespace lamella {
 
-/// Paths of a layer with the same purpose are one element, with an id such as "layer0042-cut-inner".
+/// Paths of one layer with the same purpose are one element, with an id such as "layer0042-cut-inner".
 class SvgSheetFormat : public SheetFormat {
   public:
     explicit SvgSheetFormat(Laser laser) : laser_(laser) {}

@@ -1,4 +1,4 @@
-// SVG's root element and path data.
+// Root element and path data of SVG files.
 #include "printers/vector/svg_text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Prim's algorithm with a queue of neighbours that may be out of date, and bars between them.
+// Prim's algorithm with a priority queue that may hold outdated entries, and the bars of its tree.
 #include "printers/vector/tie_bars.h"
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace lamella {
 namespace {
 
-/// Points along all outlines, piece by piece.
+/// Sample points along all outlines, piece by piece.
 struct Samples {
     std::vector<dvec2> points;
     std::vector<std::size_t> owners;
-    std::vector<std::size_t> begins;  ///< of each piece, and the end
+    std::vector<std::size_t> begins;  ///< first sample of each piece, and the number of samples
 };
 
 Samples sample_outlines(const std::vector<Polygons>& pieces, double spacing) {
@@ -24,7 +24,7 @@ Samples sample_outlines(const std::vector<Polygons>& pieces, double spacing) {
         samples.begins.push_back(samples.points.size());
         for (const ClipperLib::Path& outline : pieces[piece]) {
             const std::vector<dvec2> points = to_points(outline);
-            double next = 0;  // way to the next sample
+            double next = 0;  // distance to the next sample
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const dvec2 way = points[(i + 1) % points.size()] - points[i];
                 const double length = std::sqrt(dot(way, way));
@@ -68,8 +68,8 @@ ClipperLib::Path bar(dvec2 a, dvec2 b, double width) {
     return to_polygon({a - side, b - side, b + side, a + side});
 }
 
-/// Where samples of one piece face another at about the least distance from `from` on, the one in the middle:
-/// a bar between straight borders should not hang over a corner.
+/// Among the samples of one piece near `from` that face another piece at about the least distance, returns
+/// the middle one: a bar between straight borders should not overhang a corner.
 dvec2 middle_of_facing(std::span<const dvec2> samples, const Polygons& other, dvec2 from, double width) {
     const auto distance = [](dvec2 a, dvec2 b) { return std::sqrt(dot(b - a, b - a)); };
     const double longest = distance(from, nearest_on(other, from)) + width / 8;
@@ -119,7 +119,7 @@ Polygons tie_bars(const std::vector<Polygons>& pieces, double width) {
         const Neighbour next = queue.top();
         queue.pop();
         const std::size_t piece = samples.owners[next.to];
-        if (joined[piece]) {  // by another way meanwhile
+        if (joined[piece]) {  // already joined by another bar
             look_from(next.from);
             continue;
         }

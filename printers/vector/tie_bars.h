@@ -1,4 +1,4 @@
-// Bars that hold the loose pieces of a layer together.
+// Tie bars that hold the loose pieces of a layer together.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace lamella {
 
-/// A bar for each pair of neighbours in the tree that joins all pieces at the least total distance (Prim
-/// 1957), over points half a width apart along the outlines; each bar, `width` mm wide, runs from
-/// outline to outline and a quarter of its width into either piece. With the pieces united they make one
+/// Returns a bar for each edge of the minimum spanning tree of the pieces (Prim 1957). Distances are measured
+/// between points half a width apart along the outlines. Each bar is `width` mm wide, runs from outline to
+/// outline and extends a quarter of its width into both pieces. United with the pieces, the bars form one
 /// piece.
 Polygons tie_bars(const std::vector<Polygons>& pieces, double width);
 
