@@ -34,7 +34,8 @@ class FaultList {
     explicit FaultList(std::size_t most) : most_(most) {}
 
     void add(Fault fault);
-    /// Removes the largest fault from the list and the count: it is no fault after all. Works once.
+    /// Removes the largest fault from the list and the count: it is no fault after all. The list keeps one
+    /// spare fault for this, so call it once at most.
     void excuse_greatest();
     std::size_t count() const { return count_; }
     /// Fills in the number of faults, the sum of their sizes and the largest ones.

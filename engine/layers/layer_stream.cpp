@@ -1,4 +1,5 @@
-// The pipeline: indices in order, layers rendered in parallel, products written in order.
+// Layer stream: a pipeline that issues indices in order, renders layers in parallel and writes products in
+// order.
 #include "engine/layers/layer_stream.h"
 
 #include <oneapi/tbb/global_control.h>
@@ -15,16 +16,16 @@
 namespace lamella {
 namespace {
 
-/// A place for one layer in flight. The pipeline hands layers from thread to thread by itself; the lock makes
-/// that visible to whoever cannot see into it, such as a race detector.
+/// A slot for one layer in flight. The pipeline itself synchronises the hand-over between threads; the lock
+/// makes it visible to tools that cannot see into the pipeline, such as a race detector.
 struct Slot {
     std::mutex busy;
     std::optional<Layer> layer;
     std::unique_ptr<LayerProduct> product;
 };
 
-/// Takes and gives back every lock when the stream is left, by whichever way: what the threads did is then
-/// visible here.
+/// Locks and unlocks every mutex when the stream is left, on any path, so that a race detector sees that the
+/// threads' work happened before.
 struct Rejoin {
     std::mutex& in_order;
     std::vector<Slot>& slots;
@@ -70,8 +71,8 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     Progress progress;
     progress.total = options.range.last - start;
 
-    // At most `look_ahead` layers are in flight and they leave in order, so layer k's slot is free again when
-    // k + look_ahead comes.
+    // At most `look_ahead` layers are in flight and they leave in order, so the slot of layer k is free again
+    // when layer k + look_ahead is issued.
     std::vector<Slot> slots(static_cast<std::size_t>(look_ahead));
     std::mutex in_order;
     const auto slot_of = [&](int index) -> Slot& {
@@ -91,13 +92,13 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
     const auto render = [&](int index) {
         Slot& slot = slot_of(index);
         const std::lock_guard lock(slot.busy);
-        if (cancelled()) return index;  // nobody waits for what is not begun yet
+        if (cancelled()) return index;  // do not begin another layer
         slot.layer.emplace(job, index, options.cancel);
         try {
             slot.product = backend.render(*slot.layer);
         } catch (const Interrupted&) {
             if (!cancelled()) throw;
-            slot.product.reset();  // nor for what is not finished
+            slot.product.reset();  // drop the unfinished layer
         }
         return index;
     };
@@ -105,7 +106,7 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
         Slot& slot = slot_of(index);
         const std::lock_guard lock(slot.busy);
         stopped = stopped || !slot.product;
-        if (stopped) {  // what comes behind a layer that is missing cannot be written
+        if (stopped) {  // a layer after a missing one cannot be written
             slot.product.reset();
             slot.layer.reset();
             return;

@@ -1,4 +1,4 @@
-// LayerStream: layers computed ahead in parallel, handed to a back-end in order.
+// Layer stream: renders the layers of a job in parallel and hands them to a back-end in order.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 
 namespace lamella {
 
-/// How far a stream has come. Called from the writing thread, after each layer.
+/// The progress of a stream, reported from the writing thread after each layer.
 struct Progress {
     int done = 0;               ///< layers written in this run
     int total = 0;              ///< layers this run has to write
     int layer = 0;              ///< index of the layer just written
-    double volume = 0;          ///< material of the part so far, mm^3
-    double support_volume = 0;  ///< of its supports, mm^3
+    double volume = 0;          ///< volume of the part so far, mm^3
+    double support_volume = 0;  ///< volume of the supports so far, mm^3
 };
 
 struct StreamOptions {
-    LayerRange range;                                    ///< which layers
+    LayerRange range;                                    ///< layers to stream
     int threads = 0;                                     ///< 0: one per core
-    int look_ahead = 0;                                  ///< layers in flight at most; 0: two per thread
+    int look_ahead = 0;                                  ///< most layers in flight; 0: two per thread
     bool resume = false;                                 ///< continue an unfinished output
     std::function<void(const Progress&)> on_progress{};  ///< may be empty
     const CancelToken* cancel = nullptr;                 ///< may be null
@@ -28,16 +28,25 @@ struct StreamOptions {
 
 struct StreamReport {
     int layers_written = 0;
-    int layers_kept = 0;        ///< found finished when resuming
-    double volume = 0;          ///< material of the part in the layers written, mm^3
-    double support_volume = 0;  ///< of its supports, mm^3
+    int layers_kept = 0;        ///< layers of the unfinished output that was resumed
+    double volume = 0;          ///< volume of the part in the layers written, mm^3
+    double support_volume = 0;  ///< volume of the supports in the layers written, mm^3
 };
 
-/// Streams the layers of a job to a back-end. Memory is bounded by the look-ahead, not by the number of
-/// layers. Throws what the back-end throws, and Interrupted when cancelled.
+/// Streams the layers of a job to a back-end.
+///
+///     Job job;
+///     job.part = make_sphere({0, 0, 0}, 10);
+///     job.bounds = job.part->bounds();
+///     job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+///     const StreamReport report = stream_layers(job, backend, {.range = {0, job.layer_count}});
+///
+/// Layers are rendered in parallel and written in order. Memory is bounded by the
+/// look-ahead, not by the number of layers. Throws whatever the back-end throws, InputError when the range is
+/// not within the job, and Interrupted when cancelled before the last layer was written.
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options);
 
-/// Streams all layers of a job to a back-end that only looks at them.
+/// Streams all layers of a job to a survey, a back-end that writes no output.
 void survey_layers(const Job& job, Backend& surveyor, int threads,
                    const std::function<void(const Progress&)>& on_progress, const CancelToken* cancel);
 
