@@ -1,4 +1,4 @@
-// Rows asked for, or lines found by others with their run coordinates made the rows' own.
+// CheckRows: samples rows, or converts cached lines of other back-ends to the rows' run coordinates.
 #include "engine/checks/check_rows.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace lamella {
 namespace {
 
-/// From the run coordinates of one band to those of another along the same axis, in fixed point: the same on
-/// every machine, and for whole layers at once.
+/// Maps run coordinates of one band to those of another along the same axis. Fixed-point, so that the result
+/// is the same on every machine.
 class RunMap {
   public:
     RunMap(const RowBand& from, const RowBand& to) {
@@ -30,7 +30,7 @@ class RunMap {
     std::int64_t scale_, shift_;
 };
 
-/// The lines that may meet a rectangle, mm.
+/// Returns the lines that may meet a rectangle (mm).
 RowBand lines_over(const RowBand& lines, const Rect& rect) {
     const int across = lines.axis == Axis::x ? 1 : 0;
     const double a = (rect.lo[across] - lines.across_origin) / lines.across_pitch,
@@ -78,7 +78,7 @@ RunRows CheckRows::support_rows(const Layer& layer, Scratch& scratch) const {
     return rows(*layer.supports(), layer, scratch);
 }
 
-/// What was found on the lines, as rows.
+/// Converts runs on the shared lines to the check's rows.
 RunRows CheckRows::moved(const RunRows& found) const {
     const RunMap map(*lines_, band_);
     RunRows rows;

@@ -1,4 +1,4 @@
-// The rows that a check looks at: lines of its own, or some of those that masks are made of.
+// CheckRows: the rows that a check samples: lines of its own, or some of the lines that masks are made of.
 #pragma once
 
 #include <optional>
@@ -7,23 +7,22 @@
 
 namespace lamella {
 
-/// Rows of a job's layers, as far apart as their run coordinates' pixels are wide, with a row and a pixel of
-/// void all round.
+/// Rows of a job's layers with equal pitches along and across, surrounded by a row and a pixel of void.
 class CheckRows {
   public:
-    /// Along x, `pitch` mm apart.
+    /// Samples rows along x, `pitch` mm apart.
     CheckRows(const Job& job, double pitch);
-    /// On lines that other back-ends go through (Layer::cache_lines), with their step.
+    /// Samples lines that other back-ends go through as well (Layer::cache_lines), with their step.
     CheckRows(const Job& job, const RowBand& lines);
 
-    /// Of the rows: of positive pitches, a line a row.
+    /// Returns the band of the rows. Its pitches are positive; it has one line per row.
     const RowBand& band() const { return band_; }
-    /// Those of other back-ends.
+    /// Returns the lines shared with other back-ends; empty if there are none.
     const std::optional<RowBand>& lines() const { return lines_; }
     RunRows part_rows(const Layer& layer, Scratch& scratch) const {
         return rows(layer.part(), layer, scratch);
     }
-    /// Empty where there are none.
+    /// Returns empty rows if the job has no supports.
     RunRows support_rows(const Layer& layer, Scratch& scratch) const;
 
   private:

@@ -1,4 +1,4 @@
-// Grids of wider pitches, and faults told in narrower ones.
+// CheckSampling: coarser grids, and conversion of faults back to the full resolution.
 #include "engine/checks/check_sampling.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Ordered insertion.
+// FaultList: insertion into a sorted list of bounded length.
 #include "engine/checks/fault_list.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// FaultList: the worst of many faults, and how many there were.
+// FaultList: the worst faults of a kind, and the number of all.
 #pragma once
 
 #include "engine/checks/print_check.h"
@@ -6,41 +6,46 @@
 
 namespace lamella {
 
-/// Where the rows and layers of a check lie.
+/// The positions of a check's rows and layers.
 struct CheckGrid {
-    RowBand band;             ///< of every layer, a line a row
+    RowBand band;             ///< rows of every layer, one line per row
     double z0 = 0;            ///< lower side of layer 0, mm
     double layer_height = 0;  ///< mm
 
+    /// Returns the area (mm^2) of runs from the sum of their lengths (run units).
     double area(std::int64_t length) const {
         return static_cast<double>(length) / run_unit * band.along_pitch * band.across_pitch;
     }
+    /// Returns the volume (mm^3) of runs from the sum of their lengths (run units).
     double volume(std::int64_t length) const { return area(length) * layer_height; }
+    /// Returns the height of a layer's cutting plane, mm.
     double plane(int layer) const { return z0 + (layer + 0.5) * layer_height; }
     Box box(const ComponentExtent& extent) const;
-    /// A fault that is a component. Its size is left to the caller.
+    /// Makes a fault of a component. The caller sets its size.
     Fault fault(const StreamingComponent& component) const;
-    /// A fault that lies in one layer.
+    /// Makes a fault of a patch in one layer. The caller sets its size.
     Fault fault(const LayerPatch& patch) const;
 };
 
-/// Keeps the faults of greatest size; of equals the lowest, then the one of least y and x.
+/// Keeps the `most` largest faults. Of equally large ones it prefers the lowest, then the least y, then the
+/// least x.
 class FaultList {
   public:
     explicit FaultList(std::size_t most) : most_(most) {}
 
     void add(Fault fault);
-    /// Takes the greatest of all out of the list and the count: it is no fault after all.
+    /// Removes the largest fault from the list and the count: it is no fault after all. The list keeps one
+    /// spare fault for this, so call it once at most.
     void excuse_greatest();
     std::size_t count() const { return count_; }
-    /// Fills in what was found.
+    /// Fills in the number of faults, the sum of their sizes and the largest ones.
     void report(CheckResult& result) const;
 
   private:
     std::size_t most_;
     std::size_t count_ = 0;
     double total_ = 0;
-    std::vector<Fault> worst_;  // by falling size, one more than asked for
+    std::vector<Fault> worst_;  // by falling size; one more than `most_`, to replace an excused one
 };
 
 }  // namespace lamella

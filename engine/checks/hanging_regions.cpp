@@ -1,4 +1,5 @@
-// Each region on a raster of its own, walked along digital lines that meet every pixel once.
+// Hanging regions: each region is drawn on a raster of its own and walked along parallel digital lines, which
+// meet every pixel once.
 #include "engine/checks/hanging_regions.h"
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 namespace lamella {
 namespace {
 
-/// Of a pixel: void, on the way along an outline, held, hanging.
+/// The states of a pixel: void, beside an outline (neither void nor hanging), supported, hanging.
 enum : std::uint8_t { none, beside, hold, hangs };
 
-constexpr int margin = 3;  // pixels round about a region, for what holds it
+constexpr int margin = 3;  // pixels around a region, for the supported parts beside it
 
 std::int32_t pixel_of(std::int32_t u) { return u >= 0 ? u / run_unit : -((run_unit - 1 - u) / run_unit); }
 
@@ -26,7 +27,7 @@ class RegionRaster {
         const int lines = static_cast<int>(held.lines());
         for (int y = std::max(y0_, 0); y < std::min(y0_ + height_, lines); ++y) {
             for (const Run& run : held.line(static_cast<std::size_t>(y))) {
-                // A pixel is held where its middle is.
+                // A pixel is supported if its centre is.
                 fill(y, pixel_of(run.begin + run_unit / 2), pixel_of(run.end + run_unit / 2), hold);
             }
         }
@@ -47,7 +48,7 @@ class RegionRaster {
         to = std::min(to - x0_, width_);
         for (std::int32_t x = from; x < to; ++x) states_[place(x, row - y0_)] = state;
     }
-    /// All pixels that a run meets, but for those held: nothing that hangs gets lost.
+    /// Marks all pixels that a run meets, except supported ones: no part that hangs is lost.
     void fill_hanging(const PlacedRun& run) {
         const std::int32_t from = pixel_of(run.begin) - x0_, to = pixel_of(run.end - 1) + 1 - x0_;
         for (std::int32_t x = from; x < to; ++x) {
@@ -55,8 +56,9 @@ class RegionRaster {
             if (state != hold) state = hangs;
         }
     }
-    /// Outlines slant, and digital lines along them step out and in again: void next to what hangs counts as
-    /// on the way, and what hangs next to void as well, where more of it lies further in.
+    /// Digital lines along a slanted outline step out of the region and in again. Therefore void pixels next
+    /// to hanging ones are marked `beside`. So are hanging pixels next to void, if the region has others
+    /// farther in.
     void mark_beside() {
         const std::vector<std::uint8_t> states = states_;
         bool inner = false;
@@ -89,13 +91,14 @@ class RegionRaster {
     std::vector<std::uint8_t> states_;
 };
 
-/// A direction of ways: by `slope` across for each pixel along x, or along y where `steep`.
+/// A direction of bridges: `slope` pixels across for each pixel along x, or along y if `steep`.
 struct Way {
     double slope;
     bool steep;
 };
 
-/// The longest way in a direction from hold to hold, pixels; nothing where one leads into the void.
+/// Returns the length of the longest bridge in a direction, pixels; empty if a bridge lacks support at an
+/// end.
 std::optional<double> longest_way(const RegionRaster& raster, const Way& way) {
     const int length = way.steep ? raster.height() : raster.width(),
               breadth = way.steep ? raster.width() : raster.height();
@@ -106,7 +109,7 @@ std::optional<double> longest_way(const RegionRaster& raster, const Way& way) {
               highest = std::max(shifts.front(), shifts.back());
     int longest = 0;
     for (int line = -highest; line < breadth - lowest; ++line) {
-        int last_hold = -1;  // since which there was no void
+        int last_hold = -1;  // last supported pixel; -1 if void followed
         bool hanging = false;
         for (int i = 0; i < length; ++i) {
             const int j = line + shifts[static_cast<std::size_t>(i)];
@@ -131,7 +134,7 @@ std::optional<double> longest_way(const RegionRaster& raster, const Way& way) {
     return longest * std::sqrt(1 + way.slope * way.slope);
 }
 
-/// The direction in which a region reaches furthest: the greater axis of its second moments.
+/// Returns the direction in which a region is longest: the major axis of its second moments.
 Way axis_of(const std::vector<PlacedRun>& region) {
     double weight = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
     for (const PlacedRun& run : region) {

@@ -1,4 +1,4 @@
-// The parts of a layer that hang in the air, and whether beads laid straight can bridge them.
+// Hanging regions: the parts of a layer without support, and whether straight beads can bridge them.
 #pragma once
 
 #include <optional>
@@ -7,19 +7,20 @@
 
 namespace lamella {
 
-/// For each component of a layer whether the diagonal of its bounds is as long as `least`, mm.
+/// Returns a flag for each component of a layer: 1 if the diagonal of its bounds is at least `least` mm long.
 std::vector<std::uint8_t> reaching(const LabelledLayer& labelled, double least, const CheckGrid& grid);
 
-/// A connected region of a layer that nothing below holds.
+/// A connected region of a layer that nothing below supports.
 struct HangingRegion {
-    std::vector<PlacedRun> runs;   ///< by row
-    std::optional<double> bridge;  ///< longest way from hold to hold, laid in the direction where that is
-                                   ///< least, mm; empty: in no direction every way ends in holds
+    std::vector<PlacedRun> runs;  ///< by row
+    std::optional<double>
+        bridge;  ///< length of the longest bridge, in the direction in which that is shortest,
+                 ///< mm; empty if in every direction some bridge lacks support at an end
 };
 
-/// The regions of `hanging`, rows of a layer whose other parts, `held`, something below holds; those whose
-/// diagonal is shorter than `least`, mm, are left out. Directions are sixteen of the half circle and each
-/// region's own two axes; ways are known to a pitch or two.
+/// Finds the regions of `hanging`, the unsupported rows of a layer; `held` are the layer's supported rows.
+/// Leaves out regions whose diagonal is shorter than `least` mm. Tries sixteen directions of the half circle
+/// and each region's two principal axes. Bridge lengths are exact to a pitch or two.
 std::vector<HangingRegion> find_hanging_regions(const RunRows& hanging, const RunRows& held, double least,
                                                 int layer, const CheckGrid& grid);
 

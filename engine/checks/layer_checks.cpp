@@ -1,4 +1,4 @@
-// Faults of single layers.
+// Checks of single layers.
 #include "engine/checks/layer_checks.h"
 
 #include <algorithm>
@@ -64,12 +64,12 @@ void ReachCheck::finish() {
     const glm::length_t along = grid_.band.axis == Axis::x ? 0 : 1, across = 1 - along;
     judge(along, size[along], along_);
     judge(across, size[across], across_);
-    // Layers count from the bed, what is left out below the first one with them.
+    // Heights count from the bed, even if the first layers are empty.
     judge(2, (extent_.last_layer + 1) * grid_.layer_height, top_);
 }
 
 void ReachCheck::judge(glm::length_t axis, double size, const PlacedRun& end) {
-    // Rows and layers are known to one of their own.
+    // Extents across rows and layers are exact to one row or layer.
     const bool is_along = axis == (grid_.band.axis == Axis::x ? 0 : 1);
     const double known = axis == 2 ? grid_.layer_height : is_along ? 1e-6 : grid_.band.across_pitch;
     if (size <= build_volume_[axis] + known) return;

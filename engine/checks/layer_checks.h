@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-/// Layers that are cut out of sheets: each must be one piece.
+/// Sheet check: a layer that is cut out of a sheet must be one piece.
 class SheetCheck {
   public:
     SheetCheck(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
@@ -17,7 +17,7 @@ class SheetCheck {
     FaultList faults_;
 };
 
-/// Layers without anything in them, those that follow each other as one fault.
+/// Empty-layer check: consecutive empty layers are one fault.
 class EmptyCheck {
   public:
     EmptyCheck(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
@@ -29,11 +29,11 @@ class EmptyCheck {
     void end_gap(int end);
 
     CheckGrid grid_;
-    int begin_ = -1;  // of the empty layers at hand
+    int begin_ = -1;  // first of the current empty layers; -1: none
     FaultList faults_;
 };
 
-/// How far all that is printed reaches, against what the machine does: one fault a direction.
+/// Build volume check: the size of the print against that of the machine. One fault per axis.
 class ReachCheck {
   public:
     ReachCheck(const CheckGrid& grid, const dvec3& build_volume, std::size_t most)
@@ -48,7 +48,7 @@ class ReachCheck {
     CheckGrid grid_;
     dvec3 build_volume_;
     ComponentExtent extent_;
-    PlacedRun along_{}, across_{}, top_{};  // the ends farthest out
+    PlacedRun along_{}, across_{}, top_{};  // the runs farthest out
     FaultList faults_;
 };
 

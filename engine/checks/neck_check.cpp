@@ -1,4 +1,4 @@
-// What is thin splits layers; union-find joins what is left, and what is thin.
+// NeckCheck: thin features split the layers; union-find joins the parts and the rests across layers.
 #include "engine/checks/neck_check.h"
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 namespace lamella {
 namespace {
 
-/// Rows crumble the border of what is opened, run units.
+/// Slack for the rough border of an opening that is sampled by rows, run units.
 constexpr double crumbs = 1.5 * run_unit;
 
 ThinFeatureStream thin_layers(const SampledBall& ball) { return {ball.lattice, {ball.radius, crumbs}}; }
 
-/// The parts that a run of row `r` touches.
+/// Appends the parts that a run of row `r` touches.
 void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
                  std::vector<std::uint32_t>& marks) {
     for (int near = r - 1; near <= r + 1; ++near) {
@@ -23,7 +23,7 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
     }
 }
 
-/// As few rows and layers as tell a thickness, mm.
+/// Returns the coarsest sampling that resolves a thickness (mm).
 CheckSampling sampling_for(const CheckGrid& grid, double thickness) {
     constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
     const auto one_of = [&](double pitch, double samples) {
@@ -69,7 +69,8 @@ void NeckCheck::split(RunRows thin) {
     if (parts_.size() > max_parts_) forget_what_is_settled();
 }
 
-/// Joins the rest of a recent layer to those before it, with the parts that it touches as marks.
+/// Joins the rest of a recent layer to the rests before it. The marks of a rest are the parts that it
+/// touches.
 void NeckCheck::join_rest(std::size_t of) {
     const int layer = layers_ - static_cast<int>(recent_.size() - of);
     LabelledLayer rest = label_layer(recent_[of].rest, layer, Growth{});
@@ -94,8 +95,8 @@ void NeckCheck::join_rest(std::size_t of) {
     ended_.clear();
 }
 
-/// Leaves of the marks those parts, once each, that are large or, being among the sorted `growing`, may be
-/// yet.
+/// Reduces marks to the parts that are large, or may become large because they are among the sorted
+/// `growing`. Removes duplicates.
 void NeckCheck::settle(std::vector<std::uint32_t>& marks, const std::vector<std::uint32_t>& growing) {
     for (std::uint32_t& mark : marks) mark = parts_.find(mark);
     std::erase_if(marks, [&](std::uint32_t mark) {
@@ -106,7 +107,7 @@ void NeckCheck::settle(std::vector<std::uint32_t>& marks, const std::vector<std:
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
 }
 
-/// Drops the candidates that have become none, and the parts that nothing can refer to.
+/// Drops candidates that can no longer be necks, and parts that nothing can refer to any more.
 void NeckCheck::forget_what_is_settled() {
     std::vector<std::uint32_t> used, growing;
     for (const Split& layer : recent_) {
@@ -138,7 +139,7 @@ void NeckCheck::finish() {
     }
 }
 
-/// A rest as a fault in the rows and layers of which some were looked at.
+/// Makes a fault of a rest, in full resolution.
 Fault NeckCheck::neck(const StreamingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);

@@ -1,4 +1,4 @@
-// Necks: thin places that alone join large parts of a solid.
+// NeckCheck: finds necks, thin places that alone join large parts of a solid.
 #pragma once
 
 #include <deque>
@@ -9,13 +9,15 @@
 
 namespace lamella {
 
-/// Finds what joins large parts and is thinner than a ball. The solid is opened by the ball; what stays falls
-/// into parts, and a piece of what that takes away is a neck where it touches two large ones that
-/// nothing else as thick joins. Where rows or layers lie much closer than a neck is thick, one of several is
-/// looked at. Memory: the layers that the ball reaches, and what may be a neck still.
+/// Finds joints between large parts that are thinner than a ball. The solid is opened by the ball. The
+/// opening falls into connected parts; the points that it removes form thin pieces, called rests. A rest is a
+/// neck if it touches two large parts that nothing thick enough joins elsewhere. Rows and layers that are
+/// much finer than a neck's thickness are subsampled. Memory: the layers within reach of the ball, and the
+/// rests that may still be necks.
 class NeckCheck {
   public:
-    /// `thickness` of a neck that carries, mm; `large_part`, the volume from which a part counts, mm^3.
+    /// `thickness`: the least thickness of a sound joint, mm. `large_part`: the least volume of a large part,
+    /// mm^3. `most` faults are kept.
     NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most);
 
     void push(const RunRows& layer);
@@ -23,9 +25,9 @@ class NeckCheck {
     const FaultList& necks() const { return necks_; }
 
   private:
-    /// A layer fallen into what the opening leaves and what it takes away.
+    /// A layer, split into its opening and the rest.
     struct Split {
-        LabelledLayer parts;  ///< components are numbers of parts_
+        LabelledLayer parts;  ///< components of the opening, as numbers of parts_
         RunRows rest;
     };
     NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness, double large_part,
@@ -37,19 +39,19 @@ class NeckCheck {
     void forget_what_is_settled();
     Fault neck(const StreamingComponent& rest) const;
 
-    CheckGrid grid_;  // of what is looked at
+    CheckGrid grid_;  // sampled
     CheckSampling sampling_;
-    int pushed_ = 0;  // layers
+    int pushed_ = 0;  // number of layers
     double large_part_;
     ThinFeatureStream thin_;
-    std::deque<RunRows> solid_;  // layers of which it is not known yet what is thin
-    std::deque<Split> recent_;   // three at most: a rest touches parts below, beside and above it
-    int layers_ = 0;             // that were split
+    std::deque<RunRows> solid_;  // layers that are not split yet
+    std::deque<Split> recent_;   // at most three: a rest touches parts below, beside and above it
+    int layers_ = 0;             // number of layers that were split
     StreamingParts parts_;
-    std::size_t max_parts_ = 1024;  // at which those are forgotten that no rest can join any more
+    std::size_t max_parts_ = 1024;  // number of parts at which those are forgotten that no rest can refer to
     StreamingComponents rests_;
     std::vector<EndedComponent> ended_;
-    std::vector<StreamingComponent> candidates_;  // rests that touch several parts
+    std::vector<StreamingComponent> candidates_;  // ended rests that touch several parts
     FaultList necks_;
 };
 

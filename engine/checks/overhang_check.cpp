@@ -1,4 +1,4 @@
-// Layers against grown layers below them.
+// OverhangCheck: subtracts the dilated layers below from each layer.
 #include "engine/checks/overhang_check.h"
 
 #include <algorithm>
@@ -11,18 +11,18 @@
 namespace lamella {
 namespace {
 
-constexpr double rows_of_slope = 8;  // by which an outline may move over what a slope is followed over
+constexpr double rows_of_slope = 8;  // a slope is followed until the outline may have moved by so many rows
 constexpr std::size_t max_slope_layers = 64;
-constexpr std::size_t max_kept_words = std::size_t{2} << 20;  // of all layers' cells, 16 MB
+constexpr std::size_t max_kept_words = std::size_t{2} << 20;  // words of all layers' cells, 16 MB
 
 bool any_floats(const std::vector<std::uint8_t>& floats) {
     return std::ranges::find(floats, 1) != floats.end();
 }
 
-/// Those components of a layer do not float that touch rows of one below.
+/// Clears the `floats` flag of components that touch rows of a layer below.
 void sink_touching(const LabelledLayer& labelled, const RunRows& below, std::vector<std::uint8_t>& floats) {
     const auto run_floats = [&](const LabelledRun& run) { return floats[run.component] != 0; };
-    for (const int aside : {0, -1, 1}) {  // most lie right above something
+    for (const int aside : {0, -1, 1}) {  // 0 first: most lie straight above something
         if (!any_floats(floats)) return;
         for (int r = 0; r < static_cast<int>(below.lines()); ++r) {
             for_first_touching(labelled.row(r + aside), run_floats, below.line(static_cast<std::size_t>(r)),
@@ -31,11 +31,11 @@ void sink_touching(const LabelledLayer& labelled, const RunRows& below, std::vec
     }
 }
 
-/// Joins those components in and beside a row that hang together as closer rows see it, wherever along it:
-/// what is slim and runs nearly along shows far apart in two rows.
+/// Joins components in and beside a row that are connected in closer rows. A slim feature that runs nearly
+/// along the rows appears at places far apart in two neighbouring rows.
 void join_by_closer_rows(const LabelledLayer& labelled, int row, const CheckGrid& grid, const RowsIn& rows_in,
                          DisjointSets& sets) {
-    constexpr int lines_a_row = 9;  // an odd number: the middle one lies where the row does
+    constexpr int lines_a_row = 9;  // odd: the middle line coincides with the row
     constexpr std::uint32_t none = UINT32_MAX;
     RowBand band = grid.band;
     band.first = std::max(row - 1, 0);
@@ -53,7 +53,8 @@ void join_by_closer_rows(const LabelledLayer& labelled, int row, const CheckGrid
     }
 }
 
-/// Pieces that one row alone sees may hang together with what is held: rows cut slim tips into such.
+/// Clears the `floats` flag of pieces in a single row that are connected to a supported piece in closer rows:
+/// rows cut slim tips into such pieces.
 void sink_tips(const LabelledLayer& labelled, const CheckGrid& grid, const RowsIn& rows_in,
                std::vector<std::uint8_t>& floats) {
     DisjointSets sets(floats.size());
@@ -73,21 +74,22 @@ void sink_tips(const LabelledLayer& labelled, const CheckGrid& grid, const RowsI
     }
 }
 
-/// What of a lies further than `pitches` from b.
+/// Returns the points of `a` that are farther than `pitches` from `b`.
 RunRows beyond(const RunRows& a, const RunRows& b, double pitches) {
     RunRows out;
     subtract_dilated(a, b, pitches * run_unit, run_unit, out);
     return out;
 }
 
-/// Where something of rows that meet these cells may lie further than that from what fills the others.
+/// Returns the candidates of beyond(): the parts of `rows` in cells that may be farther than `pitches` from
+/// the solid. `outer` are the cells that `rows` meet, `inner` the cells that the solid covers.
 RunRows maybe_beyond(const RunRows& rows, const RowBitmask& outer, const RowBitmask& inner, double pitches) {
     RowBitmask suspected = outer;
     suspected.subtract_dilated(inner, inner_disc(pitches * run_unit, run_unit));
     return suspected.clip(rows, suspected.lattice().margin_lines);
 }
 
-/// The runs of those components of a layer that are chosen.
+/// Returns the runs of the chosen components of a layer.
 RunRows rows_of(const RunRows& rows, const LabelledLayer& labelled, const std::vector<std::uint8_t>& chosen) {
     RunRows out;
     std::size_t i = 0;
@@ -102,7 +104,7 @@ RunRows rows_of(const RunRows& rows, const LabelledLayer& labelled, const std::v
     return out;
 }
 
-/// Without the pieces that are smaller than `least`, mm.
+/// Returns the rows without pieces whose diagonal is shorter than `least` mm.
 RunRows large_pieces(RunRows rows, double least, const CheckGrid& grid) {
     if (rows.runs().empty()) return rows;
     const LabelledLayer labelled = label_layer(rows, 0, Growth{});
@@ -153,10 +155,10 @@ void OverhangCheck::add(LayerFootprint layer, LayerCells cells, const LabelledLa
     if (below_.size() > std::max(slope_layers_, support_layers_)) below_.pop_front();
 }
 
-/// Tells of what hangs beside islands; `next` is to hold what of it may.
+/// Finds and reports overhangs and long bridges, apart from islands. Stores the excused regions in `next`.
 void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitmask& outer,
                                      const RunRows& islands, Below& next, int index) {
-    // Rows see a border up to a pitch late.
+    // Sampled by rows, a border may seem up to a pitch farther in.
     const Below& below = below_.back();
     const RunRows out =
         beyond(maybe_beyond(layer.part, outer, *below.inner, step_ + 1), below.rows.part, step_ + 1);
@@ -167,7 +169,7 @@ void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitma
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
-/// The pieces of the part that nothing holds.
+/// Returns the islands of a layer and adds them to the faults.
 RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledLayer& printed,
                                     const RowsIn& rows_in, int index) {
     std::vector<std::uint8_t> floats(printed.components.size(), 1);
@@ -190,14 +192,14 @@ RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledL
     return floating;
 }
 
-/// What went out further over several layers than it may, but for what lies above things that may hang.
+/// Returns the points that stand out too far over several layers, except those above regions that may hang.
 RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& outer,
                                  const RunRows& hangs) const {
     RunRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
     const std::size_t first = below_.size() - slope_layers_;
     const double far = static_cast<double>(slope_layers_) * step_ + 1;
-    // Parts of small pieces are small: they need not be looked at further.
+    // Parts of small pieces are small: no need to test them.
     const auto large = [&](const RunRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
     const Below& lowest = below_[first];
     std::optional<RowBitmask> anew;
@@ -211,11 +213,12 @@ RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& 
     for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
     if (steep.runs().empty()) return none;
     steep = beyond(large(steep), lowest.rows.part, far);
-    // What supports hold is looked up last, being the dearest.
+    // The test for supports is the dearest, so it comes last.
     return large(supports_.unheld(large(steep)));
 }
 
-/// The runs of regions that cannot be bridged at all; those whose bridges are too long become faults.
+/// Returns the runs of regions that cannot be bridged at all. Regions whose bridges are too long become
+/// faults.
 RunRows OverhangCheck::judge_regions(const LayerFootprint& layer, const RunRows& hanging, int index) {
     if (large_pieces(hanging, limits_.free_stretch, grid_).runs().empty()) return empty_rows(hanging.lines());
     std::vector<PlacedRun> bad;
@@ -243,7 +246,8 @@ RunRows OverhangCheck::judge_regions(const LayerFootprint& layer, const RunRows&
     return out;
 }
 
-/// What stands out over the layer below about what was found: from layer to layer that hangs together.
+/// Extends `found` to all points nearby that stand out over the layer below, so that faults are connected
+/// from layer to layer.
 RunRows OverhangCheck::standing_out(const LayerFootprint& layer, const RunRows& found) const {
     if (found.runs().empty()) return found;
     const double reach = 2 * step_ + 2;

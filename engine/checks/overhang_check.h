@@ -11,32 +11,33 @@
 
 namespace lamella {
 
-/// The rows of a layer, as far as the next ones are compared with them.
+/// The rows of a layer that the next layers are compared with.
 struct LayerFootprint {
     RunRows part;
-    RunRows supports;            ///< empty rows where there are none
-    RunRows part_with_supports;  ///< nothing where there are none
+    RunRows supports;            ///< empty rows if there are no supports
+    RunRows part_with_supports;  ///< the union of both; without lines if there are no supports
 
     const RunRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
 };
 
-/// What a layer prints, in the rows of any band.
+/// Returns the printed solid of a layer, part and supports, in the rows of any band.
 using RowsIn = std::function<RunRows(const RowBand&)>;
 
-/// Compares each layer with those below it; the first one lies on the bed.
+/// Compares each layer with the layers below it. The first layer lies on the bed.
 ///
-/// An island is a piece of a layer that touches nothing of the layer below, nor a support within the gap that
-/// supports keep; one that a single row sees is looked at in closer rows first. A region hangs where it
-/// stands out by more than `overhang` and a pitch over the layer below; slopes are followed over several
-/// layers, so that one is found that is steeper by a quarter than what is allowed (its tangent). What hangs
-/// is excused where it is smaller than `free_stretch`, or where one direction leads everywhere from hold to
-/// hold within the length of a bridge.
+/// An island is a piece of a layer that touches neither the layer below nor a support within the gap that
+/// supports keep. A piece that only one row meets is sampled in closer rows first.
+///
+/// A region hangs if it stands out over the layer below by more than `overhang` and a pitch. Slopes are
+/// followed over several layers, so that a slope is found if its tangent exceeds the limit by a quarter. A
+/// hanging region is excused if it is smaller than `free_stretch`, or if in one direction all bridges across
+/// it are supported at both ends and no longer than the limit.
 class OverhangCheck {
   public:
     OverhangCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
 
-    /// `cells` are those of the part, on one lattice for all layers; `printed` is what the layer prints,
-    /// labelled without growth, and `rows_in` that in other bands.
+    /// Adds the next layer. `cells` are the cells of the part, on one lattice for all layers. `printed` is
+    /// the printed solid (part and supports), labelled without growth; `rows_in` returns it in other bands.
     void add(LayerFootprint layer, LayerCells cells, const LabelledLayer& printed, const RowsIn& rows_in,
              int index);
     void finish();
@@ -46,11 +47,11 @@ class OverhangCheck {
     const FaultList& bridges() const { return bridges_; }
 
   private:
-    /// A layer below and what hung in it and may, or is told of as an island.
+    /// A layer below the current one.
     struct Below {
         LayerFootprint rows;
-        RunRows hung;
-        std::optional<RowBitmask> inner;  // by the part; of older layers only where there is memory to spare
+        RunRows hung;                     // regions that hung and were excused, and islands
+        std::optional<RowBitmask> inner;  // cells of the part; dropped for older layers if memory is short
     };
     void follow_overhangs(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& islands,
                           Below& next, int index);
@@ -63,10 +64,10 @@ class OverhangCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
-    bool follows_overhangs_;      // or nothing but islands
-    double step_;                 // by which a layer may stand out, pitches
-    std::size_t slope_layers_;    // over which a slope is followed
-    std::size_t support_layers_;  // back, whose supports an island may stand on
+    bool follows_overhangs_;      // false: looks for islands only
+    double step_;                 // allowed overhang from layer to layer, pitches
+    std::size_t slope_layers_;    // number of layers over which a slope is followed
+    std::size_t support_layers_;  // number of layers below whose supports may carry an island
     std::deque<Below> below_;     // newest last
     SupportHold supports_;
     StreamingComponents hanging_;

@@ -1,4 +1,4 @@
-// Faults that reach over several layers.
+// StreamingFaults: joins faulty runs of consecutive layers to faults.
 #pragma once
 
 #include <limits>
@@ -11,13 +11,13 @@
 
 namespace lamella {
 
-/// Faults that reach over several layers, from the rows that come of each. Those whose bounds have a shorter
-/// diagonal than `least`, mm, are none.
+/// Joins the faulty rows of a stream of layers to faults across layers. Ignores those whose bounds have a
+/// diagonal shorter than `least` mm. Keeps the `most` largest.
 class StreamingFaults {
   public:
     StreamingFaults(const CheckGrid& grid, double least, std::size_t most)
         : StreamingFaults(grid, {}, std::numeric_limits<int>::max(), least, most) {}
-    /// Of rows and layers of which some are looked at; layers there are so many.
+    /// For subsampled rows and layers; the job has `layer_count` layers in all.
     StreamingFaults(const CheckGrid& grid, const CheckSampling& sampling, int layer_count, double least,
                     std::size_t most)
         : grid_(sampling.subsample(grid)),
@@ -48,7 +48,7 @@ class StreamingFaults {
         }
         ended_.clear();
     }
-    CheckGrid grid_;  // of what is looked at
+    CheckGrid grid_;  // sampled
     CheckSampling sampling_;
     int layer_count_;
     double least_;

@@ -1,4 +1,5 @@
-// Supports and their upper ends as balls, the nearest rows first, as long as anything is left.
+// SupportHold: subtracts the reach of supports and of their upper ends, nearest rows first, until nothing is
+// left.
 #include "engine/checks/support_hold.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ double square(std::size_t rows) {
     return distance * distance;
 }
 
-/// Takes a run away from sorted ones.
+/// Subtracts a run from sorted runs.
 void take_away(const Run& taken, std::vector<Run>& from) {
     auto run = std::ranges::partition_point(from, [&](const Run& r) { return r.end <= taken.begin; });
     if (run == from.end() || run->begin >= taken.end) return;

@@ -1,4 +1,4 @@
-// Tracks which regions of a layer the supports below carry.
+// SupportHold: tracks which regions of a layer the supports below carry.
 #pragma once
 
 #include <vector>
@@ -8,41 +8,43 @@
 
 namespace lamella {
 
-/// Follows supports upward: a place is held where it lies within `spacing` of a support, at its height or
-/// above, as the overhang survey places them. Memory: the last layer's supports, and of the layers within
-/// that distance the places where supports end.
+/// Follows supports upward. A point is supported if it lies within `spacing` of a support, at the support's
+/// height or above; the overhang survey places supports by the same rule. Memory: the last layer's supports,
+/// and the upper ends of supports in the layers within that distance.
 class SupportHold {
   public:
-    /// Lengths in mm; `gap` is the height that may lie between a support and what it holds.
+    /// Lengths in mm. `gap` is the height that may lie between a support and the part it carries.
     SupportHold(const CheckGrid& grid, double spacing, double gap);
 
-    /// What of these rows of the next layer the supports so far do not hold. Quick where that is little, or
-    /// where they are held from near.
+    /// Returns the parts of `rows`, of the next layer, that no support added so far carries. Quick if few
+    /// rows are given, or if supports are near.
     RunRows unheld(const RunRows& rows) const;
-    /// The supports of the next layer.
+    /// Adds the supports of the next layer.
     void add(const RunRows& supports);
 
   private:
-    /// A run of a layer that the next one has not.
+    /// An upper end of supports: a run of `layer` that the next layer does not have.
     struct Top {
         Run run;
         std::size_t layer;
     };
-    /// Whether nothing is left of supports that might hold anything.
+    /// Returns true if no support within reach is left.
     bool empty() const;
-    /// The square of the reach of what ends so many layers down, run units^2.
+    /// Returns the squared reach, within a layer, of a support that ends `layers_down` below; run units^2,
+    /// negative if there is none.
     double weight(std::size_t layers_down) const;
-    /// Tells take(run) what a row holds of a run `about` on a line so many rows away.
+    /// Calls take(run) with the intervals that the supports of `row` carry, on a line `rows_away` from it,
+    /// near the run `about`.
     template <typename Take>
     void for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const;
 
     double spacing_, gap_;                // mm
-    double layer_height_, unit_;          // mm; a run unit
-    std::size_t layers_up_;               // over its end to which a support may hold something
-    std::vector<RoundedExtent> reaches_;  // of what goes on, so many rows away
-    RunRows last_;                        // of the last layer
+    double layer_height_, unit_;          // mm; unit_: length of a run unit
+    std::size_t layers_up_;               // number of layers above its end that a support may carry
+    std::vector<RoundedExtent> reaches_;  // reach of supports in the last layer, by rows away
+    RunRows last_;                        // supports of the last layer
     std::vector<std::vector<Top>> tops_;  // by row, the oldest first
-    std::size_t layers_ = 0;              // added
+    std::size_t layers_ = 0;              // number of layers added
 };
 
 }  // namespace lamella

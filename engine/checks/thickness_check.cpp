@@ -1,3 +1,4 @@
+// ThicknessCheck: thin features within a layer (thin_rows) or across layers (ThinFeatureSearch).
 #include "engine/checks/thickness_check.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@
 namespace lamella {
 namespace {
 
-constexpr double check_slack_share = 1.5;  // of a ball's radius; see Thinness
+constexpr double check_slack_share = 1.5;  // slack as a share of the ball's radius; see Thinness
 
-/// Of how many layers one is looked at. They need not lie closer than rows do.
+/// Returns of how many layers one is sampled. Layers need not be closer than rows.
 int layers_for(const CheckGrid& grid, double thickness_up) {
     const double apart = std::min(grid.band.across_pitch, thickness_up / pitches_in_a_thickness);
     return std::max(1, static_cast<int>(apart / grid.layer_height * (1 + 1e-9)));
@@ -24,7 +25,7 @@ ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double th
       found_(grid, sampling_, layer_count, thickness, most) {
     const SampledBall ball =
         sampled_ball(grid.band, sampling_.subsample(grid).layer_height, thickness, thickness_up);
-    // A pitch besides, by which rows see late what is opened.
+    // One more pitch of slack: sampled by rows, the border of an opening may seem up to a pitch farther in.
     measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
     row_pitch_ = ball.lattice.row_pitch;
     if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)

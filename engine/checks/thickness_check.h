@@ -1,4 +1,4 @@
-// Walls that are too thin and gaps that are too narrow.
+// ThicknessCheck: finds walls that are too thin or gaps that are too narrow.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// Rows to the least thickness that a check looks for. An odd number finds the most: walls of up to four
-/// pitches whichever way they run.
+/// The number of row pitches in the least thickness that a check looks for. An odd number finds most: with
+/// five, every wall of up to four pitches, in any direction.
 inline constexpr double pitches_in_a_thickness = 5;
 
 /// Finds walls thinner, or gaps narrower, than a ball. A limit within the layer is checked layer by layer, in
@@ -21,12 +21,13 @@ class ThicknessCheck {
     ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
                    FeatureKind medium, std::size_t most);
 
-    /// How far the lattice of cells has to reach, in run units; 0 where layers are compared with their
-    /// neighbours.
+    /// Returns how far beyond the rows the cells passed to prepare() must extend, run units. 0 if the check
+    /// is across layers.
     double reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
-    /// The faults of a layer that are known without its neighbours. Pure.
+    /// Finds the faulty points of a layer within the layer; none if the check is across layers. Pure, for use
+    /// in parallel.
     RunRows prepare(const RunRows& rows, const LayerCells& cells) const;
-    /// Takes the next layer and what `prepare` made of it.
+    /// Adds the next layer and the result of prepare() for it.
     void add(const RunRows& rows, const RunRows& prepared);
     void finish();
     const FaultList& faults() const { return found_.faults(); }
@@ -39,8 +40,8 @@ class ThicknessCheck {
     Thinness measure_;
     double row_pitch_ = 0;
     std::optional<ThinFeatureSearch> neighbours_;
-    int pushed_ = 0;  // layers
-    int next_ = 0;    // to be told of, of those looked at
+    int pushed_ = 0;  // number of layers
+    int next_ = 0;    // number of the next sampled layer to report
     StreamingFaults found_;
 };
 

@@ -1,4 +1,4 @@
-// The void of each layer joined to that of the one before.
+// VoidCheck: joins the void of each layer to that of the layer before.
 #include "engine/checks/void_check.h"
 
 #include "engine/runs/row_sets.h"

@@ -1,23 +1,24 @@
-// What becomes of the void while a solid is printed layer by layer: cavities, and suction cups.
+// VoidCheck: finds cavities and suction cups in the void of a solid that is printed layer by layer.
 #pragma once
 
 #include "engine/checks/fault_list.h"
 
 namespace lamella {
 
-/// Follows the void of layers. Runs of it that overlap or touch, in neighbouring rows and layers, corners
-/// included, are one; what reaches the border of the rows is outside.
+/// Follows the connected components of the void from layer to layer. Runs of void that overlap or touch, in
+/// neighbouring rows and layers, corners included, are connected. A component that reaches the border of the
+/// rows is outside.
 ///
-/// A cavity is void that no way leads out of, once the part is off its bed. A cup is void that was closed off
-/// while its layers were printed, between the bed, the part and the film or blade at the layer's plane, and
-/// opens later, upward or to the bed.
+/// A cavity is a component without a way out, once the part is off its bed. A cup is a component that was
+/// closed off while its layers were printed, between the bed, the part and the film or blade at the layer's
+/// plane, and that opens later, upward or to the bed.
 class VoidCheck {
   public:
-    /// Volumes, mm^3, from which each matters; how many faults of each are kept.
+    /// `min_cavity`, `min_cup`: least volumes that are faults, mm^3. `most` faults of each kind are kept.
     VoidCheck(const CheckGrid& grid, double min_cavity, double min_cup, std::size_t most)
         : grid_(grid), min_cavity_(min_cavity), min_cup_(min_cup), cavities_(most), cups_(most) {}
 
-    /// The void of a layer, labelled; its first row is outside. Pure.
+    /// Returns the labelled void of a layer. `solid` has nothing in its first row, which is outside. Pure.
     static LabelledLayer label(const RunRows& solid, const CheckGrid& grid, int layer);
     void add(LabelledLayer voids, int layer);
     void finish();

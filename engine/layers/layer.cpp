@@ -1,4 +1,4 @@
-// Layers of a job.
+// Layer: slices of a job, cut on demand.
 #include "engine/layers/layer.h"
 
 #include "engine/base/error.h"
@@ -9,7 +9,7 @@ int count_layers(double part_height, double h) {
     if (!(part_height > 0) || !std::isfinite(part_height))
         throw InputError("the part has no height to cut into layers");
     if (!(h > 0) || !std::isfinite(h)) throw InputError("the layer height must be positive");
-    // A part that is a whole number of layers high up to rounding gets no extra sliver on top.
+    // A part whose height is a whole number of layers, up to rounding, gets no extra layer on top.
     constexpr double share_of_layer = 1e-6;
     const double count = std::ceil(part_height / h - share_of_layer);
     constexpr double max_layers = 10'000'000;

@@ -1,4 +1,4 @@
-// A layer, the unit that is streamed, and the job that the layers belong to.
+// Layer: the unit that is streamed. Job: the solid that the layers belong to.
 #pragma once
 
 #include <functional>
@@ -15,62 +15,65 @@
 
 namespace lamella {
 
-/// What is printed: a solid and how it is cut into layers. Layer i spans [z0 + i h, z0 + (i + 1) h] and is
-/// cut at its mid-height.
+/// A print job: a solid and how it is cut into layers. Layer i spans [z0 + i h, z0 + (i + 1) h] and is cut at
+/// its mid-height.
 struct Job {
     std::string name = "part";   ///< short name for file names and headers
     FieldPtr part;               ///< the solid, in its own coordinates, mm
-    FieldPtr supports;           ///< what holds the part up and is taken off later; null for none
-    Box bounds;                  ///< finite bounds of part and supports; the bed lies at its lower side, mm
+    FieldPtr supports;           ///< supports, removed after the print; null for none
+    Box bounds;                  ///< finite bounds of part and supports, mm; the bed lies at its lower side
     double layer_height = 0.05;  ///< h, mm
     int layer_count = 0;
-    /// The part with its supports, seen from the front in a square of so many pixels, for files that carry
-    /// such a picture; may be empty.
+    /// Draws the part with its supports, seen from the front, in a square of `size` pixels, for files that
+    /// carry a preview. May be empty.
     std::function<Picture(int size)> picture{};
-    std::vector<std::string> notes{};  ///< lines for people, for files that carry some
-    std::string identity;  ///< hash of recipe and inputs: two jobs with equal identity make the same bytes
+    std::vector<std::string> notes{};  ///< lines of text for people, for files that carry comments
+    std::string identity;  ///< hash of recipe and inputs; jobs of equal identity produce the same bytes
 
     double z0() const { return bounds.lo.z; }
     /// Height of the cutting plane of layer i, in part coordinates, mm.
     double plane(int i) const { return z0() + (i + 0.5) * layer_height; }
 };
 
-/// Number of layers of height h (mm) that a part of this height (mm) needs.
+/// Returns the number of layers of height `h` (mm) that a part of this height (mm) needs; a remainder below a
+/// millionth of a layer adds none. Throws InputError when a height is not positive and finite, or when there
+/// would be more than 10 million layers.
 int count_layers(double part_height, double h);
 
-/// One layer in flight. Pure: it depends on the job and the index alone. Used by one thread at a time.
+/// A layer in flight. Its contents depend on the job and the index alone. Used by one thread at a time.
 class Layer {
   public:
-    /// Long work on the layer ends with Interrupted when `cancel`, which may be null, asks for it.
+    /// `job` must outlive the layer. Long work on the layer throws Interrupted once `cancel` (may be null) is
+    /// set.
     Layer(const Job& job, int index, const CancelToken* cancel = nullptr);
 
     int index() const { return index_; }
     double z() const { return z_; }                  ///< cutting plane in part coordinates, mm
     double thickness() const { return thickness_; }  ///< mm
     const CancelToken* cancel() const { return cancel_; }
-    /// Height of the layer's top over the build plate, mm.
+    /// Returns the height of the layer's top above the build plate, mm.
     double top() const { return (index_ + 1) * thickness_; }
-    /// Cut when it is first asked for.
+    /// Returns the part's slice. Cut at the first call.
     const SliceField& part() const { return part_at(middle); }
-    /// Null where the job has no supports.
+    /// Returns the supports' slice; null if the job has no supports. Cut at the first call.
     const SliceField* supports() const { return supports_at(middle); }
-    /// Both cut elsewhere within the layer, at a share of its thickness: 0 its lower side, 1 its upper one.
+    /// Returns a slice at another height within the layer: `share` 0 is its lower side, 1 its upper one.
     const SliceField& part_at(double share) const;
     const SliceField* supports_at(double share) const;
 
-    /// Lets these lines of the part and its supports be kept when a back-end goes through all that their
-    /// numbers count, so that another one need not ask for them again.
+    /// Asks for the lines of `wanted` to be cached, of part and supports, when a back-end goes through all
+    /// lines of the band anyway. Another back-end can then reuse them.
     void cache_lines(const RowBand& wanted) const;
-    /// What keeps lines of a slice, for whoever goes through it; empty where none are wanted.
+    /// Returns the caches that a back-end going through `slice` should fill; empty if no lines are wanted.
     std::span<LineCache> lines_to_cache(const SliceField& slice) const;
-    /// The lines of a slice that were kept; null where they were not.
+    /// Returns the cached lines of a slice; null if they were not cached.
     const RunRows* kept_lines(const SliceField& slice, const RowBand& wanted) const;
 
     void runs(const RowBand& band, RunRows& out) const { part().runs(band, scratch_, out); }
     std::vector<Contour> contours(double tolerance) const {
         return trace_contours(part(), tolerance, scratch_);
     }
-    /// Empty where there are no supports.
+    /// Returns no contours if there are no supports.
     std::vector<Contour> support_contours(double tolerance) const {
         return supports() ? trace_contours(*supports(), tolerance, scratch_) : std::vector<Contour>();
     }

@@ -1,4 +1,5 @@
-// The pipeline of a stream, by oneTBB.
+// Layer stream: a pipeline that issues indices in order, renders layers in parallel and writes products in
+// order.
 #include "engine/layers/layer_stream.h"
 
 #include <oneapi/tbb/global_control.h>
@@ -15,16 +16,16 @@
 namespace lamella {
 namespace {
 
-/// A place for one layer in flight. The pipeline hands layers from thread to thread by itself; the lock makes
-/// that visible to whoever cannot see into it, such as a race detector.
+/// A slot for one layer in flight. The pipeline itself synchronises the hand-over between threads; the lock
+/// makes it visible to tools that cannot see into the pipeline, such as a race detector.
 struct Slot {
     std::mutex busy;
     std::optional<Layer> layer;
     std::unique_ptr<LayerProduct> product;
 };
 
-/// Takes and gives back every lock when the stream is left, by whichever way: what the threads did is then
-/// visible here.
+/// Locks and unlocks every mutex when the stream is left, on any path, so that a race detector sees that the
+/// threads' work happened before.
 struct Rejoin {
     std::mutex& in_order;
     std::vector<Slot>& slots;

@@ -1,4 +1,4 @@
-// LayerStream: layers computed ahead in parallel, handed to a back-end in order.
+// Layer stream: renders the layers of a job in parallel and hands them to a back-end in order.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,13 @@
 
 namespace lamella {
 
-/// How far a stream has come. Called from the writing thread, after each layer.
+/// The progress of a stream, reported from the writing thread after each layer.
 struct Progress {
     int done = 0;               ///< layers written in this run
     int total = 0;              ///< layers this run has to write
     int layer = 0;              ///< index of the layer just written
-    double volume = 0;          ///< material of the part so far, mm^3
-    double support_volume = 0;  ///< of its supports, mm^3
+    double volume = 0;          ///< volume of the part so far, mm^3
+    double support_volume = 0;  ///< volume of the supports so far, mm^3
 };
 
 /// Threads, progress and cancellation of a pass over layers.
@@ -32,13 +32,22 @@ struct StreamOptions : PassControl {
 
 struct StreamReport {
     int layers_written = 0;
-    int layers_kept = 0;        ///< found finished when resuming
-    double volume = 0;          ///< material of the part in the layers written, mm^3
-    double support_volume = 0;  ///< of its supports, mm^3
+    int layers_kept = 0;        ///< layers of the unfinished output that was resumed
+    double volume = 0;          ///< volume of the part in the layers written, mm^3
+    double support_volume = 0;  ///< volume of the supports in the layers written, mm^3
 };
 
-/// Streams the layers of a job to a back-end. Memory is bounded by the look-ahead, not by the number of
-/// layers. Throws what the back-end throws, and Interrupted when cancelled.
+/// Streams the layers of a job to a back-end.
+///
+///     Job job;
+///     job.part = make_sphere({0, 0, 0}, 10);
+///     job.bounds = job.part->bounds();
+///     job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+///     const StreamReport report = stream_layers(job, backend, {.range = {0, job.layer_count}});
+///
+/// Layers are rendered in parallel and written in order. Memory is bounded by the
+/// look-ahead, not by the number of layers. Throws whatever the back-end throws, InputError when the range is
+/// not within the job, and Interrupted when cancelled before the last layer was written.
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options);
 
 /// Streams all layers of a job through a pass that writes nothing. Throws what the pass throws, and

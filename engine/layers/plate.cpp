@@ -1,4 +1,4 @@
-// Rows of parts.
+// Plates: parts in rows, with a search for the best row length.
 #include "engine/layers/plate.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ FieldPtr moved(const FieldPtr& field, dvec3 by) {
     return by == dvec3(0) ? field : make_transform(field, glm::dmat3(1), by);
 }
 
-/// Where parts stand, from the lower left, and what they take up.
+/// The positions of parts, from the lower left, and the size of the arrangement.
 struct Rows {
     std::vector<dvec2> places;
     dvec2 size{0};
 };
 
 Rows in_rows(const std::vector<dvec2>& sizes, double gap, double length) {
-    // Rounding must not end a row that is as long as its parts.
+    // Rounding must not break a row that is exactly as long as its parts.
     constexpr double slack = 1e-9;
     Rows rows;
     dvec2 at{0};
@@ -41,7 +41,7 @@ Rows in_rows(const std::vector<dvec2>& sizes, double gap, double length) {
     return rows;
 }
 
-/// The rows that take up least of the machine's plate, or the squarest.
+/// Returns the rows that take up the least share of the machine's plate, or the squarest if it is infinite.
 Rows best_rows(const std::vector<dvec2>& sizes, double gap, dvec2 machine) {
     double longest = 0, all = 0;
     for (const dvec2 size : sizes) {

@@ -1,4 +1,4 @@
-// Several parts printed in one go: jobs side by side on a plate.
+// Plates: arranges several jobs side by side, to be printed as one.
 #pragma once
 
 #include <span>
@@ -8,17 +8,18 @@
 
 namespace lamella {
 
-/// A job and how often it stands on the plate.
+/// A job and its number of copies on the plate.
 struct PlateItem {
     Job job;
     int copies = 1;
 };
 
-/// One job with all of the parts, their beds at one height, in rows along x from the lower left on, of the
-/// length at which they take up least of the machine's plate (its size x, y in mm, infinite for none: the
-/// plate becomes about square). `gap` lies between the bounds of neighbours, mm. The first part keeps its
-/// place; a single one is returned as it is. Whether all fit is for the back-end to say. Throws InputError
-/// when layer heights differ or there are no parts.
+/// Returns one job with all parts side by side, their beds at one height. The parts stand in rows along x,
+/// beginning at the lower left. The row length is chosen so that they take up the least share of the
+/// machine's plate (`machine`: its size in x and y, mm; infinite if there is none, then the arrangement
+/// becomes about square). `gap` is the distance between the bounds of neighbours, mm. The first part keeps
+/// its place; a single part is returned as it is. Does not check whether all parts fit: the back-end does.
+/// Throws InputError when layer heights differ or there are no parts.
 Job arrange_plate(std::span<const PlateItem> items, double gap, dvec2 machine);
 
 }  // namespace lamella

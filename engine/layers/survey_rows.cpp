@@ -1,4 +1,4 @@
-// Bands of a layer, and what a stack of layers takes.
+// Survey rows: bands of a layer, and the memory accounting of a stack of layers.
 #include "engine/layers/survey_rows.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ RowBand rows_over(const Rect& rect, double pitch) {
 }
 
 RunRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch) {
-    // As many rows as hold so many lines.
+    // As many rows at a time as have about band_lines lines.
     constexpr int band_lines = 64;
     const int band_rows = std::max(1, band_lines * whole.step / whole.sub);
     RunRows all;

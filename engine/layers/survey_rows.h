@@ -1,4 +1,4 @@
-// Rows of whole layers for surveys, and the stack of them that a survey keeps as it goes.
+// Survey rows: rows of whole layers, and the stack of layers that a survey keeps.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,16 @@ namespace lamella {
 /// pitch. Throws InputError when the job's bounds are empty or infinite.
 Interval survey_pitch_range(const Job& job);
 
-/// Rows along x over a rectangle, `pitch` mm from one to the next: the first begins at its lower side, run
-/// coordinate 0 at its left one.
+/// Returns rows along x over a rectangle, `pitch` mm apart. Row 0 begins at the rectangle's lower side, run
+/// coordinate 0 at its left side.
 RowBand rows_over(const Rect& rect, double pitch);
 
-/// All rows of a band, from its first one on; the slice is asked piece by piece, so that what it works with
-/// stays in the cache.
+/// Returns all rows of a band. Evaluates the slice in smaller bands whose working set fits the cache.
 RunRows all_rows(const SliceField& slice, const RowBand& whole, Scratch& scratch);
 
-/// Throws InputError, which names the survey, where rows `pitch` mm apart do not suit a job
-/// (survey_pitch_range) or lie further apart than an outline moves by from one group of layers to the next,
-/// `step` mm.
+/// Throws InputError, naming the survey, when a row pitch of `pitch` mm does not suit the job
+/// (survey_pitch_range), or exceeds `step`, the distance by which an outline may move from one group of
+/// layers to the next, mm.
 void check_survey_pitch(const char* survey, const Job& job, double pitch, double step);
 
 /// The rows that a survey computes of one layer.
@@ -59,20 +58,21 @@ class LayerGroups {
     RunRows group_;
 };
 
-/// The rows of layers, from the lowest on. Memory: eight bytes a run and four a row, and while boxes are made
-/// of them another 48 a run; all of it is counted from the beginning.
+/// The rows of a stack of layers, lowest first. Memory: 8 bytes a run and 4 a row, and another 48 a run while
+/// boxes are made of them. All of it counts towards the limit from the beginning.
 class LayerStack {
   public:
-    /// Throws InputError as soon as more than `max_bytes` would be needed; `pitch`, mm, is for its message.
+    /// push() and replace() throw InputError when the stack would need more than `max_bytes`; `pitch` (mm) is
+    /// for the message.
     LayerStack(std::size_t max_bytes, double pitch) : max_bytes_(max_bytes), pitch_(pitch) {}
 
     std::size_t size() const { return layers_.size(); }
     const RunRows& operator[](std::size_t i) const { return layers_[i]; }
     void push(const RunRows& rows);
     void replace(std::size_t i, const RunRows& rows);
-    /// The sum of the lengths of all runs, run units.
+    /// Returns the sum of the lengths of all runs, run units.
     std::int64_t total_length() const;
-    /// Boxes as long as the runs; layer i is layer i of the grid, line l its row l.
+    /// Converts the runs to boxes: layer i becomes layer i of the grid, line l its row l.
     RunBoxes boxes(const SurveyGrid& grid) const;
 
   private:

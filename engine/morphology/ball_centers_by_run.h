@@ -10,7 +10,8 @@
 
 namespace lamella {
 
-/// Stretches of a layer's runs, found in one of them after another.
+/// The ball centres of one layer. Runs are searched one at a time, in any order; each search stores its
+/// result here.
 class BallCentersByRun {
   public:
     explicit BallCentersByRun(const RunRows& rows)
@@ -19,10 +20,10 @@ class BallCentersByRun {
             to_search_[l] = static_cast<std::uint32_t>(rows.line(l).size());
     }
 
-    /// Whether all runs of a line were searched.
+    /// Returns true if all runs of a line were searched.
     bool all_searched(std::size_t line) const { return to_search_[line] == 0; }
     bool is_searched(std::size_t run) const { return is_searched_[run] != 0; }
-    /// What was found, sorted, in a run of that line that was not searched before.
+    /// Stores the sorted centres found in run number `run`, which lies on `line` and was not searched before.
     void put(std::size_t run, std::size_t line, std::span<const Run> found) {
         is_searched_[run] = 1;
         --to_search_[line];
@@ -31,13 +32,13 @@ class BallCentersByRun {
         all.insert(std::ranges::lower_bound(all, found.front().begin, {}, &Run::begin), found.begin(),
                    found.end());
     }
-    /// All that was found in the runs of a line, sorted.
+    /// Returns all centres found so far on a line, sorted.
     std::span<const Run> in_line(std::size_t line) const { return in_lines_[line]; }
 
   private:
-    std::vector<std::uint8_t> is_searched_;  // of each run
-    std::vector<std::vector<Run>> in_lines_;
-    std::vector<std::uint32_t> to_search_;  // how many, of each line
+    std::vector<std::uint8_t> is_searched_;   // by run
+    std::vector<std::vector<Run>> in_lines_;  // centres by line
+    std::vector<std::uint32_t> to_search_;    // number of runs not yet searched, by line
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// One quarter of the ball, mirrored.
+// BallExtentTable: one quarter of the ball is computed, the others are its mirror images.
 #include "engine/morphology/ball_extents.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ double square(std::int32_t count, double pitch) {
 BallExtentTable::BallExtentTable(const LayerLattice& lattice, double weight) : weight_(weight) {
     constexpr std::size_t max_entries = std::size_t{1} << 22;
     const double radius = std::sqrt(weight);
-    // One more than there should be, in case that these are rounded down.
+    // One more than needed, in case the division rounded down.
     const std::size_t lines = lattice.lines_within(radius) + 1, layers = lattice.layers_within(radius) + 1;
     const bool fits =
         lines <= max_entries && layers <= max_entries && 4 * (lines + edge) * (layers + edge) <= max_entries;
@@ -25,7 +25,7 @@ BallExtentTable::BallExtentTable(const LayerLattice& lattice, double weight) : w
         lines_ = static_cast<std::int32_t>(lines);
         layers_ = static_cast<std::int32_t>(layers);
     } else {
-        weight_ = -1;  // that of no ball
+        weight_ = -1;  // no table
     }
     const auto rows = 2 * static_cast<std::size_t>(layers_ + edge) + 1;
     ahead_.assign(stride() * rows, none);

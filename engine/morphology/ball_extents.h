@@ -9,37 +9,40 @@
 
 namespace lamella {
 
-/// The reaches of balls of one radius, run units: a table of lines and layers, wide enough to read a block of
-/// `edge` layers of as many lines wherever it lies.
+/// A lookup table of the extents of a ball, in run units, by the number of lines and layers from its centre.
+/// The table is padded so that a block of `edge` layers of `edge` lines can be read at any offset.
 class BallExtentTable {
   public:
     static constexpr std::int32_t edge = 8;
-    /// On lines beyond the ball. Less than what any line can hold, and may be added to it.
+    /// The extent on lines that the ball does not reach. Added to any run end it stays below all coordinates
+    /// and does not overflow.
     static constexpr std::int32_t none = -(1 << 30);
 
-    /// `weight` is the square of the radius, as of WeightedRun. Balls that reach very many lines get no
-    /// table.
+    /// `weight` is the squared radius, as in WeightedRun. A ball that reaches very many lines gets no table;
+    /// weight() is negative then.
     BallExtentTable(const LayerLattice& lattice, double weight);
 
-    /// Whether these are the reaches of balls of that weight.
+    /// Returns true if the table is for balls of that weight.
     bool are_of(double weight) const { return weight == weight_; }
-    /// Square of the balls' radius; negative where there is no table.
+    /// Returns the squared radius of the balls; negative if there is no table.
     double weight() const { return weight_; }
-    /// By how far ends move ahead on the lines of a block, of which the first lies so many layers above and
-    /// lines behind the ball's. Layers are `stride()` apart.
+    /// Returns the extents by which run ends grow forward on the lines of a block. The block's first line
+    /// lies `layers` above and `lines` behind the ball's centre. Entries of neighbouring lines follow each
+    /// other, those of neighbouring layers are `stride()` apart.
     const std::int32_t* ahead(std::int32_t layers, std::int32_t lines) const {
         return ahead_.data() + place(layers, lines);
     }
-    /// By how far begins move back, so.
+    /// Returns the extents by which run begins grow backward, in the same order.
     const std::int32_t* back(std::int32_t layers, std::int32_t lines) const {
         return back_.data() + place(layers, lines);
     }
-    /// So many lines, or as many as the table has: beyond all balls. Up to these, reaches lie one after
-    /// another.
+    /// Clamps a number of lines to the table. Entries at the clamped number are beyond the ball if the
+    /// original ones are. A clamped number can be added to the pointer that ahead() or back() returns for 0
+    /// lines.
     std::int32_t clamped_lines(std::int32_t lines) const {
         return std::clamp(lines, -lines_ - edge, lines_ + 1);
     }
-    /// Balls reach no line that is so many lines away.
+    /// Returns the smallest tabulated number of lines that is out of the ball's reach.
     std::int32_t lines_away() const { return lines_ + 1; }
     std::size_t stride() const { return 2 * static_cast<std::size_t>(lines_ + edge) + 1; }
 
@@ -51,7 +54,7 @@ class BallExtentTable {
     }
 
     double weight_;
-    std::int32_t layers_ = 0, lines_ = 0;  // that it reaches to either side
+    std::int32_t layers_ = 0, lines_ = 0;  // that the ball reaches to either side, rounded up
     std::vector<std::int32_t> ahead_, back_;
 };
 

@@ -11,16 +11,18 @@ namespace lamella {
 
 /// A rectangle of neighbouring lines of neighbouring layers.
 struct LineBlock {
-    std::int32_t layer, line;    ///< the first
-    std::int32_t layers, lines;  ///< how many
+    std::int32_t layer, line;    ///< first layer and line
+    std::int32_t layers, lines;  ///< number of layers and lines
 };
 
-/// How far a run reaches on lines of a block, run units.
+/// Bounds, over all lines of a block, on how far a dilated run extends beyond its own ends; run units.
 struct ExtentBounds {
-    std::int32_t least, most;  ///< negative where not all or none are reached
+    /// Lower bound: negative unless the ball reaches every line. Upper bound: negative if it reaches no line.
+    std::int32_t least, most;
 };
 
-/// How far away a line or layer lies of `count` of them.
+/// The least and the greatest distance, in lines or layers, from number `at` to the `count` numbers from
+/// `first` on.
 struct LinesAway {
     std::int32_t least, most;
     LinesAway(std::int32_t at, std::int32_t first, std::int32_t count)
@@ -28,15 +30,16 @@ struct LinesAway {
           most(std::max(at - first, first + count - 1 - at)) {}
 };
 
-/// How far runs reach on the lines of a block, line by line of them: looked up for balls of the table,
-/// calculated for others.
+/// Extent bounds of the runs around a block, queried one source line at a time. They are looked up for balls
+/// of the table's radius and calculated for all others.
 class BlockExtents {
   public:
     /// `table` outlives this.
     BlockExtents(const LayerLattice& lattice, const BallExtentTable& table, const LineBlock& block)
         : lattice_(lattice), table_(table), block_(block) {}
 
-    /// Turns to the runs of a line; lines of a layer had better follow each other.
+    /// Selects the line that contains the runs of the next queries. The lookup of the layer is cached, so
+    /// visit all lines of a layer before those of another.
     void set_source_line(std::int32_t layer, std::int32_t line) {
         if (layer != layer_) {
             layer_ = layer;
@@ -49,7 +52,7 @@ class BlockExtents {
         max_of_table_ = ahead_[std::min(across_.least, table_.lines_away())] + 1;
         weight_ = -1;
     }
-    /// Of a run of that line.
+    /// Returns the extent bounds of a run of the selected line with that squared radius.
     ExtentBounds bounds(double weight) {
         if (table_.are_of(weight)) return {min_of_table_, max_of_table_};
         if (weight != weight_) calculate(weight);
@@ -59,7 +62,7 @@ class BlockExtents {
   private:
     void calculate(double weight) {
         weight_ = weight;
-        constexpr double rounding_margin = 1;  // run units^2; far more than rounding makes
+        constexpr double rounding_margin = 1;  // run units^2; far more than the rounding error
         const auto square = [](std::int32_t count, double pitch) { return count * pitch * (count * pitch); };
         const double least = weight - rounding_margin - square(across_.most, lattice_.row_pitch) -
                              square(up_.most, lattice_.layer_pitch);
@@ -73,7 +76,7 @@ class BlockExtents {
     const BallExtentTable& table_;
     LineBlock block_;
     std::int32_t layer_ = -1;
-    const std::int32_t *back_ = nullptr, *ahead_ = nullptr;  // of the layer
+    const std::int32_t *back_ = nullptr, *ahead_ = nullptr;  // table rows of the selected layer
     LinesAway up_{0, 0, 1}, across_{0, 0, 1};
     double weight_ = -1;
     std::int32_t min_of_table_ = -1, max_of_table_ = -1;

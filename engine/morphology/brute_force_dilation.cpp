@@ -1,4 +1,4 @@
-// Layer after layer, all runs of all lines in reach.
+// BruteForceDilation: layer by layer, adds all runs of all lines within reach of the block.
 #include "engine/morphology/brute_force_dilation.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ BruteForceDilation::BruteForceDilation(const LayerLattice& lattice, const BallEx
         const double left = max_weight - square(up, lattice.layer_pitch);
         if (left < 0) break;
         std::size_t lines = lattice.lines_within(std::sqrt(left));
-        if (left >= square(lines + 1, lattice.row_pitch)) ++lines;  // it was rounded down
+        if (left >= square(lines + 1, lattice.row_pitch)) ++lines;  // the division rounded down
         beside_.push_back(lines);
     }
 }

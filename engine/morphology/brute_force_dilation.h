@@ -1,4 +1,4 @@
-// BruteForceDilation: dilates a few neighbouring lines by looking at every run around them.
+// BruteForceDilation: dilates a few neighbouring lines by uniting every run within reach of them.
 #pragma once
 
 #include <span>
@@ -8,24 +8,26 @@
 
 namespace lamella {
 
-/// Grows small blocks of lines by brute force: the cost is that of all runs that a ball reaches. For small
-/// balls that is less than it takes to find out which of them make no difference (PrunedDilation).
+/// Dilation of small blocks of lines by brute force. The cost is proportional to the number of runs within
+/// reach of the ball. For small balls that is cheaper than to find and drop the hidden runs (PrunedDilation).
 class BruteForceDilation {
   public:
-    /// For blocks of so many layers, at most, of SimdRunUnion::edge lines. What is grown is clipped to
-    /// `extent`. `reaches` are those of most runs, and outlive this; `max_weight` bounds the weights of all.
+    /// Blocks have at most `max_layers` layers and SimdRunUnion::edge lines. Dilated runs are clipped to
+    /// `extent`. `reaches` should be the table of the most frequent radius and must outlive this object.
+    /// `max_weight` is an upper bound of all weights.
     BruteForceDilation(const LayerLattice& lattice, const BallExtentTable& reaches, Run extent,
                        std::int32_t max_layers, double max_weight);
 
-    /// Grows the lines of a block of a stack of layers.
+    /// Dilates the lines of one block of a stack of layers.
     void grow(const LineBlock& block, std::span<const WeightedRows* const> layers);
-    /// A grown line of the block, counted from its first.
+    /// Returns a dilated line; layer and line are counted from the block's first. Valid until the next
+    /// grow().
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
         return union_.line(layer, line);
     }
 
   private:
-    std::vector<std::size_t> beside_;  // how many lines are reached to either side, by layers away
+    std::vector<std::size_t> beside_;  // number of lines in reach to either side, by distance in layers
     SimdRunUnion union_;
 };
 

@@ -1,4 +1,4 @@
-// Several rows into one line of cells.
+// CoarseCells: several rows are marked in one line of cells.
 #include "engine/morphology/coarse_cells.h"
 
 #include "engine/runs/row_sets.h"

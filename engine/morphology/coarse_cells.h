@@ -5,17 +5,18 @@
 
 namespace lamella {
 
-/// The cells, `scale` pitches long and as many rows wide, that hold some of a layer and some of the void.
+/// Two bit masks of a layer: the cells that meet the solid and the cells that meet the void. A cell is
+/// `scale` pixels long and `scale` rows wide. A cell may be in both masks.
 class CoarseCells {
   public:
-    /// Cells are known up to `reach` beside the rows, run units.
+    /// The lattice covers the rows and what lies within `reach` (run units) of them.
     CoarseCells(const RunRows& rows, std::int32_t scale, double reach, double row_pitch);
 
     const RowBitmask& solid() const { return solid_; }
     const RowBitmask& voids() const { return void_; }
-    /// Rows that are known on either side of the layer's.
+    /// Returns the number of rows that the lattice has before the layer's first row.
     std::size_t margin() const { return solid_.lattice().margin_lines * static_cast<std::size_t>(scale_); }
-    /// Cells of the lattice as runs of the layer's rows and the margin's, run units.
+    /// Converts cells to runs (run units) on the layer's rows, with margin() rows before and behind them.
     RunRows rows_of(const RowBitmask& cells) const;
 
   private:

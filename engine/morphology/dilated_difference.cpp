@@ -1,4 +1,4 @@
-// Line by line, the nearest ones first, as long as anything is left.
+// DilatedDifference: subtracts line after line, nearest first, and stops as soon as nothing is left.
 #include "engine/morphology/dilated_difference.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-/// Whether rows have a run from row `first` to row `last`; both may lie beside them.
+/// Returns true if any of rows [first, last] has a run. Both may lie outside the rows.
 bool any_run(const RunRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
     const auto count = static_cast<std::ptrdiff_t>(rows.lines());
     const std::span<const Run> lowest =
@@ -19,7 +19,8 @@ bool any_run(const RunRows& rows, std::ptrdiff_t first, std::ptrdiff_t last) {
     return lowest.data() != highest.data() + highest.size();
 }
 
-/// Appends lines [first, last) of what is left. layer_at(k) is what is grown k layers on, or null.
+/// Appends lines [first, last) of the difference. layer_at(k) returns the subtracted layer k layers above, or
+/// null.
 template <typename LayerAt>
 void append_remainder(const RunRows& from, LayerAt layer_at, const BallLines& ball, std::size_t first,
                       std::size_t last, RunRows& out) {
@@ -31,7 +32,7 @@ void append_remainder(const RunRows& from, LayerAt layer_at, const BallLines& ba
         }
         return false;
     };
-    std::size_t same = first;  // from there on lines stay as they are
+    std::size_t same = first;  // lines from here to l are copied unchanged
     for (std::size_t l = from.line_with_runs(first); l < last; l = from.line_with_runs(l + 1)) {
         if (!anything_near(static_cast<std::ptrdiff_t>(l))) continue;
         out.append_lines(from, same, l - same);

@@ -1,5 +1,5 @@
-// What is left of layers when a ball about each point of others is taken away: as when those are grown first,
-// at the cost of what is left. Quick for balls that reach few lines, and where little is left.
+// DilatedDifference: subtracts the dilation of one stack of layers from another, without building the
+// dilation. The cost is that of the difference: quick if the ball reaches few lines, or if little is left.
 #pragma once
 
 #include <deque>
@@ -10,20 +10,23 @@
 
 namespace lamella {
 
-/// What of `a` is left when a disc of `radius` about each point of `b`, rows of equal number, is taken away.
+/// Computes `a` minus the dilation of `b` by a disc of `radius` (run units, as `row_pitch`). Throws
+/// FaultError when `a` and `b` have different numbers of rows.
 void subtract_dilated(const RunRows& a, const RunRows& b, double radius, double row_pitch, RunRows& out);
 
-/// The lines that a ball reaches from the middle one, and how far along each; the nearest first.
+/// The lines that a ball reaches, and its extent along each of them. Sorted by distance from the ball's
+/// centre line, nearest first.
 class BallLines {
   public:
     struct Line {
-        int layer, row;  ///< from the middle one
+        int layer, row;  ///< offset from the centre line
         RoundedExtent reach;
     };
     BallLines(const LayerLattice& lattice, double radius);
     const std::vector<Line>& lines() const { return lines_; }
-    /// How many layers and rows it reaches to either side.
+    /// Returns how many layers the ball reaches up and down.
     int layers() const { return layers_; }
+    /// Returns how many rows the ball reaches to either side.
     int rows() const { return rows_; }
 
   private:
@@ -31,14 +34,15 @@ class BallLines {
     std::vector<Line> lines_;
 };
 
-/// The rows of layers about one, from as many below it as a ball reaches to as many above; null where there
-/// is none.
+/// The layers around a middle one: BallLines::layers() below it, itself, and as many above. Null where there
+/// is no layer.
 using LayersAbout = std::span<const RunRows* const>;
 
-/// What of single runs of the middle layer is left when a ball about each point of layers is taken away.
+/// Difference of single runs and a dilation. Keeps its buffers from call to call.
 class DilatedDifference {
   public:
-    /// What is left of a run of that line; valid until the next call.
+    /// Returns the part of `run`, on line `line` of the middle layer, that lies outside the dilation of
+    /// `taken` by the ball. Valid until the next call.
     std::span<const Run> difference(const Run& run, std::size_t line, LayersAbout taken,
                                     const BallLines& ball);
 
@@ -46,20 +50,21 @@ class DilatedDifference {
     RunDifference left_;
 };
 
-/// The same of layers that stream by, with balls that reach from layer to layer. What lies beside the lines
-/// and layers given takes nothing away. Layers come out in the order in which they went in, once all are
-/// known that reach them.
+/// Dilated difference of two streams of layers, by a ball that extends across layers. Outside the given lines
+/// and layers nothing is dilated or subtracted. Layers come out in the order in which they were pushed, each
+/// as soon as all layers within reach of it are known.
 class DilatedDifferenceStream {
   public:
     DilatedDifferenceStream(const LayerLattice& lattice, double radius)
         : ball_(lattice, radius), reach_(lattice.layers_within(radius)) {}
 
-    /// Adds the next layer of what something is taken from, and of what is grown and taken: rows of equal
-    /// number.
+    /// Adds the next layer: the result is `from` minus the dilation of `taken`. Throws FaultError when the
+    /// two have different numbers of rows.
     void push(RunRows from, RunRows taken);
-    /// No more layers will come.
+    /// Declares that no more layers follow.
     void finish() { finished_ = true; }
-    /// Takes the next layer. False where further ones have to be pushed first, or there are no more.
+    /// Returns true and fills `out` with the next layer; false if more layers must be pushed first, or all
+    /// have come out.
     bool pop(RunRows& out);
 
   private:
@@ -67,10 +72,10 @@ class DilatedDifferenceStream {
         RunRows from, taken;
     };
     BallLines ball_;
-    std::size_t reach_;  // layers
+    std::size_t reach_;  // of the ball to either side, layers
     bool finished_ = false;
-    std::deque<Pair> layers_;  // those that may still reach, and those to come out
-    std::size_t past_ = 0;     // how many of them came out
+    std::deque<Pair> layers_;  // layers that have not come out, preceded by those that still reach them
+    std::size_t past_ = 0;     // how many of layers_ have come out
 };
 
 }  // namespace lamella

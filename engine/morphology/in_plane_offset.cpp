@@ -1,4 +1,5 @@
-// Discs about the crossings of a section's border with lattice lines, put to the section or taken from it.
+// In-plane offsets: discs centred where lattice lines cross a section's border, added to the section or
+// subtracted from it.
 #include "engine/morphology/in_plane_offset.h"
 
 #include "engine/base/error.h"
@@ -11,8 +12,8 @@ namespace {
 
 constexpr int lines_per_strip = 64;
 
-/// The points in a rectangle where lattice lines cross the border of the section, and some around it. Ends of
-/// runs that are clipped lie outside the rectangle.
+/// Returns the points of a rectangle, and some around it, where lattice lines cross the section's border. Run
+/// ends that only come from clipping lie outside the rectangle.
 std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, double pitch,
                                  Scratch& scratch) {
     std::vector<dvec2> points;
@@ -41,8 +42,8 @@ std::vector<dvec2> border_points(const SliceField& section, const Rect& rect, do
     return points;
 }
 
-/// The nearest run coordinate, halves upward, as round_run gives it, in operations that a loop of which can
-/// be done several at a time.
+/// Rounds to the nearest run coordinate, halves upward, with the same result as round_run. Uses only
+/// operations that compilers vectorise.
 std::int32_t rounded(double u) {
     constexpr double limit = 1 << 30;
     const double up = std::min(std::max(u, -limit), limit) + 0.5;
@@ -61,8 +62,8 @@ class DiscRows {
     void collect(dvec2 center, RunCollector& collector) const {
         const int along = band_.axis == Axis::x ? 0 : 1;
         const double across = center[1 - along], middle = band_.coordinate(center[along]);
-        // Whether a line is met must not depend on rounding that differs between bands: lines a little
-        // farther off are asked too.
+        // Rounding differs between bands and must not decide whether the disc meets a line: the range is
+        // widened a little.
         constexpr double margin = 1e-6;
         const LineRange lines = lines_across(band_, {across - radius_ - margin, across + radius_ + margin});
         const int count = lines.last - lines.first;
@@ -81,7 +82,7 @@ class DiscRows {
   private:
     const RowBand& band_;
     double radius_, units_per_mm_;
-    std::vector<double> positions_;  ///< of the lines, mm across
+    std::vector<double> positions_;  ///< of the lines, across them, mm
 };
 
 class OffsetSlice : public SliceField {
@@ -107,7 +108,7 @@ class OffsetSlice : public SliceField {
 
     Interval range(const Rect& r) const override { return moved(section_.range(r)); }
 
-    /// Up to the radius beyond a disc, its value is the distance from it; farther off it is the radius.
+    /// The value of a disc is the signed distance to it, clamped to the radius.
     void sample(const Tile& tile, std::span<float> out) const override {
         section_.sample(tile, out);
         std::vector<double> nearest(out.size(), 4 * radius_ * radius_);
@@ -130,8 +131,8 @@ class OffsetSlice : public SliceField {
     }
 
   private:
-    /// The value where the section has value v and the nearest disc, one with values from -radius to radius,
-    /// has `disc`. A v that is no number is outside.
+    /// Combines the section's value v with the value `disc` of the nearest disc (-radius to radius). A NaN v
+    /// counts as outside.
     double moved_value(double v, double disc) const {
         if (by_ > 0) return std::isnan(v) ? (disc < 0 ? disc : v) : std::min(v, disc);
         return std::isnan(v) ? v : std::max(v, -disc);
@@ -141,7 +142,7 @@ class OffsetSlice : public SliceField {
         return {std::max(v.lo, -radius_), std::max(v.hi, radius_)};
     }
 
-    /// Calls visit(k, squared distance) for the points of a tile about a place.
+    /// Calls visit(k, squared distance) for the sample points of a tile near `place`.
     template <typename Visit>
     static void visit_near(const Tile& tile, dvec2 place, double reach, const Visit& visit) {
         const auto from = [&](int axis, int count) {

@@ -7,22 +7,25 @@
 
 namespace lamella {
 
-/// How far the outline is moved in the plane at each height.
+/// The distance by which a solid's outline is moved within the plane, as a function of height.
 struct OutlineOffset {
-    std::function<double(double)> at;  ///< from a height to a distance, mm; > 0 grows, < 0 shrinks
-    Interval limits;                   ///< encloses all these distances; finite
+    std::function<double(double)> at;  ///< maps a height to a distance, mm; > 0 dilates, < 0 erodes
+    Interval limits;                   ///< encloses all distances that `at` returns; finite
 };
 
-/// The solid with the outline of its section at every height moved by offset.at(z): a section grows by a disc
-/// of that radius (convex corners become round), or loses all that a disc of that radius about a point of its
-/// border covers (convex corners stay sharp, what is thinner than the disc vanishes). Sections are never
-/// mixed, so thin layers and flat roofs stay.
+/// Returns the solid with its section at every height z moved by offset.at(z). A positive distance dilates
+/// the section by a disc of that radius: convex corners become round. A negative distance removes all points
+/// that a disc of that radius about a point of the section's border covers: convex corners stay sharp, walls
+/// thinner than the disc's diameter vanish. Every section is offset by itself, so thin layers and flat roofs
+/// survive.
 ///
-/// Discs stand where the lines of a square lattice of pitch `tolerance` (mm, > 0), fixed in the plane, cross
-/// the section's border. Straight borders move by the distance asked for less at most tolerance^2 / (4
-/// distance); at sharp corners the error is below `tolerance`. What lies between the lines of the lattice is
-/// not moved. Sections that are not moved pass through untouched. InputError for a missing solid, limits that
-/// are not finite and a tolerance that is not positive.
+/// The discs are centred where the lines of a square lattice of pitch `tolerance` (mm, > 0), fixed in the
+/// plane, cross the section's border. A straight border moves by the distance, less at most tolerance^2 / (4
+/// distance). At sharp corners the error is below `tolerance`. A border that lies between lattice lines and
+/// crosses none does not move. A section whose distance is 0 is passed on unchanged.
+///
+/// Throws InputError when the solid or the function is missing, the limits are not finite, or the tolerance
+/// is not positive and finite.
 FieldPtr make_in_plane_offset(FieldPtr solid, OutlineOffset offset, double tolerance);
 
 }  // namespace lamella

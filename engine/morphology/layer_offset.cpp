@@ -1,4 +1,4 @@
-// Blocks of lines, strip by strip; the void in place of the solid.
+// Dilation in blocks of lines, strips of them in parallel. Erosion dilates the void.
 #include "engine/morphology/layer_offset.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -16,10 +16,10 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t min_block = 16;  // layers that are finished together
+constexpr std::size_t min_block = 16;  // least number of layers dilated together
 
-/// Where a ball reaches so few lines, all runs on them are looked at (BruteForceDilation): about where foams
-/// and capsules were measured to take as long in larger blocks. Balls of eleven lines.
+/// Balls that reach at most so many lines are dilated by brute force (BruteForceDilation). Measured on foams
+/// and capsules, PrunedDilation breaks even about here: at balls with a radius of eleven lines.
 constexpr std::size_t max_lines_by_all = 400;
 
 using LayerStack = std::vector<const WeightedRows*>;
@@ -30,7 +30,7 @@ double max_weight_of(const LayerStack& stack) {
     return most;
 }
 
-/// Where what is grown from these layers can begin and end, runs without an end apart.
+/// Returns the extent of the dilated layers along the lines. Unbounded run ends are ignored.
 Run extent_of(const LayerStack& stack) {
     Run extent{unbounded, -unbounded};
     for (const WeightedRows* layer : stack) {
@@ -47,16 +47,17 @@ Run extent_of(const LayerStack& stack) {
     return {extent.begin - reach, extent.end + reach};
 }
 
-/// Lines along the edge of blocks that are best grown together, as measured on foams, gyroids and capsules:
-/// those of SimdRunUnion as long as the search for what is near does not outweigh the rest, then larger ones,
-/// which are halved.
+/// Returns the fastest edge length of blocks, in lines and layers, as measured on foams, gyroids and
+/// capsules. For moderate balls it is at most that of SimdRunUnion. For large balls the search for runs in
+/// reach dominates, and larger blocks, which are halved then, share it.
 std::size_t edge_of_blocks(const LayerLattice& lattice, double reach) {
     const std::size_t lines = lattice.lines_within(reach);
     if (lines < 32) return std::clamp<std::size_t>(std::bit_floor(lines), 1, SimdRunUnion::edge);
     return lines < 48 ? 16 : 32;
 }
 
-/// How many lines a ball reaches in a stack of so many layers.
+/// Returns how many lines a ball reaches in a stack of `layers` layers. Stops counting above
+/// max_lines_by_all.
 std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_t layers) {
     const double reach = std::sqrt(weight);
     const std::size_t up_to = std::min(lattice.layers_within(reach), layers - 1);
@@ -68,13 +69,13 @@ std::size_t lines_reached(const LayerLattice& lattice, double weight, std::size_
     return lines;
 }
 
-/// Whether all runs that so large a ball reaches in a stack of so many layers had better be looked at.
+/// Returns true if brute force is faster for a ball of that weight in a stack of `layers` layers.
 bool looks_at_all(const LayerLattice& lattice, const BallExtentTable& reaches, double weight,
                   std::size_t layers) {
     return reaches.weight() >= 0 && lines_reached(lattice, weight, layers) <= max_lines_by_all;
 }
 
-/// Appends a grown line; what goes on without an end reaches the ends of the extent.
+/// Appends a dilated line. Runs that reach an end of the extent are unbounded there.
 void append_line(std::span<const Run> grown, Run extent, RunRows& out) {
     for (const Run& run : grown) {
         out.push(run.begin == extent.begin ? -unbounded : run.begin,
@@ -83,7 +84,7 @@ void append_line(std::span<const Run> grown, Run extent, RunRows& out) {
     out.end_line();
 }
 
-/// The lines of a block one after another.
+/// Appends the dilated lines of a block to its layers.
 template <typename Grower>
 void append_block(const Grower& grown, const LineBlock& block, Run extent, std::span<RunRows> layers) {
     for (std::int32_t z = 0; z < block.layers; ++z) {
@@ -92,7 +93,7 @@ void append_block(const Grower& grown, const LineBlock& block, Run extent, std::
     }
 }
 
-/// Lines that are worked on by one thread at once.
+/// Lines of one task of a thread.
 constexpr std::size_t strip_lines = 32;
 
 std::size_t strips_of(const LayerLattice& lattice) { return (lattice.lines + strip_lines - 1) / strip_lines; }
@@ -107,7 +108,7 @@ std::vector<RunRows> side_by_side(const Strips& strips, std::size_t layer_count)
     return layers;
 }
 
-/// Grows layers [from, from + count) of a stack, by blocks of `high` layers of `wide` lines.
+/// Dilates layers [from, from + count) of a stack, in blocks of `high` layers of `wide` lines.
 template <typename Grower>
 std::vector<RunRows> grow_blocks(const LayerStack& stack, const LayerLattice& lattice,
                                  const BallExtentTable& reaches, std::size_t high, std::size_t wide,
@@ -136,13 +137,13 @@ std::vector<RunRows> grow_blocks(const LayerStack& stack, const LayerLattice& la
     return side_by_side(strips, count);
 }
 
-/// The same in whichever way is faster.
+/// Dilates layers [from, from + count) of a stack with the faster of the two engines.
 std::vector<RunRows> grow_within(const LayerStack& stack, const LayerLattice& lattice,
                                  const BallExtentTable& reaches, std::size_t from, std::size_t count) {
     const double max_weight = max_weight_of(stack);
     const double reach = std::sqrt(max_weight);
     if (looks_at_all(lattice, reaches, max_weight, stack.size())) {
-        // Large balls reach most of the layers of higher blocks from everywhere.
+        // Higher blocks pay for balls that reach most of their layers from anywhere.
         const std::size_t high = lattice.layers_within(reach) <= SimdRunUnion::edge ? 4 : SimdRunUnion::edge;
         return grow_blocks<BruteForceDilation>(stack, lattice, reaches, high, SimdRunUnion::edge, from,
                                                count);
@@ -151,7 +152,7 @@ std::vector<RunRows> grow_within(const LayerStack& stack, const LayerLattice& la
     return grow_blocks<PrunedDilation>(stack, lattice, reaches, edge, edge, from, count);
 }
 
-/// The void of a line between far left and far right.
+/// Appends the void of a line, from -unbounded to unbounded.
 void append_void(std::span<const Run> solid, double weight, WeightedRows& out) {
     std::vector<WeightedRun> runs;
     std::int32_t at = -unbounded;
@@ -163,7 +164,7 @@ void append_void(std::span<const Run> solid, double weight, WeightedRows& out) {
     out.append_line(runs);
 }
 
-/// The void of a layer with `margin` lines on either side.
+/// Returns the void of a layer, with `margin` lines of void on either side.
 WeightedRows void_of(const RunRows& rows, std::size_t margin, double radius) {
     WeightedRows out;
     for (std::size_t l = 0; l < margin; ++l) append_void({}, radius * radius, out);
@@ -172,7 +173,7 @@ WeightedRows void_of(const RunRows& rows, std::size_t margin, double radius) {
     return out;
 }
 
-/// What is left between the grown voids, without the margin.
+/// Appends the complement of the dilated void, without the margin.
 void append_solid(const RunRows& voids, std::size_t margin, RunRows& out) {
     for (std::size_t l = margin; l + margin < voids.lines(); ++l) {
         std::int32_t at = -unbounded;
@@ -187,7 +188,7 @@ void append_solid(const RunRows& voids, std::size_t margin, RunRows& out) {
 }  // namespace
 
 void grow_rows(const WeightedRows& rows, double row_pitch, RunRows& out) {
-    // Other layers, of which there are none, lie beyond every disc.
+    // A layer pitch beyond every disc's reach: the lattice has a single layer.
     const double beyond = 2 * std::sqrt(rows.max_weight()) + row_pitch;
     const LayerLattice lattice{row_pitch, beyond, rows.lines()};
     out = std::move(grow_within({&rows}, lattice, BallExtentTable(lattice, rows.max_weight()), 0, 1).front());

@@ -1,4 +1,4 @@
-// One offset after the other.
+// Opening: erosion, then dilation. Closing: dilation, then erosion.
 #include "engine/morphology/layer_opening.h"
 
 #include <cmath>
@@ -62,7 +62,7 @@ ClosingStream::ClosingStream(const LayerLattice& lattice, double radius, double 
     push_empty();
 }
 
-/// What grows out of the lattice has to be there when it shrinks back.
+/// Pushes extra layers: the solid must be kept where it grows beyond the given layers, to be eroded back.
 void ClosingStream::push_empty() {
     const RunRows nothing = empty_rows(lines_ + 2 * margin_);
     for (std::size_t i = 0; i < beyond_; ++i) grown_.push(WeightedRows(nothing, radius_));

@@ -5,26 +5,28 @@
 
 namespace lamella {
 
-/// The lattice of layers whose rows lie in a band, for a ball that reaches `across` mm within a layer and
-/// `up` mm from layer to layer, which are `layer_height` mm high. Its radius is `across` in run units of the
-/// band.
+/// Returns the lattice of layers with the rows of `band`, for a ball that reaches `across` mm within a layer
+/// and `up` mm along z. Layers are `layer_height` mm high. On this lattice the ball's radius is `across`,
+/// converted to run units of the band. Throws InputError unless `across` and `up` are positive.
 LayerLattice ball_lattice(const RowBand& band, double layer_height, double across, double up);
 
-/// A ball that fits into all that is at least so thick, on a lattice that knows lengths to a pitch.
+/// A ball that fits into every wall of some thickness, made smaller by the sampling error of its lattice.
 struct SampledBall {
     LayerLattice lattice;
     double radius;  ///< run units
 };
 
-/// The ball for a thickness (mm) within layers and one upright. Rows see a thickness up to the way between
-/// two of them less than it is, and layers up to one of them: so much smaller is the ball. One that is no
-/// thicker than a layer upright stays within its layer. Throws InputError where the thickness is no more than
-/// a way between rows.
+/// Returns the ball for a thickness (mm) within layers and a thickness along z (mm). Sampled by rows, a wall
+/// may seem thinner by up to the distance of two rows, and sampled by layers by up to a layer height: the
+/// ball's diameters are reduced by these. If no more than a layer's height is asked for along z, the ball
+/// becomes a disc within its layer (infinite layer pitch). Throws InputError when `thickness` does not exceed
+/// the distance of two rows.
 SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up);
 
-/// What balls cover that lie in the solid wholly: the solid without all that is thinner than the ball (the
-/// opening; Williams and Rossignac 2005 call what stays stable). Ends are right to a unit. With slack, run
-/// units, all that lies no further than it from there belongs to it, too.
+/// Opening of a stream of layers by a ball: the union of all balls that lie within the solid. Removes
+/// everything thinner than the ball (Williams and Rossignac 2005 call the rest stable). Run ends are exact to
+/// a unit. With `slack` (run units) the result contains all points within `slack` of the opening, too. Used
+/// like DilationStream; outside the lattice and the given layers all is void.
 class OpeningStream {
   public:
     OpeningStream(const LayerLattice& lattice, double radius, double slack = 0);
@@ -35,14 +37,14 @@ class OpeningStream {
   private:
     void carry_on();
 
-    double reach_;  // of what is grown again
+    double reach_;  // of the dilation: radius + slack
     ErosionStream shrunk_;
     DilationStream grown_;
 };
 
-/// The solid with all of the void that no ball covers which lies in the void wholly: gaps and holes narrower
-/// than the ball are filled (the closing). Ends are right to a unit. With slack, run units, all that lies no
-/// further than it from such a ball stays void, too.
+/// Closing of a stream of layers by a ball: the complement of the union of all balls that lie within the
+/// void. Fills gaps and holes narrower than the ball. Run ends are exact to a unit. With `slack` (run units)
+/// points within `slack` of such a ball stay void, too. Used like DilationStream.
 class ClosingStream {
   public:
     ClosingStream(const LayerLattice& lattice, double radius, double slack = 0);
@@ -55,10 +57,10 @@ class ClosingStream {
     void carry_on();
 
     double radius_;
-    std::size_t lines_, margin_;  // of the lattice, and beside it on either side
-    std::size_t beyond_;          // layers below and above that a ball reaches
-    std::size_t to_drop_;         // of those below
-    std::size_t to_come_ = 0;     // layers that went in and did not come out yet
+    std::size_t lines_, margin_;  // lines of the lattice, and extra ones on either side
+    std::size_t beyond_;          // extra layers below and above: as many as a ball reaches
+    std::size_t to_drop_;         // extra layers below that have not come out yet
+    std::size_t to_come_ = 0;     // layers that went in and have not come out yet
     DilationStream grown_;
     ErosionStream shrunk_;
 };

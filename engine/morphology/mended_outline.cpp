@@ -1,5 +1,5 @@
-// Runs found on the lines of a lattice fixed in the plane, and discs about all of their points put to the
-// section.
+// Mended outlines: on lattice lines fixed in the plane, runs of disc centres (cores) are found; their discs
+// are united with the section.
 #include "engine/morphology/mended_outline.h"
 
 #include <algorithm>
@@ -17,21 +17,21 @@
 namespace lamella {
 namespace {
 
-constexpr double outline_slack_share = 1.5;  // of a radius; see Thinness
-constexpr int levels = 4;                    // of radii that are tried in what is thin
+constexpr double outline_slack_share = 1.5;  // slack as a share of the radius; see Thinness
+constexpr int levels = 4;                    // number of radii that are tried in thin parts
 
-/// A stretch along a line in x about which discs are put, mm.
+/// A segment along x; discs are centred at all of its points. Lengths in mm.
 struct Core {
     double from, to;
     double y;
 };
 
-/// How a section is mended, lengths in mm.
+/// How a section is mended. Lengths in mm.
 struct Mending {
-    double pitch;   ///< of the lattice
-    double ball;    ///< radius of the ball by which thickness is measured
-    double radius;  ///< of the discs that are put
-    /// From rows of the section to the rows of the cores. Lengths in run units.
+    double pitch;   ///< pitch of the lattice
+    double ball;    ///< radius of the ball that measures thickness
+    double radius;  ///< radius of the discs that are added
+    /// Finds the cores in rows of the section. Lengths in run units.
     void (*cores)(const RunRows& rows, double radius, RunRows& out);
 };
 
@@ -39,7 +39,8 @@ void grow(const RunRows& rows, double radius, RunRows& out) {
     grow_rows(WeightedRows(rows, radius), run_unit, out);
 }
 
-/// Where discs of `radius` have to stand so that all has that radius at least.
+/// Finds the disc centres that widen thin walls: with discs of `radius` there, no wall is thinner than a
+/// disc.
 void cores_of_thin(const RunRows& rows, double radius, RunRows& out) {
     RunRows thin, shrunk, larger, some, all;
     thin_rows(rows, FeatureKind::wall, {radius, outline_slack_share * radius + run_unit}, run_unit, thin);
@@ -50,7 +51,7 @@ void cores_of_thin(const RunRows& rows, double radius, RunRows& out) {
         intersect(shrunk, thin, some);
         unite(out, some, all);
         std::swap(out, all);
-        // What a disc of this radius serves needs no smaller one.
+        // Parts near a disc of this radius need no smaller one.
         grow(some, (1 + outline_slack_share) * r + run_unit, larger);
         subtract(thin, larger, some);
         std::swap(thin, some);
@@ -88,7 +89,7 @@ class MendedSlice : public SliceField {
         return {std::min(v.lo, -mending_.radius), v.hi};
     }
 
-    /// About discs the value is the distance from them, up to their radius.
+    /// Up to one radius outside a disc, the value is at most the signed distance to the disc.
     void sample(const Tile& tile, std::span<float> out) const override {
         section_.sample(tile, out);
         Scratch scratch;
@@ -113,10 +114,10 @@ class MendedSlice : public SliceField {
     }
 
   private:
-    /// The cores whose discs may reach a rectangle.
+    /// Returns the cores whose discs may reach a rectangle.
     std::vector<Core> cores_about(const Rect& rect, Scratch& scratch) const {
         std::vector<Core> cores;
-        // A core is decided on by the section within the ball's diameter and slack.
+        // Whether a point is a core depends on the section within the ball's diameter and slack.
         const double away = mending_.radius + (2 + outline_slack_share) * mending_.ball + 3 * mending_.pitch;
         if (intersect(grown(rect, mending_.radius), section_.bounds()).empty()) return cores;
         const Rect met = intersect(grown(rect, away), section_.bounds());
@@ -220,7 +221,8 @@ FieldPtr make_thickened(FieldPtr solid, double thickness, double pitch) {
 
 FieldPtr make_gaps_filled(FieldPtr solid, double gap, double pitch) {
     check(solid, gap, pitch);
-    // Discs of a pitch about neighbouring lines leave nothing between them, nor between them and the solid.
+    // Discs with a radius of one pitch leave no gap between neighbouring lines, nor between them and the
+    // solid.
     return std::make_shared<MendedOutline>(std::move(solid),
                                            Mending{pitch, 0.5 * gap, pitch, cores_of_narrow});
 }

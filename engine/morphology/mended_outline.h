@@ -1,21 +1,24 @@
-// Outlines mended layer by layer: walls that are too thin made thicker, gaps that are too narrow filled.
+// Mended outlines: thickens thin walls and fills narrow gaps, layer by layer.
 #pragma once
 
 #include "engine/field/field.h"
 
 namespace lamella {
 
-/// The solid with what is thinner than `thickness` (mm) within a layer made about as thick: nowhere less but
-/// for what `pitch` takes, and by a quarter too much at most. Where nothing is too thin nothing changes.
+/// Returns the solid with walls thinner than `thickness` (mm) within a layer widened to about that thickness:
+/// at least to it, but for the sampling by `pitch`, and to a quarter more at most. Where nothing is too thin,
+/// nothing changes.
 ///
-/// Each section is looked at along lines `pitch` (mm) apart, by balls of growing radius as for a check of
-/// thickness (layer_thinness.h): sharp edges stay sharp. Where a disc of a radius fits and no larger one
-/// does, discs of half the thickness are put in its place. InputError for a missing solid and for a pitch
-/// that is not positive, or more than a fourth of the thickness.
+/// Each section is sampled on lines `pitch` (mm) apart. The thin parts are found as in a thickness check
+/// (thin_features.h), so sharp edges stay sharp. In them, discs of several radii are tried. Where a disc of
+/// one radius fits and none of the next larger radius does, a disc of half the thickness takes its place.
+/// Throws InputError when the solid is missing, or when `pitch` is not positive or exceeds a fourth of the
+/// thickness.
 FieldPtr make_thickened(FieldPtr solid, double thickness, double pitch);
 
-/// The solid with void narrower than `gap` (mm) within a layer filled. Where none is too narrow nothing
-/// changes; what is filled ends within a pitch of where it should, inside the solid or at the mouth of a gap.
+/// Returns the solid with gaps narrower than `gap` (mm) within a layer filled. Where no gap is too narrow,
+/// nothing changes. The filling is exact to a `pitch` (mm), inside the solid and at the mouth of a gap.
+/// Throws InputError when the solid is missing, or when `pitch` is not positive or exceeds a fourth of `gap`.
 FieldPtr make_gaps_filled(FieldPtr solid, double gap, double pitch);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Two lines from left to right.
+// PowerCellPruner: walks along two adjacent lines from left to right.
 #include "engine/morphology/power_cell_pruner.h"
 
 #include <cmath>
@@ -6,7 +6,8 @@
 namespace lamella {
 namespace {
 
-/// Whether a run beside another one lies over its middle, and has a ball as large.
+/// Returns true if `run`, on an adjacent line, bounds the power cell of `other`: it reaches over the middle
+/// of `other`, and its ball is at least as large.
 bool limits(const WeightedRun& run, const WeightedRun& other) {
     const std::int32_t middle = (other.begin + other.end) >> 1;
     return static_cast<bool>(static_cast<int>(run.weight >= other.weight) &
@@ -16,13 +17,13 @@ bool limits(const WeightedRun& run, const WeightedRun& other) {
 }  // namespace
 
 PowerCellPruner::EndSight::EndSight(double pitch, double max_weight) : lines_(1, 0) {
-    constexpr double rounding_margin = 1;  // run units^2; far more than rounding makes
+    constexpr double rounding_margin = 1;  // run units^2; far more than the rounding error
     for (int lines = 1; lines < PowerCellBounds::unlimited; ++lines) {
         const double away = lines * pitch, left = max_weight + rounding_margin - away * away;
         if (left < 0) break;
         const double nearer = (2 * lines - 1) * pitch * pitch - rounding_margin;
         if (nearer < 0) continue;
-        // So far back, an end reaches as far if it is a line nearer: seen from here on, it has outdone the
+        // An end that lies `back` behind, but a line nearer, reaches as far: from this line on it hides the
         // other.
         const double back = std::sqrt(left + nearer) - std::sqrt(left);
         const auto entries = static_cast<std::size_t>(back / step) + 1;
@@ -35,7 +36,7 @@ PowerCellPruner::EndSight::EndSight(double pitch, double max_weight) : lines_(1,
 struct PowerCellPruner::Pair {
     std::span<const WeightedRun> runs;
     std::span<PowerCellBounds> sights;
-    Neighbor other_side;  // where the other line is
+    Neighbor other_side;  // side on which the other line lies
     std::span<const WeightedRun> other_runs;
     std::span<PowerCellBounds> other_sights;
     Neighbor side;

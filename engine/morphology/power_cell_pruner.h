@@ -1,4 +1,5 @@
-// PowerCellPruner: bounds each run's power cell by the runs beside it, to drop what cannot be visible.
+// PowerCellPruner: bounds each run's power cell by the runs on adjacent lines, to drop runs that cannot be
+// visible.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +11,20 @@
 
 namespace lamella {
 
-/// Limits the sights of runs by the runs beside them, before balls are grown.
+/// Sets the PowerCellBounds of runs from the runs on adjacent lines, before anything is dilated.
 class PowerCellPruner {
   public:
-    /// `max_weight` bounds the weights of all runs.
+    /// `max_weight` is an upper bound of all weights.
     PowerCellPruner(const LayerLattice& lattice, double max_weight);
 
-    /// Limits sights within a layer.
+    /// Bounds the power cells of a layer's runs by adjacent lines of that layer.
     void limit(WeightedRows& layer) const;
-    /// Limits those of lines [first, end) of two layers by each other.
+    /// Bounds the power cells of lines [first, end) of two adjacent layers by each other.
     void limit(WeightedRows& below, WeightedRows& above, std::size_t first, std::size_t end) const;
 
   private:
-    /// How far an end is seen beyond one on the next line, by how far it lies ahead of that.
+    /// A lookup table: how many lines away a run's end may be visible past a run on the adjacent line, by the
+    /// distance by which it sticks out (run units).
     class EndSight {
       public:
         EndSight(double pitch, double max_weight);
@@ -32,11 +34,11 @@ class PowerCellPruner {
         }
 
       private:
-        static constexpr std::int32_t step = 8;  // from entry to entry, run units
+        static constexpr std::int32_t step = 8;  // between entries, run units
         std::vector<std::uint8_t> lines_;
         std::uint32_t last_;
     };
-    /// Two lines beside each other.
+    /// Two adjacent lines.
     struct Pair;
     static void limit(const Pair& pair, const EndSight& sight);
 

@@ -1,4 +1,4 @@
-// Covers, sees, forgets, halves.
+// PrunedDilation: bounds what is covered, drops hidden runs, halves the block, recurses.
 #include "engine/morphology/pruned_dilation.h"
 
 #include <algorithm>
@@ -7,14 +7,15 @@
 namespace lamella {
 namespace {
 
-/// Far more than rounding makes of squares of lengths, run units^2.
+/// Far more than the rounding error of squared lengths, run units^2.
 constexpr double rounding_bound = 1;
 
 double square(double x) { return x * x; }
 
-/// By how much the square of the distance from `a` is less than that from `b`, at least, in [first, last].
+/// Returns the least value of (x - b)^2 - (x - a)^2 over x in [first, last]: by how much `a` is nearer than
+/// `b`, in squared distance.
 double nearer(std::int64_t a, std::int64_t b, std::int64_t first, std::int64_t last) {
-    const std::int64_t farthest = a < b ? last : first;  // from a, beside b
+    const std::int64_t farthest = a < b ? last : first;  // where b does best
     return static_cast<double>((a - b) * (2 * farthest - a - b));
 }
 
@@ -44,10 +45,11 @@ void PrunedDilation::grow(const LineBlock& block, std::span<const WeightedRows* 
     refine(block_, 0);
 }
 
-/// Finds what some of the lines about the block cover there: it leaves few runs to be looked at closely.
+/// Bounds from below what is covered in the block, from a sample of the lines around it. This rules out most
+/// runs before they are gathered.
 void PrunedDilation::cover_by_some(std::span<const WeightedRows* const> layers) {
     constexpr double share = 0.75;        // of the reach: lines farther away cover little
-    constexpr double lines_in_reach = 5;  // of those that are looked at
+    constexpr double lines_in_reach = 5;  // number of sampled lines, or layers, in the reach
     const double reach = std::sqrt(max_weight_);
     const auto stride = [&](double pitch) {
         return std::max(static_cast<std::int32_t>(reach / pitch / lines_in_reach), 2);
@@ -78,15 +80,15 @@ void PrunedDilation::cover_by_some(std::span<const WeightedRows* const> layers) 
     union_.take(covered_);
 }
 
-/// Takes the runs of all lines that may reach the block, but for those that only reach what is covered, or
-/// what runs beside them cover.
+/// Gathers the runs of all lines within reach of the block. Skips those that only reach points known to be
+/// covered, and those that are hidden by runs on adjacent lines.
 void PrunedDilation::gather(std::span<const WeightedRows* const> layers) {
     Level& all = levels_.front();
     all.covered = covered_;
     all.lines.clear();
     all.runs.clear();
     for (std::size_t z = 0; z < layers.size(); ++z) gather_layer(static_cast<std::int32_t>(z), *layers[z]);
-    // Only now do the runs lie where they stay.
+    // all.runs does not move any more: set the pointers into it.
     auto runs = all.runs.begin();
     for (SourceLine& line : all.lines) {
         line.runs = {runs, line.runs.size()};
@@ -100,7 +102,7 @@ void PrunedDilation::gather_layer(std::int32_t layer, const WeightedRows& rows) 
     if (away >= farthest_.size()) return;
     const std::vector<std::int32_t>& farthest = farthest_[away];
     const auto beside = (static_cast<std::int32_t>(farthest.size()) - block_.lines) / 2;
-    const std::int32_t before = block_.line - beside;  // the first line of the list
+    const std::int32_t before = block_.line - beside;  // line of the list's first entry
     const auto first = static_cast<std::size_t>(std::max(before, 0)),
                end = std::min(static_cast<std::size_t>(block_.line + block_.lines + beside), lattice_.lines);
     const std::size_t from = rows.start(first), to = rows.start(end);
@@ -129,12 +131,12 @@ void PrunedDilation::gather_layer(std::int32_t layer, const WeightedRows& rows) 
         if (all.lines.empty() || all.lines.back().line != lines[*i] || all.lines.back().layer != layer)
             all.lines.push_back({layer, lines[*i], {}});
         std::span<const WeightedRun>& of_line = all.lines.back().runs;
-        of_line = {runs, of_line.size() + 1};  // so many; where, is known in the end
+        of_line = {runs, of_line.size() + 1};  // only the count; gather() sets the pointer
         all.runs.push_back(runs[*i]);
     }
 }
 
-/// Lists how far a run may reach from lines about a block.
+/// Lists the greatest extent of a run in the block, for each line around it.
 void PrunedDilation::list_farthest() {
     if (block_.lines == farthest_lines_) return;
     farthest_lines_ = block_.lines;
@@ -159,7 +161,7 @@ void PrunedDilation::list_farthest() {
     }
 }
 
-/// Level `depth` holds what the block above left.
+/// Dilates a block from levels_[depth], the runs left by its parent block.
 void PrunedDilation::refine(const LineBlock& block, std::size_t depth) {
     if (block.layers <= SimdRunUnion::edge && block.lines <= SimdRunUnion::edge) {
         finish_lines(block, levels_[depth]);
@@ -181,7 +183,7 @@ void PrunedDilation::refine(const LineBlock& block, std::size_t depth) {
     }
 }
 
-/// Finds what is covered on all lines of a block, and how far runs reach there.
+/// Bounds from below what is covered on every line of a block, and computes the extent bounds of the runs.
 void PrunedDilation::cover(const LineBlock& block, const Level& above, std::vector<Run>& covered) {
     reaches_.clear();
     for (const Run& run : above.covered) union_.add(run.begin, run.end);
@@ -199,7 +201,7 @@ void PrunedDilation::cover(const LineBlock& block, const Level& above, std::vect
     union_.take(covered);
 }
 
-/// Finds the runs that reach into gaps.
+/// Finds the runs that may reach into gaps.
 void PrunedDilation::add_visible(const Level& above, std::span<const Run> covered) {
     table_.assign(covered);
     visible_.clear();
@@ -239,7 +241,8 @@ void PrunedDilation::add_visible(Source source, const ExtentBounds& reaches, std
     }
 }
 
-/// Whether one run does. Inside its callers it takes a fifth less time.
+/// Returns true if `other` reaches at least as far as `seen` does, on all lines of the block, into the gaps
+/// left and right, as asked for. Inlined by force: that takes a fifth less time.
 [[gnu::always_inline]] inline bool PrunedDilation::outdoes(const LineBlock& block, Source other,
                                                            const Visible& seen, bool left, bool right) const {
     if (other.run == nullptr) return false;
@@ -257,7 +260,8 @@ void PrunedDilation::add_visible(Source source, const ExtentBounds& reaches, std
            (!right || gain + nearer(better.end, worse.end, seen.meets->end, seen.most.end) >= 0);
 }
 
-/// Whether others reach at least as far into gaps, on all lines of the block.
+/// Returns true if other runs reach at least as far into the gaps as visible run `k`, on all lines of the
+/// block.
 bool PrunedDilation::is_outdone(const LineBlock& block, std::size_t k, std::span<const Run> covered) const {
     const Visible& seen = visible_[k];
     bool left = true, right = true;
@@ -274,7 +278,7 @@ bool PrunedDilation::is_outdone(const LineBlock& block, std::size_t k, std::span
     return by(k - 1) || by(k + 1);
 }
 
-/// Forgets runs that give no line of the block anything that others do not.
+/// Fills the next level with the runs that may cover points of the block that no other run covers.
 void PrunedDilation::keep_visible(const LineBlock& block, std::size_t depth) {
     const Level& above = levels_[depth];
     Level& level = levels_[depth + 1];
@@ -313,7 +317,7 @@ void PrunedDilation::finish_lines(const LineBlock& block, const Level& level) {
     }
 }
 
-/// All lines of a block get the same runs.
+/// Gives all lines of a block the same runs.
 void PrunedDilation::place(const LineBlock& block, std::span<const Run> runs) {
     const LineRuns here{runs_.size(), runs.size()};
     runs_.insert(runs_.end(), runs.begin(), runs.end());

@@ -1,4 +1,4 @@
-// PrunedDilation: dilates neighbouring lines together by branch and bound; the core of exact offsets.
+// PrunedDilation: dilates blocks of neighbouring lines by branch and bound; the core of exact offsets.
 #pragma once
 
 #include <cstdint>
@@ -9,51 +9,55 @@
 
 namespace lamella {
 
-/// Grows lines by what all lines about them give them, by halving blocks of them (branch and bound).
+/// Dilation of a block of lines from all lines around it. The block is halved recursively, and runs that
+/// cannot matter are dropped on the way (branch and bound).
 ///
-/// A run that lies, across the lines, between d and D away from all lines of a block covers on each of these
-/// what lies within sqrt(w - D^2) of it, w being its weight, and at most what lies within sqrt(w - d^2).
-/// Gaps that the former leave contain the gaps of each of the lines. Before a block is halved, runs are
-/// forgotten that do not even by the latter reach into a gap, and those that nowhere reach as far into it as
-/// another one does: of two points, which one is nearer changes at a plane (power diagrams; Chen, Panozzo
-/// and Dumas 2018). Those that cannot be seen from a block do not come that far (PowerCellBounds). Small
-/// blocks are not halved any more: what is left is united on all lines (SimdRunUnion).
+/// Let a run with weight w lie between d and D away from every line of a block. On each of these lines its
+/// dilation covers at least all points within sqrt(w - D^2) of the run along the line, and at most those
+/// within sqrt(w - d^2). The gaps that the lower bounds of all runs leave contain the gaps of every line. Two
+/// kinds of runs are dropped before a block is halved: those that do not reach into a gap even by their upper
+/// bound, and those that everywhere in the block reach less far into a gap than another run does. The latter
+/// is easy to test, because which of two points is nearer changes at a plane (power diagrams; Chen, Panozzo
+/// and Dumas 2018). Runs that are not visible from the block at all are dropped first (PowerCellBounds).
+/// Small blocks are not halved: there the remaining runs are united on all lines (SimdRunUnion).
 class PrunedDilation {
   public:
-    /// For blocks of so many layers, at most. What is covered is clipped to `extent`. `reaches` are those of
-    /// most runs, and outlive this; `max_weight` bounds the weights of all.
+    /// Blocks have at most `max_layers` layers. Dilated runs are clipped to `extent`. `reaches` should be the
+    /// table of the most frequent radius and must outlive this object. `max_weight` is an upper bound of all
+    /// weights.
     PrunedDilation(const LayerLattice& lattice, const BallExtentTable& reaches, Run extent,
                    std::int32_t max_layers, double max_weight);
 
-    /// Grows the lines of a block of a stack of layers.
+    /// Dilates the lines of one block of a stack of layers.
     void grow(const LineBlock& block, std::span<const WeightedRows* const> layers);
-    /// A grown line of the block, counted from its first.
+    /// Returns a dilated line; layer and line are counted from the block's first. Valid until the next
+    /// grow().
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
         const LineRuns& at = line_runs_[line_index(layer, line)];
         return {runs_.data() + at.from, at.count};
     }
 
   private:
-    /// What may reach into the gaps of a block.
+    /// The runs that may reach into the gaps of a block.
     struct Level {
         std::vector<SourceLine> lines;
-        std::vector<WeightedRun> runs;  // of the lines
-        std::vector<Run> covered;       // anyway
+        std::vector<WeightedRun> runs;  // runs of `lines`
+        std::vector<Run> covered;       // known to be covered on every line of the block
     };
     struct Source {
         const SourceLine* line;
         const WeightedRun* run;
     };
-    /// One that reaches into a gap, and all it covers in the block.
+    /// A run that may reach into a gap.
     struct Visible {
         Source source;
-        Run most;
-        const Run* meets;  // if it sticks out of a covered run
+        Run most;          // upper bound of what it covers on any line of the block
+        const Run* meets;  // the covered run that it sticks out of; null if it begins or ends in a gap itself
     };
-    /// About the farthest that sticks out of a covered run on either side.
+    /// For a covered run, the runs that stick out of it farthest to the left and to the right, approximately.
     struct Champions {
         Source left, right;
-        std::int32_t least, greatest;  // twice their ends, about
+        std::int32_t least, greatest;  // twice their dilated ends, approximately
     };
     struct LineRuns {
         std::size_t from, count;  // in runs_
@@ -78,19 +82,19 @@ class PrunedDilation {
     void place(const LineBlock& block, std::span<const Run> runs);
 
     LayerLattice lattice_;
-    double layer_square_, row_square_;  // of its pitches
+    double layer_square_, row_square_;  // squared pitches
     double max_weight_;
     const BallExtentTable& ball_;
     LineBlock block_{};
-    std::vector<Level> levels_;  // by how often a block was halved
+    std::vector<Level> levels_;  // by depth: how often the block was halved
     RunUnion union_;
     CoverTable table_;
-    SimdRunUnion small_;  // blocks that are not halved
+    SimdRunUnion small_;  // for blocks that are not halved
     std::vector<Run> covered_;
     std::vector<ExtentBounds> reaches_;
-    std::vector<std::vector<std::int32_t>> farthest_;  // reaches, by layers and lines away from a block
-    std::vector<BlockOffset> aside_;                   // the block, from lines about it
-    std::int32_t farthest_lines_ = 0;                  // of the block for which they were listed
+    std::vector<std::vector<std::int32_t>> farthest_;  // greatest extent, by distance in layers and by line
+    std::vector<BlockOffset> aside_;                   // the block's offset from the lines around it
+    std::int32_t farthest_lines_ = 0;                  // lines of the block that these lists are for
     std::vector<std::uint32_t> uncovered_;
     std::vector<Visible> visible_;
     std::vector<Champions> champions_;

@@ -1,4 +1,4 @@
-// Runs become words, and words runs.
+// RowBitmask: conversion of runs to bits and back. The dilation is in row_bitmask_simd.cpp.
 #include "engine/morphology/row_bitmask.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::int32_t word_cells = CellLattice::word_cells;
 constexpr std::int32_t word_units = word_cells * CellLattice::cell;
 
-/// Rounded down, whatever the sign.
+/// Converts run units to cells, rounded towards minus infinity.
 std::int32_t cells_down(std::int32_t units) { return units >> std::countr_zero(unsigned{CellLattice::cell}); }
 std::int32_t cells_up(std::int32_t units) { return cells_down(units + CellLattice::cell - 1); }
 
@@ -30,14 +30,15 @@ DiscWidths disc_widths(double radius, double row_pitch, Width width) {
     }
 }
 
-/// Whether any of the words of a few lines has a bit.
+/// Returns true if any of lines_at_once words has a bit.
 bool any_bit(const std::uint64_t* words) {
     std::uint64_t all = 0;
     for (std::size_t i = 0; i < CellLattice::lines_at_once; ++i) all |= words[i];
     return all != 0;
 }
 
-/// From column to column of words: an odd number of cache lines, lest columns share places in the cache.
+/// Returns the number of words from column to column: an odd number of cache lines, so that columns do not
+/// compete for the same cache sets.
 std::size_t stride_of(const CellLattice& lattice) {
     constexpr std::size_t cache_line = 8;  // words
     return ((lattice.lines + CellLattice::lines_at_once) / cache_line | 1) * cache_line;
@@ -122,7 +123,7 @@ RunRows RowBitmask::runs(std::size_t first_line, std::size_t count) const {
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     std::vector<Run> sorted(found.size());
     for (const CellRun& cells : found)
-        sorted[starts[cells.line]++] = cells.run;  // to where the next one starts
+        sorted[starts[cells.line]++] = cells.run;  // starts[l] becomes the end of line l
     RunRows all;
     all.reserve(count, sorted.size());
     std::uint32_t i = first_line > 0 ? starts[first_line - 1] : 0;

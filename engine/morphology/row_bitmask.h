@@ -10,69 +10,72 @@
 
 namespace lamella {
 
-/// Where the cells of a layer lie. A cell is as long as a row is wide.
+/// The lattice of a layer's cells. A cell is one row wide and one pixel long.
 struct CellLattice {
     static constexpr std::int32_t cell = run_unit;   ///< length along the lines, run units
-    static constexpr std::int32_t word_cells = 64;   ///< in a word
-    static constexpr std::size_t lines_at_once = 8;  ///< there is a multiple of it
+    static constexpr std::int32_t word_cells = 64;   ///< cells in a word
+    static constexpr std::size_t lines_at_once = 8;  ///< `lines` is a multiple of it
 
-    std::int32_t first = 0;        ///< where the first cell of each line begins, run units
-    std::size_t words = 0;         ///< of a line
-    std::size_t lines = 0;         ///< the margin's included
-    std::size_t margin_lines = 0;  ///< before the layer's first line, and as many at least behind its last
+    std::int32_t first = 0;  ///< begin of the first cell of each line, run units
+    std::size_t words = 0;   ///< words of a line
+    std::size_t lines = 0;   ///< number of lines, including the margin
+    std::size_t margin_lines =
+        0;  ///< lines before the layer's first one, and at least as many after its last
 
-    /// The cells of so many rows a `row_pitch` apart, whose runs lie within an extent, and of what lies no
-    /// further than `reach` beside them; run units.
+    /// Covers `row_count` rows, `row_pitch` apart, whose runs lie within `extent`, and all points within
+    /// `reach` of them. Lengths in run units.
     CellLattice(Run extent, std::size_t row_count, double reach, double row_pitch);
     friend bool operator==(const CellLattice&, const CellLattice&) = default;
 };
 
-/// How many cells a disc reaches to either side, by how many lines away.
+/// A structuring element: how many cells a disc reaches to either side, by distance in lines.
 using DiscWidths = std::vector<std::int32_t>;
-/// A disc about each point of a cell covers at least these cells wholly.
+/// Returns a lower bound of a cell's dilation: the cells that the discs about all points of the cell cover
+/// wholly. Lengths in run units.
 DiscWidths inner_disc(double radius, double row_pitch);
-/// A disc about any point of a cell meets at most these cells.
+/// Returns an upper bound: all cells that a disc about any point of the cell meets.
 DiscWidths outer_disc(double radius, double row_pitch);
 
-/// A set of cells, a bit for each. Beside the lattice there are none.
+/// A set of cells of a lattice, one bit per cell. Outside the lattice there are no cells.
 ///
-/// Words lie column by column, so that many lines are worked on at once without a bit crossing lanes.
+/// Words are stored column by column, so that SIMD works on several lines at once and no bit crosses lanes.
 class RowBitmask {
   public:
     explicit RowBitmask(const CellLattice& lattice);
     const CellLattice& lattice() const { return lattice_; }
-    /// The words with these cells of every line, one after another; there are lines_at_once empty ones before
-    /// them and behind.
+    /// Returns the words number `word` of all lines, one after another. At least lines_at_once empty words
+    /// lie before and after them.
     std::uint64_t* column(std::size_t word) { return words_.data() + place(word); }
     const std::uint64_t* column(std::size_t word) const { return words_.data() + place(word); }
 
-    /// Adds the cells [first, end) of a line, if there are any.
+    /// Adds the cells [first, end) of a line. Does nothing if the range is empty.
     void mark(std::int32_t first, std::int32_t end, std::size_t line);
-    /// Turns into all other cells of the lattice.
+    /// Replaces the set by its complement within the lattice.
     void invert();
-    /// These and all cells within a disc of them.
+    /// Returns the dilation by `disc`.
     RowBitmask grown(const DiscWidths& disc) const;
-    /// The cells of the lattice that are not within a disc of these.
+    /// Returns the complement, within the lattice, of the dilation by `disc`.
     RowBitmask beyond(const DiscWidths& disc) const;
-    /// Takes away those within a disc of the cells of another set on the same lattice.
+    /// Removes the dilation of `other` by `disc`. Both sets are on the same lattice.
     void subtract_dilated(const RowBitmask& other, const DiscWidths& disc);
-    /// The cells of so many lines as runs, joined where they touch. Quick where there are few.
+    /// Converts the cells of `count` lines to runs, joined where they touch. Quick if there are few cells.
     RunRows runs(std::size_t first_line, std::size_t count) const;
-    /// What of rows lies in the cells. Their first line is that one of the lattice.
+    /// Returns the parts of `rows` that lie in the cells. Their first line is line `first_line` of the
+    /// lattice.
     RunRows clip(const RunRows& rows, std::size_t first_line) const;
 
   private:
     std::size_t place(std::size_t word) const { return word * stride_ + CellLattice::lines_at_once; }
 
     CellLattice lattice_;
-    std::size_t stride_;  // from column to column
+    std::size_t stride_;  // words from column to column
     std::vector<std::uint64_t> words_;
 };
 
-/// The cells of a layer's runs; its first line follows those of the margin.
+/// Two bit masks of a layer, its lower and upper bound. The layer's first line follows the margin's lines.
 struct LayerCells {
-    RowBitmask inner;  ///< by runs, wholly
-    RowBitmask outer;  ///< by runs
+    RowBitmask inner;  ///< cells that runs cover wholly
+    RowBitmask outer;  ///< cells that runs meet
 
     LayerCells(const RunRows& rows, const CellLattice& lattice);
 };

@@ -1,7 +1,7 @@
-// Cells grown by discs, a few lines at once, from the middle of the disc outward: what has come in of nearer
-// lines is widened once more with each line further away, so that it ends up widest. Words where the result
-// is known beforehand are left out. Compiled for every SIMD target; words are whole numbers, so that every
-// target gives the same bits.
+// RowBitmask: dilation of cells by a disc, several lines at once, from the centre line of the disc outward.
+// With each line farther away, the bits collected so far are widened once more, so that those of the nearest
+// line end up widest. Words whose result is known beforehand are skipped. Compiled for every SIMD target; all
+// operations are on integers, so every target gives the same bits.
 #include <algorithm>
 #include <vector>
 
@@ -19,7 +19,7 @@
 #define LAMELLA_GROWN_CELLS_RESULT
 namespace lamella {
 
-/// What becomes of cells within a disc.
+/// What to do with the dilation: store it, store its complement, or subtract it.
 enum class WithinDisc : std::uint8_t { kept, left_out, subtracted };
 
 }  // namespace lamella
@@ -32,19 +32,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lines = hn::CappedTag<std::uint64_t, CellLattice::lines_at_once>;
 
-/// The words of a few lines, some columns of them.
+/// The words of a few lines (one per lane), in a range of columns.
 class LineBlock {
   public:
     explicit LineBlock(std::size_t words)
         : block_(hwy::AllocateAligned<std::uint64_t>(words * hn::Lanes(Lines()))) {}
 
-    /// Begins with no cells in the words [first, end).
+    /// Clears the words of columns [first, end).
     void begin(std::size_t first, std::size_t end) {
         first_ = first;
         words_ = end - first;
         std::fill_n(block_.get(), words_ * hn::Lanes(Lines()), 0);
     }
-    /// Adds the cells of the lines that begin here, and there, and then all up to so many to either side.
+    /// Adds the cells of the lines from `here` on and from `there` on, then widens all by `by` cells.
     void add_and_widen(const RowBitmask& cells, std::ptrdiff_t here, std::ptrdiff_t there, std::int32_t by) {
         const auto sum = [&](std::size_t i) {
             const Lines d;
@@ -59,16 +59,16 @@ class LineBlock {
             for (std::size_t i = 0; i < words_; ++i) hn::Store(sum(i), Lines(), at(i));
         }
     }
-    /// Adds all cells up to so many to either side, where so many are there.
+    /// Continues a widening by `width` cells to one by `to` cells to either side.
     void widen(std::int32_t width, std::int32_t to) {
         while (width < to) {
-            // No cell between the moved ones may be left out.
+            // The moved copies must not leave a gap between them.
             const std::int32_t step = std::min({to - width, width + 1, 63});
             add_moved(step, [&](std::size_t i) { return hn::Load(Lines(), at(i)); });
             width += step;
         }
     }
-    /// Of those words the ones of [first, end).
+    /// Writes the words of columns [first, end) to the lines of `to` from `line` on.
     void write(std::size_t first, std::size_t end, std::ptrdiff_t line, WithinDisc within,
                RowBitmask& to) const {
         const Lines d;
@@ -83,7 +83,7 @@ class LineBlock {
     }
 
   private:
-    /// Turns into what words(i) tells and the same moved by `cells` (1 to 63) to either side.
+    /// Stores the union of words(i) and its copies moved by `cells` (1 to 63) to either side.
     template <typename WordsAt>
     HWY_INLINE void add_moved(int cells, WordsAt words) {
         const Lines d;
@@ -104,12 +104,12 @@ class LineBlock {
     hwy::AlignedFreeUniquePtr<std::uint64_t[]> block_;
 };
 
-/// Sets of columns: a bit for each, or for each of as many groups of them.
+/// Sets of columns, at most 64 bits: a bit per column, or per group of columns.
 class ColumnSets {
   public:
     explicit ColumnSets(std::size_t words) : words_(words), group_((words + 63) / 64) {}
 
-    /// The groups where one of a few lines has a word for which is(words) holds somewhere.
+    /// Returns the groups with a column for which is(words) holds; `words` are those of a few lines.
     template <typename Is>
     HWY_INLINE std::uint64_t where(const RowBitmask& cells, std::ptrdiff_t line, Is is) const {
         std::uint64_t set = 0, bit = 1;
@@ -130,7 +130,7 @@ class ColumnSets {
             return !hn::AllTrue(Lines(), hn::Eq(words, hn::Not(hn::Zero(Lines()))));
         });
     }
-    /// And those that have a column no further than that from one of the set.
+    /// Adds the groups that have a column within `columns` of a column of the set.
     std::uint64_t widened(std::uint64_t set, std::size_t columns) const {
         for (std::size_t i = 0; i < columns && i < 64; i += group_) set |= set << 1 | set >> 1;
         return set;
@@ -156,13 +156,13 @@ void subtract(const RowBitmask& cells, std::size_t words, std::ptrdiff_t line, R
     }
 }
 
-/// Grows a few lines, in a run of columns.
+/// Dilation of a few lines, in a range of columns.
 class LineGrowth {
   public:
     LineGrowth(const RowBitmask& cells, const DiscWidths& disc, WithinDisc within)
         : cells_(cells), disc_(disc), within_(within), block_(cells.lattice().words) {}
 
-    /// How many lines and columns have a share in one.
+    /// How many lines and columns to either side the disc reaches.
     std::ptrdiff_t lines() const { return static_cast<std::ptrdiff_t>(disc_.size()) - 1; }
     std::size_t columns() const {
         return disc_.empty() ? 0 : static_cast<std::size_t>(disc_.front() + 63) / 64;
@@ -176,7 +176,7 @@ class LineGrowth {
         for (std::ptrdiff_t k = 0; k <= lines(); ++k) {
             const auto at = static_cast<std::size_t>(k);
             const std::int32_t by = disc_[at] - (k < lines() ? disc_[at + 1] : 0);
-            // Beyond the lattice there is nothing to add.
+            // Outside the lattice there are no cells.
             const std::ptrdiff_t before = line - k, behind = line + k;
             const bool any_before = before + at_once > 0, any_behind = behind < all_lines;
             if (any_before || any_behind) {
@@ -213,7 +213,7 @@ void grow_cells(const RowBitmask& cells, const DiscWidths& disc, WithinDisc with
         near = sets.widened(near, growth.columns());
         std::uint64_t open = near;  // where the result is not known yet
         if (within == WithinDisc::left_out) {
-            // Cells stay where there are none near, and go where all words are full.
+            // Far from all cells the result is full; where all words are full it is empty.
             sets.for_runs(~near, [&](std::size_t first, std::size_t end) {
                 for (std::size_t i = first; i < end; ++i)
                     std::fill_n(to.column(i) + line, at_once, ~std::uint64_t{0});

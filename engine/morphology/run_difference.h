@@ -10,8 +10,8 @@
 
 namespace lamella {
 
-/// The first of sorted runs that ends behind a place; of a line there are few, and which one it is is hard to
-/// foretell, so no branch depends on it.
+/// Returns the first of sorted runs that ends after `u`. A line has few runs and the answer is hard to
+/// predict, so this is a binary search without branches.
 inline const Run* first_ending_behind(std::span<const Run> runs, std::int32_t u) {
     const Run* first = runs.data();
     for (std::size_t left = runs.size(); left > 0;) {
@@ -22,7 +22,7 @@ inline const Run* first_ending_behind(std::span<const Run> runs, std::int32_t u)
     return first;
 }
 
-/// Runs of a line, of which more and more is taken away. Room is made once for many.
+/// The runs of a line from which intervals are subtracted step by step. Buffers are kept from line to line.
 class RunDifference {
   public:
     void assign(std::span<const Run> runs) {
@@ -33,8 +33,9 @@ class RunDifference {
     bool empty() const { return count_ == 0; }
     std::span<const Run> all() const { return {runs_.data(), count_}; }
 
-    /// Takes away sorted runs that reach further to both sides. Which of two runs ends first is hard to
-    /// foretell, so no branch depends on it: each step writes what may be left, and counts it if it is.
+    /// Subtracts sorted runs, each extended by `reach` to both sides. There must be runs left. Which of two
+    /// runs ends first is hard to predict, so no branch depends on it: each step writes a piece that may
+    /// remain, and counts it if it is not empty.
     void subtract(std::span<const Run> taken, const RoundedExtent& reach) {
         const Run *t = taken.data(), *const end = t + taken.size();
         const std::int32_t first = runs_.front().begin - reach.ahead,
@@ -44,7 +45,7 @@ class RunDifference {
         make_room(count_ + static_cast<std::size_t>(end - t) + 1);
         const Run *run = runs_.data(), *const runs_end = run + count_;
         Run* left = buffer_.data();
-        std::int32_t from = std::numeric_limits<std::int32_t>::min();  // where the last run taken has ended
+        std::int32_t from = std::numeric_limits<std::int32_t>::min();  // end of the last subtracted interval
         while (t != end && run != runs_end) {
             const std::int32_t to = t->begin - reach.back, behind = t->end + reach.ahead;
             *left = {std::max(run->begin, from), std::min(run->end, to)};
@@ -67,7 +68,7 @@ class RunDifference {
         if (buffer_.size() < count) buffer_.resize(2 * count);
         if (runs_.size() < count) runs_.resize(2 * count);
     }
-    std::vector<Run> runs_, buffer_;  // of which count_ are runs left
+    std::vector<Run> runs_, buffer_;  // the first count_ of runs_ are valid
     std::size_t count_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Compiled for every SIMD target. Whole numbers, and roots rounded as anywhere: every target gives the same
-// bits.
+// SimdRunUnion, compiled for every SIMD target. It uses integers and correctly rounded square roots, so every
+// target gives the same bits.
 #include "engine/morphology/simd_run_union.h"
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 #define LAMELLA_BLOCK_UNION
 namespace lamella {
 
-/// In cells without a run, begins and ends: less than those of any run.
+/// The (negated) begins and the ends in cells without a run: less than those of any run.
 constexpr std::int32_t no_end = -unbounded;
 
-/// How far a run reaches on the lines of a block.
+/// The extents of a run on the lines of a block.
 struct LineReaches {
-    const std::int32_t *back, *ahead;  // of the block's first line
+    const std::int32_t *back, *ahead;  // those of the block's first line
     std::size_t stride;                // from layer to layer
 };
 
-/// The reaches of runs of one layer.
+/// Looks up the extents of the runs of one source layer.
 class RunReaches {
   public:
     RunReaches(const LayerLattice& lattice, const BallExtentTable& table, const LineBlock& block)
@@ -36,17 +36,17 @@ class RunReaches {
         table_back_ = table_.back(up_, 0);
         table_ahead_ = table_.ahead(up_, 0);
     }
-    /// How many lines before the block a line lies.
+    /// Returns how many lines a line lies before the block.
     std::int32_t lines_before(std::int32_t line) const { return block_.line - line; }
-    /// So many, or as many as the table has that way: balls do not reach farther.
+    /// Clamps a number of lines to the table; balls do not reach farther.
     std::int32_t in_table(std::int32_t lines) const { return table_.clamped_lines(lines); }
     bool are_in_table(double weight) const { return weight == weight_; }
-    /// From so many lines before the block, which the table has.
+    /// Returns the extents of a ball of the table, `lines` lines before the block; `lines` is clamped.
     LineReaches of_table(std::int32_t lines) const {
         return {table_back_ + lines, table_ahead_ + lines, stride_};
     }
     double row_pitch() const { return lattice_.row_pitch; }
-    /// The square of the distance of a layer of the block.
+    /// Returns the squared distance to a layer of the block, run units^2.
     double up_square(std::size_t layer) const {
         const std::int32_t layers = up_ + static_cast<std::int32_t>(layer);
         if (layers == 0) return 0;  // the pitch may be infinite
@@ -63,7 +63,8 @@ class RunReaches {
     const std::int32_t *table_back_ = nullptr, *table_ahead_ = nullptr;
 };
 
-/// Adds a run that ends in the cell it begins in: line by line, as on some it may grow beyond the cell's end.
+/// Adds a run that ends in the cell in which it begins. Goes line by line, because on some lines its dilation
+/// reaches beyond the cell's end and on others it does not.
 [[gnu::noinline]] inline void add_short(const Run& run, std::size_t cell, const LineReaches& reaches,
                                         SimdRunUnion::Cells& to) {
     for (std::size_t z = 0; z < to.layers; ++z) {
@@ -97,7 +98,7 @@ HWY_INLINE void keep_greatest(Lines d, hn::Vec<Lines> value, std::int32_t* at) {
     hn::Store(hn::Max(hn::Load(d, at), value), d, at);
 }
 
-/// Calculates the reaches of balls that are not in the table.
+/// Calculates the extents of balls whose radius is not that of the table.
 template <std::size_t layers>
 class OtherBalls {
   public:
@@ -129,7 +130,7 @@ class OtherBalls {
         const auto left =
             hn::Sub(hn::Sub(hn::Set(d, weight), hn::Mul(across, across)), hn::Set(d, up_square));
         const auto reach = hn::Sqrt(hn::Max(left, hn::Zero(d)));
-        // As RoundedExtent.
+        // Rounds as RoundedExtent does.
         const auto ahead = hn::ShiftRight<1>(hn::DemoteTo(whole, hn::Add(hn::Add(reach, reach), one)));
         const auto tie = hn::Eq(hn::Sub(hn::PromoteTo(d, ahead), reach), hn::Set(d, 0.5));
         const auto back = hn::Sub(ahead, hn::DemoteTo(whole, hn::IfThenElseZero(tie, one)));
@@ -143,14 +144,14 @@ class OtherBalls {
     std::array<std::int32_t, layers * SimdRunUnion::edge> back_, ahead_;
 };
 
-/// Adds runs to cells, on all lines of so many layers.
+/// Adds runs to the cells, on all lines of `layers` layers.
 template <std::size_t layers>
 class RunAdder {
   public:
     explicit RunAdder(SimdRunUnion::Cells& to)
         : to_(to), extent_(to.extent), covered_(to.covered.data()), used_(to.used.data()) {}
 
-    /// Adds a run that lies so many lines before the block, or so many in the table.
+    /// Adds a run that lies `lines` lines before the block; `in_table` is that number clamped to the table.
     HWY_INLINE void add(const WeightedRun& run, std::int32_t lines, std::int32_t in_table,
                         const RunReaches& of_layer) {
         const bool known = of_layer.are_in_table(run.weight);
@@ -219,7 +220,7 @@ void add_lines(std::span<const SourceLine> lines, RunReaches& reaches, SimdRunUn
     add_lines_of<8>(lines, reaches, to);
 }
 
-/// Appends the runs of the union and forgets what is in the cells.
+/// Appends the runs of the union to `out` and clears the cells.
 void take_runs(std::span<const std::uint32_t> used, SimdRunUnion::Cells& cells, SimdRunUnion::Lines& out) {
     const Lines d;
     const auto zero = hn::Zero(d), none = hn::Set(d, no_end);
@@ -236,7 +237,7 @@ void take_runs(std::span<const std::uint32_t> used, SimdRunUnion::Cells& cells, 
                     if (run.begin < run.end) lines[i].push_back(run);
                 }
             };
-            // Before these, nothing of a cell or behind it begins.
+            // Replaces each cell's begin by the least begin of this cell and all later ones.
             auto begins = none;
             for (std::size_t k = used.size(); k-- > 0;) {
                 std::int32_t* const at = cells.layers_of(used[k])[z].begins.data() + l;

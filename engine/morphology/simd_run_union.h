@@ -17,54 +17,57 @@ struct SourceLine {
     std::span<const WeightedRun> runs;
 };
 
-/// Unites grown runs on the lines of a block, by SIMD over the lines: a few operations a run, whatever it
-/// covers.
+/// Union of dilated runs on all lines of a block, by SIMD over the lines: a few operations per run, whatever
+/// it covers.
 ///
-/// A run is kept by the cell, a pixel long, that it begins in before it grows, which is the same for all
-/// lines. Of those of a cell that grow beyond its end, the union is one run: from the least begin to the
-/// greatest end. A gap has what begins before it in cells before those of what begins behind it; so it lies
-/// between two cells where all up to the first have ended and nothing from the second on has begun.
+/// A run is filed under the cell, one pixel long, in which it begins before it is dilated. That cell is the
+/// same for all lines. The runs of one cell that reach beyond the cell's end once dilated have one run as
+/// their union: from the least begin to the greatest end. All runs left of a gap are filed under cells before
+/// those of the runs right of it. So a gap lies between two cells such that all runs up to the first one have
+/// ended and none from the second one on has begun.
 class SimdRunUnion {
   public:
     static constexpr std::int32_t edge = BallExtentTable::edge;
     static constexpr std::size_t max_lines = static_cast<std::size_t>(edge) * edge;
 
-    /// For blocks of at most so many layers, themselves at most `edge`, of `edge` lines. Lines are clipped to
-    /// `extent`. `reaches` are those of most runs, and outlive this.
+    /// Blocks have at most `max_layers` layers (<= `edge`) of at most `edge` lines. Results are clipped to
+    /// `extent`. `reaches` should be the table of the most frequent radius and must outlive this object.
     SimdRunUnion(const LayerLattice& lattice, const BallExtentTable& reaches, Run extent,
                  std::int32_t max_layers);
 
     /// Begins a block.
     void begin(const LineBlock& block) { block_ = block; }
-    /// Adds runs of a layer's rows, those at [from, to) of them, on lines that balls of the table reach.
+    /// Adds the runs number [from, to) of a layer. They lie on lines that balls of the table reach the block
+    /// from.
     void add(const WeightedRows& rows, std::int32_t layer, std::size_t from, std::size_t to);
     void add(std::span<const SourceLine> lines);
-    /// Adds what is covered on all lines of the block, as it is.
+    /// Adds runs to all lines of the block, without dilating them.
     void add_covered(std::span<const Run> runs);
-    /// Unites all that was added.
+    /// Computes the union of all runs added since begin().
     void unite();
-    /// The runs of a line, counted from the block's first: sorted, disjoint and not touching.
+    /// Returns the runs of a line: sorted, disjoint and not touching. Layer and line are counted from the
+    /// block's first.
     std::span<const Run> line(std::int32_t layer, std::int32_t line) const {
         return lines_[place(layer, line)];
     }
 
-    /// Of a line, counted from the block's first, among max_lines.
+    /// Returns the index of a line, counted from the block's first, among max_lines.
     static std::size_t place(std::int32_t layer, std::int32_t line) {
         return static_cast<std::size_t>(layer) * edge + static_cast<std::size_t>(line);
     }
     enum class Use : std::uint8_t { none, some };
     using Lines = std::array<std::vector<Run>, max_lines>;
-    /// What runs of a cell cover of the lines of a layer.
+    /// The union of a cell's runs on each line of a layer.
     struct alignas(64) Covered {
-        std::array<std::int32_t, edge> begins;  // times -1, so that both grow
+        std::array<std::int32_t, edge> begins;  // negated, so that a maximum updates both
         std::array<std::int32_t, edge> ends;
     };
     struct Cells {
         Run extent;
-        std::size_t layers;            // of each cell
-        std::vector<Covered> covered;  // cell by cell, and in each layer by layer
-        std::vector<Use> used;         // cells, filled up to whole words
-        Lines short_runs;              // those that do not grow beyond the end of their cell
+        std::size_t layers;            // layers per cell, a power of two
+        std::vector<Covered> covered;  // by cell, then by layer
+        std::vector<Use> used;         // by cell, padded to whole words
+        Lines short_runs;              // dilated runs that end within their cell
 
         std::size_t cell_of(std::int32_t at) const {
             return static_cast<std::uint32_t>(at - extent.begin) / run_unit;

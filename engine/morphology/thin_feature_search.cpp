@@ -1,4 +1,5 @@
-// Places where a ball fits, found run by run where nothing near has one, then all of them about what is left.
+// ThinFeatureSearch: finds ball centres run by run where none is known nearby, then all of them around the
+// points that are still undecided.
 #include "engine/morphology/thin_feature_search.h"
 
 #include <algorithm>
@@ -9,10 +10,11 @@
 namespace lamella {
 namespace {
 
-/// Fewer than one in so many runs of a line are looked at one by one, more of them together.
+/// If at least one in so many runs of a line is undecided, the runs are handled together, otherwise one by
+/// one.
 constexpr std::size_t few_share = 4;
 
-/// Calls visit(number) for the runs of a line that meet a stretch.
+/// Calls visit(number) for the runs of a line that meet an interval.
 template <typename Visit>
 void for_runs_meeting(const RunRows& rows, std::size_t line, const Run& stretch, Visit visit) {
     const std::span<const Run> runs = rows.line(line);
@@ -42,7 +44,7 @@ void ThinFeatureSearch::push(const RunRows& layer) {
     push_slab(widened(layer, margin_), true);
 }
 
-/// The void goes on, and balls fit there.
+/// Pushes empty layers: the void extends beyond the given layers, and balls fit there.
 void ThinFeatureSearch::push_beyond() {
     for (std::size_t i = 0; i < beyond_; ++i) push_slab(empty_rows(lines_ + 2 * margin_), false);
 }
@@ -65,7 +67,7 @@ void ThinFeatureSearch::push_slab(RunRows solid, bool is_judged) {
     for (; found_ + static_cast<std::size_t>(fitting_.layers()) <= index; ++found_) find_centers(found_);
 }
 
-/// Closes what of a run lies near the centers that runs beside it in another line are near.
+/// Applies the ball centres known to the runs of an adjacent line to `run`.
 void ThinFeatureSearch::inherit_from(std::size_t index, const NumberedRun& run, std::size_t other,
                                      std::size_t other_line) {
     Slab& here = slab(index);
@@ -76,14 +78,15 @@ void ThinFeatureSearch::inherit_from(std::size_t index, const NumberedRun& run, 
                            footprint_);
 }
 
-/// What of a run lies near a center is not open any more.
+/// Marks the points of a run within reach of the ball centre as decided, where they are at its undecided
+/// ends.
 void ThinFeatureSearch::decide_within(const BallCenter& center, std::size_t index, const NumberedRun& run) {
     UndecidedRuns& open = slab(index).open;
     if (open.may_close(center, run, footprint_))
         open.decide_within(centers_.add(center), centers_, run, footprint_);
 }
 
-/// Finds the centers in a run of a layer. They are valid until the next search.
+/// Finds and stores the ball centres in a run. The result is valid until the next search.
 std::span<const Run> ThinFeatureSearch::search(std::size_t index, const NumberedRun& run) {
     Slab& here = slab(index);
     const Run& whole = here.of.runs()[run.number];
@@ -103,7 +106,7 @@ std::span<const Run> ThinFeatureSearch::search(std::size_t index, const Numbered
     return found;
 }
 
-/// Looks for centers in those runs of a layer that lie near none of which their neighbours know.
+/// Searches those runs of a layer that stay undecided by the ball centres that their neighbours know.
 void ThinFeatureSearch::find_centers(std::size_t index) {
     Slab& here = slab(index);
     if (index > first_) {
@@ -139,8 +142,8 @@ void ThinFeatureSearch::find_centers(std::size_t index) {
     }
 }
 
-/// Looks for all centers near the open runs of a line, those in runs not searched so far included, and takes
-/// what lies near them away from what is left.
+/// Subtracts the reach of all ball centres from `left`, the undecided parts of `runs` on one line. Runs
+/// nearby that were not searched yet are searched first.
 void ThinFeatureSearch::look_near(std::size_t index, std::span<const NumberedRun> runs, RunDifference& left) {
     const std::size_t line = runs.front().line;
     const bool are_many = few_share * runs.size() > slab(index).of.line(line).size();
@@ -167,7 +170,7 @@ void ThinFeatureSearch::look_near(std::size_t index, std::span<const NumberedRun
         if (centers.empty()) continue;
         left.subtract(centers, on.reach);
         if (are_many) continue;
-        // What the runs are near will be asked for by their neighbours.
+        // Neighbouring runs will inherit these centres.
         for (const NumberedRun& run : runs) {
             const Run open = slab(index).open.part(run.number);
             const Run* center = first_ending_behind(centers, open.begin - on.reach.ahead);
@@ -179,7 +182,7 @@ void ThinFeatureSearch::look_near(std::size_t index, std::span<const NumberedRun
     }
 }
 
-/// Appends what is too thin in a layer, without the margin's lines.
+/// Appends the too thin points of a layer, without the margin's lines.
 void ThinFeatureSearch::thin_of(std::size_t index, RunRows& out) {
     Slab& here = slab(index);
     RunDifference left;

@@ -12,9 +12,10 @@
 
 namespace lamella {
 
-/// The same as ThinFeatureStream, and far quicker where slack is as large as the radius or larger, and most
-/// is thick enough: a center where the ball fits then excuses much about it. Places are looked for run by run
-/// where none is known near by, and only what is left open is held against all of them in the end.
+/// Computes the same as ThinFeatureStream. It is far quicker if the slack is at least as large as the radius
+/// and most of the medium is thick enough: one ball centre then decides many points around it. Ball centres
+/// are searched for run by run, and only where none is known nearby. In the end the points that are still
+/// undecided are tested against all ball centres.
 class ThinFeatureSearch {
   public:
     ThinFeatureSearch(const LayerLattice& lattice, const Thinness& thinness,
@@ -24,12 +25,12 @@ class ThinFeatureSearch {
     bool pop(RunRows& out);
 
   private:
-    /// A layer with the margin's lines.
+    /// A layer, with the margin's lines.
     struct Slab {
-        RunRows of, beside;             // what is measured, and what lies beside it
-        UndecidedRuns open;             // not known to lie near a center
-        std::vector<NumberedRun> left;  // runs of which something is open, in their order
-        BallCentersByRun centers;       // known: where in `of` a ball's middle may be
+        RunRows of, beside;  // the measured medium and its complement
+        UndecidedRuns open;  // the part of each run of `of` not within reach of a known ball centre
+        std::vector<NumberedRun> left;  // runs with an undecided part, in order
+        BallCentersByRun centers;       // the ball centres found in `of` so far
     };
 
     bool is_kept(std::size_t index) const { return index - first_ < slabs_.size(); }
@@ -44,19 +45,19 @@ class ThinFeatureSearch {
     void thin_of(std::size_t index, RunRows& out);
 
     FeatureKind medium_;
-    std::size_t lines_, margin_;  // of the lattice, and beside it on either side
-    BallLines fitting_, near_;    // the ball that is to fit, and the one that excuses what is near
-    BallFootprint footprint_;     // what near_ reaches
-    std::size_t beyond_;          // empty layers before the first and behind the last
+    std::size_t lines_, margin_;  // lines of the lattice, and extra ones on either side
+    BallLines fitting_, near_;    // balls of `radius`, which must fit, and of `radius` + `slack`
+    BallFootprint footprint_;     // of near_
+    std::size_t beyond_;          // empty layers added below the first and above the last
     DilatedDifference remainder_;
-    std::vector<const RunRows*> beside_;  // of the layers about the one searched
+    std::vector<const RunRows*> beside_;  // complements of the layers around the searched one
 
     std::deque<Slab> slabs_;
     BallCenters centers_;
-    std::size_t first_ = 0;    // index of the first that is kept
-    std::size_t found_ = 0;    // how many were searched for the centers that they need
-    std::size_t next_;         // to come out
-    std::size_t to_come_ = 0;  // layers that went in and did not come out yet
+    std::size_t first_ = 0;    // index of slabs_.front()
+    std::size_t found_ = 0;    // index of the next layer that find_centers() handles
+    std::size_t next_;         // index of the next layer to come out
+    std::size_t to_come_ = 0;  // layers that went in and have not come out yet
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// What is far from what is far from the border.
+// Thin features: the points outside the dilated erosion (the opening with slack). Bit masks cull first.
 #include "engine/morphology/thin_features.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace lamella {
 
 namespace {
 
-/// How far from a point lies what decides whether it is too thin.
+/// Returns the distance within which the solid decides whether a point is too thin.
 double thinness_reach(const Thinness& thinness) { return 2 * thinness.radius + thinness.slack; }
 
 RunRows void_of(const RunRows& rows) { return complement(rows, -unbounded, unbounded); }
@@ -22,21 +22,22 @@ void without_margin(const RunRows& wide, std::size_t margin, RunRows& out) {
     out.append_lines(wide, margin, wide.lines() - 2 * margin);
 }
 
-/// The cells of a medium, of which `touched` ones hold some, that may be too thin: all others lie within
-/// `reach` of cells that discs of `radius` do not reach from what is `beside` it.
+/// Returns the candidate cells: cells of the medium that may contain too thin points. `touched` are the cells
+/// that meet the medium, `beside` those that meet its complement. A cell is no candidate if it lies surely
+/// within `reach` of a cell of ball centres, that is, one that no disc of `radius` about `beside` meets.
 RowBitmask candidate_cells(RowBitmask touched, const RowBitmask& beside, double radius, double reach,
                            double row_pitch) {
     touched.subtract_dilated(beside.beyond(outer_disc(radius, row_pitch)), inner_disc(reach, row_pitch));
     return touched;
 }
 
-/// How many rows wide cells are that tell well enough what may be too thin.
+/// Returns how many rows wide a cell may be to find few enough candidates: a fourth of the radius.
 std::int32_t cell_scale(const Thinness& thinness) {
     constexpr std::int32_t cells_in_radius = 4;
     return std::max(static_cast<std::int32_t>(thinness.radius / (cells_in_radius * run_unit)), 1);
 }
 
-/// What lies in `where`, whose rows have a margin, of the solid or of the void.
+/// Returns the part of the solid or of the void that lies in `where`, whose rows include a margin.
 RunRows medium_within(const RunRows& where, const RunRows& rows, std::size_t margin, FeatureKind medium) {
     RunRows within;
     for (std::size_t l = 0; l < where.lines(); ++l) {
@@ -51,7 +52,8 @@ RunRows medium_within(const RunRows& where, const RunRows& rows, std::size_t mar
     return within;
 }
 
-/// On each line what lies no further along and across from rows than a ball reaches, and what is between.
+/// Returns one run per line: from the first to the last point in the bounding square of a ball about any
+/// point of `rows`.
 RunRows extents_about(const RunRows& rows, double radius, double row_pitch) {
     const auto beside = static_cast<std::size_t>(radius / row_pitch);
     const std::int32_t along = static_cast<std::int32_t>(radius) + 1;
@@ -70,8 +72,8 @@ RunRows extents_about(const RunRows& rows, double radius, double row_pitch) {
     return all;
 }
 
-/// Where something may be too thin, and where it matters whether balls fit: no further from there than they
-/// reach. Rows with a margin.
+/// `at`: where points may be too thin. `near`: where ball centres matter, within radius + slack of `at`. The
+/// rows include a margin.
 struct Candidates {
     RunRows at, near;
     std::size_t margin;
@@ -92,10 +94,11 @@ Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureK
     return found;
 }
 
-/// The same by cells of several rows.
+/// Finds candidates with cells of several rows.
 Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Thinness& thinness,
                                double row_pitch) {
-    // Rows of two cells lie up to a row of cells nearer or farther; and more than rounding makes.
+    // Rows of two cells may be up to one row of cells nearer or farther than the cells; 1 covers rounding
+    // errors.
     const double rounding_margin = row_pitch + 1;
     const std::int32_t scale = cell_scale(thinness);
     const CoarseCells cells(rows, scale, thinness_reach(thinness), row_pitch);
@@ -110,7 +113,7 @@ Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Th
     return found;
 }
 
-/// The points of a medium that are too thin, out of the suspected ones. They are looked at run by run.
+/// Exact test of the candidates: finds the too thin points of the medium among them.
 void thin_among(const Candidates& suspicion, const RunRows& rows, FeatureKind medium,
                 const Thinness& thinness, double row_pitch, RunRows& out) {
     if (suspicion.at.runs().empty()) {
@@ -181,7 +184,7 @@ ThinFeatureStream::ThinFeatureStream(const LayerLattice& lattice, const Thinness
     push_beyond();
 }
 
-/// The void goes on, and balls fit there.
+/// Pushes empty layers: the void extends beyond the given layers, and balls fit there.
 void ThinFeatureStream::push_beyond() {
     for (std::size_t i = 0; i < beyond_; ++i) push_wide(empty_rows(lines_ + 2 * margin_));
 }

@@ -8,38 +8,40 @@
 
 namespace lamella {
 
-/// What counts as too thin: points that lie further than `radius` + `slack` from every place where a ball of
-/// `radius` fits wholly. Lengths in run units.
+/// The criterion for too thin: a point farther than `radius` + `slack` from every ball centre, that is, from
+/// every point where a ball of `radius` fits wholly. Lengths in run units.
 ///
-/// Without slack that is what an opening takes away (Williams and Rossignac 2005: what is not stable), and
-/// with it every sharp edge, though a machine does no worse than to round it. A slack of half of the radius
-/// excuses edges of 84 degrees and more, one of one and a half of it those of 47 degrees; walls and struts
-/// are found that stand out further than it.
+/// Without slack these are the points that an opening removes (Williams and Rossignac 2005: not stable). They
+/// include every sharp edge, although a machine merely rounds it. A slack of half the radius excuses edges of
+/// 84 degrees and more, a slack of one and a half radii excuses edges of 47 degrees and more. Thin walls and
+/// struts are found if they stand out farther than the slack.
 struct Thinness {
     double radius = 0;
     double slack = 0;
 };
 
-/// What is measured: the solid, or the void between it.
+/// The medium to measure: walls are thin parts of the solid, gaps are narrow parts of the void.
 enum class FeatureKind : unsigned char { wall, gap };
 
-/// Rows beyond a layer's that decide about them.
+/// Returns how many rows beyond a layer's matter to whether points of the layer are too thin.
 std::size_t margin_of(const Thinness& thinness, double row_pitch);
-/// Rows with `margin` empty ones on either side.
+/// Returns the rows with `margin` empty rows added on either side.
 RunRows widened(const RunRows& rows, std::size_t margin);
 
-/// What of a layer's rows, or of the void between them, is too thin within the layer.
+/// Finds the points of a layer's solid, or of its void, that are too thin within the layer. `out` gets as
+/// many rows as `rows`. `row_pitch` in run units.
 void thin_rows(const RunRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
                RunRows& out);
-/// How far cells must be known beside a layer's rows, run units, to tell what is too thin: not at all where
-/// larger cells, made for it alone, tell as well.
+/// Returns how far beyond a layer's rows (run units) the cells passed to the thin_rows below must extend. 0
+/// if that function does not read them, because coarser cells that it makes itself are good enough.
 double reach_of_cells(const Thinness& thinness);
-/// The same where the rows' cells are known so far.
+/// Does the same with cells made beforehand, to share them between checks. They extend to reach_of_cells.
 void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
                double row_pitch, RunRows& out);
 
-/// What is too thin in layers, by a ball that reaches from layer to layer; beside the lines and layers given
-/// all is void. Layers come out in the order in which they went in, once all are known that the ball reaches.
+/// Finds the too thin points of a stream of layers, with a ball that extends across layers. Outside the given
+/// lines and layers all is void. Layers come out in the order in which they were pushed, each as soon as all
+/// layers that decide about it are known. Used like DilationStream.
 class ThinFeatureStream {
   public:
     ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness,
@@ -54,13 +56,13 @@ class ThinFeatureStream {
     void carry_on();
 
     FeatureKind medium_;
-    std::size_t lines_, margin_;    // of the lattice, and beside it on either side
-    std::size_t beyond_;            // empty layers before the first and behind the last
-    std::size_t to_drop_;           // of those before
-    std::size_t to_come_ = 0;       // layers that went in and did not come out yet
-    std::deque<RunRows> of_;        // what is measured, of layers where it is not known where the ball fits
-    DilatedDifferenceStream core_;  // where the middle of a ball may be
-    DilatedDifferenceStream thin_;  // what lies far from there
+    std::size_t lines_, margin_;    // lines of the lattice, and extra ones on either side
+    std::size_t beyond_;            // empty layers added below the first and above the last
+    std::size_t to_drop_;           // empty layers below the first that have not come out yet
+    std::size_t to_come_ = 0;       // layers that went in and have not come out yet
+    std::deque<RunRows> of_;        // the measured medium, of layers whose ball centres are not known yet
+    DilatedDifferenceStream core_;  // ball centres: the medium minus its dilated complement
+    DilatedDifferenceStream thin_;  // the medium minus the dilated ball centres
 };
 
 }  // namespace lamella

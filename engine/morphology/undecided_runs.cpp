@@ -1,4 +1,4 @@
-// Stretches cut off at their ends.
+// UndecidedRuns: intervals trimmed at their ends, with a linked list of known ball centres for each run.
 #include "engine/morphology/undecided_runs.h"
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 namespace lamella {
 namespace {
 
-constexpr double beyond_the_ball = -2;  // a reach that stays negative when it is rounded
+constexpr double beyond_the_ball = -2;  // an extent that stays negative when rounded
 
 }  // namespace
 
 void BallCenters::forget_below(std::int32_t layer) {
     const auto past =
         std::ranges::find_if(kept_, [&](const BallCenter& center) { return center.layer >= layer; });
-    // What stays is moved: no more than what goes.
+    // Erasing moves the rest, so wait until at least as many go as stay.
     if (past - kept_.begin() < kept_.end() - past) return;
     first_ += static_cast<std::uint32_t>(past - kept_.begin());
     kept_.erase(kept_.begin(), past);
@@ -59,7 +59,7 @@ void UndecidedRuns::decide_within(std::uint32_t center, const BallCenters& cente
     first.next = static_cast<std::uint32_t>(more_.size()) - 1;
 }
 
-/// Closes what of a run lies near any center that another run is known to be near.
+/// Applies all ball centres known to run number `other` of `others` to `run`.
 void UndecidedRuns::close_near_all(const UndecidedRuns& others, std::size_t other, const BallCenters& centers,
                                    const NumberedRun& run, const BallFootprint& near) {
     Link link = others.near_[other];

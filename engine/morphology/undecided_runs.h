@@ -8,29 +8,30 @@
 
 namespace lamella {
 
-/// A ball centre, or a run of them: a stretch of a line of a stack of layers; run units.
+/// A run of ball centres on a line of a stack of layers, run units.
 struct BallCenter {
     std::int32_t layer, line;
     Run run;
 };
 
-/// Ball centres by number, of layers that stream by.
+/// Numbered ball centres of a stream of layers.
 class BallCenters {
   public:
+    /// Stores a ball centre and returns its number.
     std::uint32_t add(const BallCenter& center) {
         kept_.push_back(center);
         return first_ + static_cast<std::uint32_t>(kept_.size()) - 1;
     }
     const BallCenter& operator[](std::uint32_t number) const { return kept_[number - first_]; }
-    /// Forgets some of those below a layer, whose numbers must not be asked for again.
+    /// Forgets centres below a layer, at times and not necessarily all. Their numbers must not be used again.
     void forget_below(std::int32_t layer);
 
   private:
     std::vector<BallCenter> kept_;
-    std::uint32_t first_ = 0;  // number of the first that is kept
+    std::uint32_t first_ = 0;  // number of kept_.front()
 };
 
-/// The footprint of the balls centred at a center, line by line.
+/// The footprint of the balls about a run of centres, line by line.
 class BallFootprint {
   public:
     explicit BallFootprint(const BallLines& ball);
@@ -44,7 +45,7 @@ class BallFootprint {
     }
 
   private:
-    /// Of the line so many layers and rows on from the first one about the middle.
+    /// Returns the index of a line, counted from the lowest layer and the first row that the ball reaches.
     std::size_t number(int up, int across) const {
         const int rows = 2 * rows_ + 1;
         return static_cast<std::size_t>(up) * static_cast<std::size_t>(rows) +
@@ -52,10 +53,10 @@ class BallFootprint {
     }
 
     int layers_, rows_;
-    std::vector<RoundedExtent> reaches_;  // of lines, layer by layer; negative beyond the ball
+    std::vector<RoundedExtent> reaches_;  // by layer, then by row; negative beyond the ball
 };
 
-/// A run of rows: its line, and its number among all of them.
+/// A run: its line, and its number among all runs of the layer.
 struct NumberedRun {
     std::size_t line, number;
 };
@@ -64,7 +65,7 @@ struct NumberedRun {
 /// as ball centres within reach are found.
 class UndecidedRuns {
   public:
-    /// `count` lines from `first_line` on are open wholly, others not at all. The rows stay where they are.
+    /// The runs of `count` lines from `first_line` on start undecided, those of all other lines decided.
     UndecidedRuns(const RunRows& rows, std::int32_t layer, std::size_t first_line, std::size_t count);
 
     /// Returns the undecided part of run `number`; empty once it is decided.
@@ -72,15 +73,15 @@ class UndecidedRuns {
     /// Returns true if any run of `line` knows a ball centre within reach.
     bool knows_any(std::size_t line) const { return known_in_[line] > 0; }
     bool is_open(std::size_t number) const { return part(number).begin < part(number).end; }
-    /// Returns true if the ball at `center` reaches an undecided end of the run.
+    /// Returns true if the balls about `center` reach an end of the run's undecided part.
     bool may_close(const BallCenter& center, const NumberedRun& run, const BallFootprint& near) const {
         const Run closed = near.on_line(center, layer_, static_cast<std::int32_t>(run.line)),
                   &open = open_[run.number];
         return closed.begin < open.end && open.begin < closed.end &&
                (closed.begin <= open.begin || open.end <= closed.end);
     }
-    /// Marks what the ball at `center` reaches as decided. Trims ends only: a ball that reaches the middle
-    /// alone changes nothing.
+    /// Marks the points that the balls about `center` reach as decided. Trims ends only: if they reach the
+    /// middle alone, nothing changes.
     void decide_within(std::uint32_t center, const BallCenters& centers, const NumberedRun& run,
                        const BallFootprint& near);
     /// Applies the ball centres known to an adjacent line, of the same layer or of another one, to `run`.
@@ -96,18 +97,18 @@ class UndecidedRuns {
                         const NumberedRun& run, const BallFootprint& near);
 
     static constexpr std::uint32_t none = UINT32_MAX;
-    /// A center that a run was found to be near, and where the next one stands in more_.
+    /// A node of a run's list of known centres; `next` is an index into more_.
     struct Link {
         std::uint32_t center = none, next = none;
     };
     std::int32_t layer_;
-    std::vector<Run> open_;   // of each run
-    std::vector<Link> near_;  // of each run
+    std::vector<Run> open_;   // the undecided part of each run
+    std::vector<Link> near_;  // the list of known centres of each run
     std::vector<Link> more_;
-    std::vector<std::uint32_t> known_in_;  // how many, of each line
+    std::vector<std::uint32_t> known_in_;  // number of known centres, by line
 };
 
-/// The number of a line's first run.
+/// Returns the number of a line's first run.
 inline std::size_t first_run(const RunRows& rows, std::size_t line) {
     return static_cast<std::size_t>(rows.line(line).data() - rows.runs().data());
 }

@@ -1,4 +1,4 @@
-// Rows one after another.
+// WeightedRows: rows stored one after another.
 #include "engine/morphology/weighted_rows.h"
 
 #include <algorithm>

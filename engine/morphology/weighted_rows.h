@@ -10,18 +10,20 @@
 
 namespace lamella {
 
-/// Run units; solids lie within, the void reaches up to it or beyond. What lies there is not moved by balls.
+/// A run coordinate beyond all solids, run units. The void extends from -unbounded to unbounded or farther.
+/// Run ends there are not moved by a dilation.
 inline constexpr std::int32_t unbounded = 1 << 29;
 
-/// A solid interval of a line and how far a ball about it reaches.
+/// A solid interval of a line, with the radius of the ball about each of its points.
 struct WeightedRun {
-    std::int32_t begin;  ///< as of Run
+    std::int32_t begin;  ///< as in Run
     std::int32_t end;
     double weight;  ///< square of the ball's radius, run units^2
     friend bool operator==(const WeightedRun&, const WeightedRun&) = default;
 };
 
-/// By how many units a reach moves ends of runs when these are rounded to the nearest unit, halves upward.
+/// The whole numbers of units by which a dilation by `reach` moves the begin and the end of a run, if moved
+/// ends are rounded to the nearest unit, halves upward.
 struct RoundedExtent {
     std::int32_t back, ahead;
     explicit RoundedExtent(double reach) : back(static_cast<std::int32_t>(2 * reach + 1) / 2), ahead(back) {
@@ -29,11 +31,11 @@ struct RoundedExtent {
     }
 };
 
-/// The rows of a layer with the square of the ball's radius at each run.
+/// The rows of a layer, with the squared radius of the ball for each run.
 class WeightedRows {
   public:
     WeightedRows() : starts_(1, 0) {}
-    /// The same radius everywhere, run units.
+    /// Gives all runs the same radius, run units.
     WeightedRows(const RunRows& rows, double radius);
 
     std::size_t lines() const { return starts_.size() - 1; }
@@ -41,18 +43,18 @@ class WeightedRows {
         return {runs_.data() + starts_[l], starts_[l + 1] - starts_[l]};
     }
     std::span<const WeightedRun> runs() const { return runs_; }
-    /// The place in runs() of a line's first run; of what lies behind the last line, the number of runs.
+    /// Returns the index in runs() of a line's first run; the number of runs for `l` = lines().
     std::size_t start(std::size_t l) const { return starts_[l]; }
-    /// The line of each run.
+    /// Returns the line of each run.
     std::span<const std::int32_t> lines_of_runs() const { return lines_of_runs_; }
     double max_weight() const { return max_weight_; }
-    /// On which lines each run may matter; empty if that is unknown.
+    /// Returns on which lines each run may be visible; empty unless begin_sights() was called.
     std::span<const PowerCellBounds> sights() const { return sights_; }
-    /// Those of a line, to be limited once they have begun.
+    /// Returns those of a line, to be limited; only after begin_sights().
     std::span<PowerCellBounds> sights(std::size_t l) {
         return std::span(sights_).subspan(starts_[l], starts_[l + 1] - starts_[l]);
     }
-    /// Begins with unlimited ones.
+    /// Gives each run an unlimited power cell.
     void begin_sights() { sights_.assign(runs_.size(), PowerCellBounds()); }
     void append_line(std::span<const WeightedRun> runs);
 
@@ -66,15 +68,17 @@ class WeightedRows {
     double max_weight_ = 0;
 };
 
-/// The lattice of a stack of layers. Lengths in run units, 1/256 of the pitch along lines; where a ball
-/// reaches less far up than across, layers are that much farther apart.
+/// The lattice of a stack of layers. Lengths in run units, 1/256 of the pitch along lines. A flattened ball,
+/// which reaches less far along z than within the layer, is described by a layer pitch that is larger by that
+/// ratio. An infinite layer pitch keeps balls within their layer.
 struct LayerLattice {
     double row_pitch = run_unit;    ///< from line to line
     double layer_pitch = run_unit;  ///< from layer to layer
     std::size_t lines = 0;          ///< of each layer
 
-    /// How many lines, or layers, a ball reaches to either side.
+    /// Returns how many lines a ball of radius `reach` reaches to either side.
     std::size_t lines_within(double reach) const { return static_cast<std::size_t>(reach / row_pitch); }
+    /// Returns how many layers a ball of radius `reach` reaches up and down.
     std::size_t layers_within(double reach) const { return static_cast<std::size_t>(reach / layer_pitch); }
 };
 

@@ -1,4 +1,4 @@
-// The void of each layer is labelled in parallel and joined in order.
+// Cavity survey: the void of each layer is labelled in parallel and joined in order.
 #include "engine/surveys/cavity_survey.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int cavity_band_rows = 64;  // a band's runs stay in the cache
 
-/// The bounds with a row and a column of void all round.
+/// Returns rows over the job's bounds, surrounded by a row and a column of void.
 RowBand void_band(const Job& job, double pitch) {
     const dvec3 size = job.bounds.size();
     RowBand band;
@@ -26,7 +26,7 @@ RowBand void_band(const Job& job, double pitch) {
     return band;
 }
 
-/// Where a component's runs of one layer lie: sums over its runs, weighted with their lengths.
+/// A component's runs in one layer, and sums of their positions weighted with their lengths.
 struct LayerShare {
     int layer = 0;
     std::int64_t length = 0;
@@ -61,7 +61,7 @@ class CavitySurveyor : public LayerPass {
           z0_(job.z0()),
           band_(void_band(job, options.pitch)),
           components_(Growth{}, 0) {
-        // A layer of nothing but void lies below the first one.
+        // A layer of pure void lies below the first one.
         RunRows all;
         for (int r = 0; r < band_.count; ++r) {
             all.push(0, band_.hi * run_unit);
@@ -87,7 +87,7 @@ class CavitySurveyor : public LayerPass {
     RunComponents components_;
     std::uint32_t outside_ = 0;
     int last_layer_ = -1;
-    std::map<std::uint32_t, Ends> ends_;  ///< by the number that a component had when it was last seen
+    std::map<std::uint32_t, Ends> ends_;  ///< by the component's number when it was last met
 };
 
 std::unique_ptr<LayerProduct> CavitySurveyor::render(const Layer& layer) const {
@@ -145,7 +145,7 @@ void CavitySurveyor::write(const Layer& layer, LayerProduct& product) {
     auto& labelled = static_cast<VoidProduct&>(product);
     last_layer_ = layer.index();
     const auto numbers = components_.add(std::move(labelled.voids), layer.index());
-    // What has joined the outside need not be remembered, nor what has joined something else.
+    // Components that joined the outside are forgotten; those that joined another one are merged with it.
     for (std::size_t c = 0; c < numbers.size(); ++c) {
         const std::uint32_t number = components_.find(numbers[c]);
         if (number == components_.find(outside_)) continue;
@@ -162,7 +162,7 @@ void CavitySurveyor::write(const Layer& layer, LayerProduct& product) {
     ends_.swap(joined);
 }
 
-/// The middle of the run that is nearest to the middle of all runs.
+/// Returns a point of the runs, as near to their centroid as possible, but half a pixel inside its run.
 dvec3 CavitySurveyor::middle(const LayerShare& share) const {
     const auto length = static_cast<double>(share.length);
     const double along = share.along / length / run_unit, across = share.across / length;
@@ -188,7 +188,7 @@ dvec3 CavitySurveyor::middle(const LayerShare& share) const {
 CavitySurvey CavitySurveyor::result(std::size_t most) {
     CavitySurvey survey;
     for (const auto& [number, ends] : ends_) {
-        // The void of the last layer goes on above it.
+        // The void of the last layer continues above it.
         if (ends.high.layer == last_layer_) continue;
         const auto& component = components_.component(number);
         const double volume =

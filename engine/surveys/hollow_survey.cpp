@@ -1,4 +1,5 @@
-// Layers shrink by the wall as they stream; then the cavities are swept from the top down.
+// Hollow survey: layers are eroded by the wall as they stream; then a sweep from the top down makes the
+// cavities.
 #include "engine/surveys/hollow_survey.h"
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace lamella {
 namespace {
 
-/// What may become cavity, layer by layer: the part shrunk by the wall, without what is too narrow.
+/// Collects the insides, where cavities may be, layer by layer: the part eroded by the wall, without parts
+/// that are too narrow.
 class HollowSurveyor : public LayerPass {
   public:
     HollowSurveyor(const Job& job, const HollowOptions& options)
@@ -36,8 +38,8 @@ class HollowSurveyor : public LayerPass {
     double units(double mm) const { return mm * (run_unit / options_.pitch); }
 
   private:
-    /// The wall, and what rows and layers stand for: half of one to all sides, and so does the void beside
-    /// them.
+    /// The wall plus the sampling error: a row of a layer stands for half a pitch and half a course to all
+    /// sides, and so does a row of void.
     double reach() const {
         return options_.wall + std::sqrt(options_.pitch * options_.pitch + height_ * height_);
     }
@@ -48,11 +50,11 @@ class HollowSurveyor : public LayerPass {
 
     const HollowOptions& options_;
     RowBand band_;
-    double height_;  // of a group of layers
-    dvec3 middle_;   // from the lower corner of the bounds
+    double height_;  // of a group of layers_at_once layers; mm
+    dvec3 middle_;   // centre of the bounds, from their lower corner, mm
     ErosionStream shrunk_;
     LayerStack insides_;
-    LayerGroups groups_;  // solid in all of their layers
+    LayerGroups groups_;  // intersection of the layers of the current group so far
     double part_volume_ = 0;
 };
 
@@ -86,7 +88,7 @@ void HollowSurveyor::take_shrunk() {
     for (RunRows rows; shrunk_.pop(rows);) insides_.push(wide_enough(rows));
 }
 
-/// Divided into chambers, and of each what a disc as wide as a bead covers that lies within it.
+/// Subtracts the chamber walls and opens each chamber by a disc as wide as a bead.
 RunRows HollowSurveyor::wide_enough(const RunRows& rows) const {
     RunRows divided = rows;
     if (options_.chamber > 0) subtract(rows, chamber_walls(), divided);
@@ -97,7 +99,7 @@ RunRows HollowSurveyor::wide_enough(const RunRows& rows) const {
     return opened;
 }
 
-/// Walls along x and y, of a bead's width at least; one of each goes through the middle.
+/// Returns the chamber walls along x and y, at least a bead wide. One of each kind goes through the middle.
 RunRows HollowSurveyor::chamber_walls() const {
     const double every = options_.chamber + options_.bead, half = options_.bead / 2;
     const double width = band_.hi * options_.pitch;
@@ -116,7 +118,7 @@ RunRows HollowSurveyor::chamber_walls() const {
     return walls;
 }
 
-/// Makes of what may become cavity what does.
+/// Replaces the insides by the cavities, from the top down.
 void sweep_down(LayerStack& layers, const RoofRule& rule, const CancelToken* cancel) {
     if (layers.size() == 0) return;
     RunRows above = empty_rows(layers[0].lines());
@@ -127,10 +129,10 @@ void sweep_down(LayerStack& layers, const RoofRule& rule, const CancelToken* can
     }
 }
 
-/// The number of each layer's components in the whole, by their order in it.
+/// For each layer, the numbers of its components among those of the whole stack.
 using ComponentNumbers = std::vector<std::vector<std::uint32_t>>;
 
-/// Leaves out the runs of the components that have been found too small.
+/// Removes the runs of components that are too small.
 void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunComponents& components,
                  std::int64_t min_length) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -148,7 +150,7 @@ void leave_solid(LayerStack& layers, const ComponentNumbers& numbers, RunCompone
     }
 }
 
-/// Counts the cavities and leaves out those that are too small.
+/// Counts the cavities and removes those that are too small.
 void sort_out(LayerStack& layers, std::int64_t min_length, HollowSurvey& survey) {
     RunComponents components(Growth{}, 0);
     ComponentNumbers numbers;

@@ -1,4 +1,4 @@
-// The survey as a back-end of the layer stream: layers are labelled in parallel and joined in order.
+// Island survey: a back-end of the layer stream. Layers are labelled in parallel and joined in order.
 #include "engine/surveys/island_survey.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class IslandSurveyor : public LayerPass {
     IslandSurvey result();
 
   private:
-    /// The numbers of the components that are the largest of some group, ascending.
+    /// Returns the numbers of the components that are the largest of a group, ascending.
     std::vector<std::uint32_t> largest_of_groups();
     Island describe(const RunComponents::Component& component) const;
     double volume(std::int64_t length) const {

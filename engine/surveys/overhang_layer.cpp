@@ -1,4 +1,4 @@
-// Rows, grown rows, pieces and sampled outlines of one layer.
+// SurveyedLayer: rows, dilated rows, pieces and sampled outlines of one layer.
 #include "engine/surveys/overhang_layer.h"
 
 #include "engine/surveys/overhang_survey.h"
@@ -19,7 +19,7 @@ RunRows all_rows(const Layer& layer, RowBand band) {
     return all;
 }
 
-/// The rows' union with discs of `radius` rows about all their points that lie on a row.
+/// Dilates rows by a disc about each point of a row. The radius is in rows.
 RunRows grown_by_disc(const RunRows& rows, double radius) {
     const int reach = static_cast<int>(radius);
     std::vector<std::int32_t> widths;
@@ -87,13 +87,13 @@ void sample_outline(const Contour& contour, double most, SurveyedLayer& layer) {
         }
         walked += edge_length;
     }
-    // Rounding may leave the last sample to the path's end, where its first one lies.
+    // Rounding may move the last sample to the path's end, which is its first sample; it is dropped then.
     path.count = layer.samples.size() - path.first;
     layer.paths.push_back(path);
 }
 
 void find_piece(OutlinePath& path, const SurveyedLayer& layer, const SurveyResolution& by) {
-    constexpr std::size_t tries = 8;  // a path along a blade thinner than a row may be in luck elsewhere
+    constexpr std::size_t tries = 8;  // a blade thinner than a row may meet a row elsewhere on the path
     const std::size_t stride = std::max<std::size_t>(1, path.count / tries);
     for (std::size_t k = 0; k < path.count && path.piece == no_piece; k += stride) {
         path.piece = layer.piece_at(layer.bead(layer.samples[path.first + k], by.width), by.band);
@@ -108,7 +108,7 @@ SurveyResolution::SurveyResolution(const Job& job, const OverhangLimits& limits)
       width(limits.width),
       overhang(limits.overhang),
       growth(0) {
-    // Rows at most twice the overhang apart know inside from outside wherever no border is near.
+    // Rows at most twice the overhang apart tell inside from outside wherever no border is near.
     const double pitch = std::min(std::max(limits.width / 4, limits.overhang / 8), limits.overhang);
     const dvec3 size = job.bounds.size();
     band.along_origin = job.bounds.lo.x;
@@ -116,7 +116,7 @@ SurveyResolution::SurveyResolution(const Job& job, const OverhangLimits& limits)
     band.along_pitch = band.across_pitch = pitch;
     band.count = static_cast<int>(size.y / pitch) + 1;
     band.hi = static_cast<int>(size.x / pitch) + 1;
-    // Rows see the border up to a pitch late: what outlines hold must not hang because of that.
+    // Sampled by rows, the border may seem up to a pitch farther in. That must not make carried regions hang.
     growth = overhang + pitch;
 }
 
@@ -136,7 +136,7 @@ std::uint32_t SurveyedLayer::piece_at(dvec2 p, const RowBand& band) const {
     const int row = static_cast<int>(std::floor((p.y - band.across_origin) / band.across_pitch));
     const double u = band.coordinate(p.x);
     std::uint32_t nearest = no_piece;
-    double least = 2.0 * run_unit;  // a row and a pixel away at most
+    double least = 2.0 * run_unit;  // at most a row and a pixel away
     for (int r = row - 1; r <= row + 1; ++r) {
         const double away = r == row ? 0 : run_unit;
         for (const LabelledRun& run : labelled.row(r)) {

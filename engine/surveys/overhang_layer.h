@@ -1,4 +1,4 @@
-// The data of a layer that the overhang survey keeps until it has compared the next one.
+// SurveyedLayer: the data of a layer that the overhang survey keeps until the next layer is compared with it.
 #pragma once
 
 #include "engine/contours/contour_index.h"
@@ -9,19 +9,19 @@ namespace lamella {
 
 struct OverhangLimits;
 
-/// How finely a survey looks at layers. Lengths in mm.
+/// The sampling of layers by the overhang survey. Lengths in mm.
 struct SurveyResolution {
     SurveyResolution(const Job& job, const OverhangLimits& limits);
 
     RowBand band;      ///< rows over the whole job
     double tolerance;  ///< of outlines
-    double step;       ///< from sample to sample of an outline, at most
-    double width;      ///< of what is laid at once
-    double overhang;   ///< by which a layer may stand out over the one below
-    double growth;     ///< by which rows are grown that say where the next layer is held inside
+    double step;       ///< greatest distance of two samples of an outline
+    double width;      ///< of a bead
+    double overhang;   ///< distance by which a layer may stand out over the one below
+    double growth;     ///< dilation of the rows that carry the inside of the next layer
 };
 
-/// A place of an outline.
+/// A sample point of an outline.
 struct OutlineSample {
     dvec2 at;
     dvec2 inward;  ///< unit normal
@@ -29,12 +29,12 @@ struct OutlineSample {
 
 inline constexpr std::uint32_t no_piece = UINT32_MAX;
 
-/// A closed path: an outline in even steps.
+/// A closed path: an outline sampled in even steps.
 struct OutlinePath {
-    std::size_t first = 0;           ///< of its samples
-    std::size_t count = 0;           ///< at least 4
+    std::size_t first = 0;           ///< index of its first sample
+    std::size_t count = 0;           ///< number of samples, at least 4
     double step = 0;                 ///< mm
-    std::uint32_t piece = no_piece;  ///< of the layer; none where it is too thin for the rows
+    std::uint32_t piece = no_piece;  ///< the layer's piece that it bounds; no_piece if too thin for the rows
 };
 
 /// A connected piece of a layer.
@@ -48,24 +48,24 @@ struct SurveyedLayer : LayerProduct {
     std::vector<OutlineSample> samples;
     std::vector<OutlinePath> paths;
     ContourIndex border;
-    RunRows rows;   ///< empty without a line where there is no layer
-    RunRows grown;  ///< the same grown by a disc
+    RunRows rows;   ///< without lines if there is no layer
+    RunRows grown;  ///< `rows` dilated by a disc
     LabelledLayer labelled;
     std::vector<LayerPiece> pieces;
 
-    /// By how much p stands out over this layer, mm: negative inside; plus or minus infinity where its border
-    /// is further than the resolution's overhang.
+    /// Returns the signed distance of p from this layer, mm, negative inside: by how much p stands out. Plus
+    /// or minus infinity if the layer's border is farther than the resolution's overhang.
     double stand_out(dvec2 p, const SurveyResolution& by) const;
-    /// The piece of the layer at or beside p, within a row.
+    /// Returns the piece of the layer at p, or within about a row of it; no_piece if there is none.
     std::uint32_t piece_at(dvec2 p, const RowBand& band) const;
-    /// A place in a piece, as near to its centre as its rows come.
+    /// Returns the point of a piece's rows that is nearest to its centroid.
     dvec2 middle(std::uint32_t piece, const RowBand& band) const;
-    /// Where the middle of what is laid along the outline lies: half a width inside, or midway through what
-    /// is thinner.
+    /// Returns the centre of the bead along the outline: half a width inside, or midway through a thinner
+    /// wall.
     dvec2 bead(const OutlineSample& sample, double width) const;
 };
 
-/// Surveys a layer by itself. Pure.
+/// Samples a layer by itself. Pure.
 std::unique_ptr<SurveyedLayer> survey_layer(const Layer& layer, const SurveyResolution& by);
 
 }  // namespace lamella

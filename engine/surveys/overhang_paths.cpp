@@ -1,4 +1,5 @@
-// Stretches that hang: left where they are short or bridge straight from hold to hold, else held on the way.
+// Overhang paths: a hanging stretch is left alone if it is short or a straight bridge; otherwise it gets
+// support points.
 #include "engine/surveys/overhang_paths.h"
 
 #include <algorithm>
@@ -39,14 +40,14 @@ class PathWalker {
     bool enforced(std::size_t k) const {
         return q_.enforced != nullptr && q_.enforced->value({sample(k).at, q_.z}) < 0;
     }
-    /// Whether the layer below does not hold a sample.
+    /// Returns true if the layer below does not carry a sample.
     bool hangs(std::size_t k) const {
         const double out = q_.stand_out[path_.first + k];
         return out > q_.limits.overhang || (out > enforced_share * q_.limits.overhang && enforced(k));
     }
     bool held(std::size_t k) const { return hangs_[k % path_.count] == 0 || placer_.held(bead(k)); }
 
-    /// A path that nothing holds anywhere: its first sample is its first hold.
+    /// Handles a path that nothing carries anywhere: its first sample gets the first point.
     void walk_free() {
         const bool thin = path_.piece == no_piece;
         if (!thin && path_.step * static_cast<double>(path_.count) < q_.limits.free_stretch) return;
@@ -54,7 +55,7 @@ class PathWalker {
         walk_on(0, path_.count);
     }
 
-    /// What hangs between two samples that are held.
+    /// Handles the hanging stretch between two held samples.
     void walk_stretch(std::size_t from, std::size_t to) {
         const double length = path_.step * static_cast<double>(to - from);
         if (length <= q_.limits.free_stretch) return;
@@ -67,7 +68,7 @@ class PathWalker {
         walk_on(from, to);
     }
 
-    /// Whether a stretch runs straight from where the layer below holds it to where it does so again.
+    /// Returns true if a stretch is a straight bridge between two samples that the layer below carries.
     bool bridges(std::size_t from, std::size_t to) const {
         if (hangs_[from % path_.count] != 0 || hangs_[to % path_.count] != 0) return false;
         const dvec2 a = sample(from + 1).at, chord = sample(to - 1).at - a;

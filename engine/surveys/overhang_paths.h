@@ -1,4 +1,4 @@
-// Outlines walked in the order they are printed, and points placed where they would hang.
+// Overhang paths: walks along outlines and places support points where they would hang.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// What is asked about the paths of one layer.
+/// The inputs for one layer.
 struct PathQuestion {
     const SurveyedLayer& layer;
     const SurveyResolution& by;
@@ -21,15 +21,15 @@ struct PathQuestion {
 };
 
 struct PathFindings {
-    double hanging_length = 0;  ///< mm
-    std::size_t own_bridges = 0;
-    std::vector<dvec2> bridge_ways;  ///< unit directions of own bridges of the layer
+    double hanging_length = 0;       ///< mm
+    std::size_t own_bridges = 0;     ///< hanging stretches of paths that bridge straight from end to end
+    std::vector<dvec2> bridge_ways;  ///< unit directions of these bridges
 };
 
-/// Walks the paths of a layer and places points along what hangs.
+/// Walks along the paths of a layer and places support points on hanging stretches.
 PathFindings hold_paths(const PathQuestion& question, SupportPlacer& placer);
 
-/// Where the allowance is a tenth of the usual one.
+/// Within `enforced` the allowed overhang is this share of the usual one.
 inline constexpr double enforced_share = 0.1;
 
 }  // namespace lamella

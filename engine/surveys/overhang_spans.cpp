@@ -1,17 +1,18 @@
-// The hanging part of a layer on a lattice, its regions by flood fill, and straight ways through each.
+// Overhang spans: the hanging part of a layer on a lattice, its regions by flood fill, and straight lines
+// through each.
 #include "engine/surveys/overhang_spans.h"
 
 namespace lamella {
 namespace {
 
-/// Of a node: void, held, under the outline's own bead (which its path answers for), or hanging.
+/// The states of a node: void, carried, near the outline (left to its path), hanging, and visited.
 enum : std::uint8_t { none, hold, edge, hanging, visited };
 
 struct SpanNode {
     int x, y;
 };
 
-/// Where the layer hangs and where it is held, about all that hangs.
+/// A lattice over the hanging regions of a layer and their surroundings.
 class HangingLattice {
   public:
     HangingLattice(const SurveyedLayer& layer, const RunRows& hang, const SurveyResolution& by)
@@ -25,7 +26,7 @@ class HangingLattice {
             y1 = std::max(y1, y);
         });
         if (x0 > x1) return;
-        constexpr int margin = 2;  // for what holds round about
+        constexpr int margin = 2;  // nodes, for the carried parts around
         first_ = {x0 - margin, y0 - margin};
         nx_ = x1 - x0 + 1 + 2 * margin;
         ny_ = y1 - y0 + 1 + 2 * margin;
@@ -79,13 +80,13 @@ class HangingLattice {
     }
 
     const RowBand& band_;
-    int pitches_;  ///< of the rows, from node to node
+    int pitches_;  ///< row pitches from node to node
     SpanNode first_{0, 0};
     int nx_ = 0, ny_ = 0;
     std::vector<std::uint8_t> states_;
 };
 
-/// The region of a node in the order of a flood fill over all eight neighbours; marks it visited.
+/// Returns the region of a node by a flood fill over all eight neighbours, and marks it visited.
 std::vector<SpanNode> region_of(HangingLattice& lattice, SpanNode from) {
     std::vector<SpanNode> region{from};
     lattice.at(from) = visited;
@@ -102,7 +103,8 @@ std::vector<SpanNode> region_of(HangingLattice& lattice, SpanNode from) {
     return region;
 }
 
-/// Void beside what hangs still counts as on the way: a way along a slanting outline steps on it.
+/// Returns true if a node is next to a hanging one. A line along a slanted outline steps on void nodes beside
+/// it; these do not end the line.
 bool beside_hanging(const HangingLattice& lattice, SpanNode n) {
     for (int y = n.y - 1; y <= n.y + 1; ++y) {
         for (int x = n.x - 1; x <= n.x + 1; ++x) {
@@ -112,7 +114,8 @@ bool beside_hanging(const HangingLattice& lattice, SpanNode n) {
     return false;
 }
 
-/// Steps from a node to a hold; `most` + 1 when the way ends in the void or is longer.
+/// Returns the number of steps from a node to a carried one; `most` + 1 if the line ends in the void or is
+/// longer.
 int steps_to_hold(const HangingLattice& lattice, SpanNode from, dvec2 way, int most) {
     for (int k = 1; k <= most; ++k) {
         const SpanNode n{from.x + static_cast<int>(std::floor(way.x * k + 0.5)),
@@ -146,12 +149,12 @@ double extent(const std::vector<SpanNode>& region, double step) {
     return step * std::sqrt(dx * dx + dy * dy);
 }
 
-/// The directions that lines may be laid in: every 22.5 degrees, and the given ones.
+/// Returns the directions in which lines may be laid: every 22.5 degrees, and the given ones.
 std::vector<dvec2> ways_of(const std::vector<dvec2>& bridge_ways) {
     constexpr double c = 0.92387953251128674, s = 0.38268343236508977, d = 0.70710678118654752;
     std::vector<dvec2> ways{{1, 0}, {0, 1}, {d, d}, {-d, d}, {c, s}, {s, c}, {-s, c}, {-c, s}};
     constexpr std::size_t max_ways = 24;
-    constexpr double same = 0.02;  // by which directions differ, radians
+    constexpr double same = 0.02;  // directions within this angle count as equal, radians
     for (const dvec2 way : bridge_ways) {
         if (ways.size() == max_ways) break;
         bool fresh = true;

@@ -1,4 +1,4 @@
-// The survey as a back-end of the layer stream: layers are looked at in parallel and compared in order.
+// Overhang survey: a back-end of the layer stream. Layers are sampled in parallel and compared in order.
 #include "engine/surveys/overhang_survey.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class OverhangSurveyor : public LayerPass {
     OverhangSurvey result();
 
   private:
-    /// Lets the next layer keep what it is compared with.
+    /// Holds the layer by pointer, so that it can be kept for comparison with the next one.
     struct HeldProduct : LayerProduct {
         std::unique_ptr<SurveyedLayer> layer;
     };
@@ -58,10 +58,10 @@ class OverhangSurveyor : public LayerPass {
     SupportPlacer placer_;
     RunComponents components_;
     std::optional<PrintStability> stability_;
-    std::vector<std::uint32_t> numbers_;  ///< the component of each piece of the layer at hand
-    std::vector<std::uint8_t> island_;    ///< of each piece, whether it is its component's beginning
+    std::vector<std::uint32_t> numbers_;  ///< the component of each piece of the current layer
+    std::vector<std::uint8_t> island_;    ///< by piece: 1 if its component begins with it
     std::vector<std::uint32_t> live_;     ///< components of the layer before, ascending
-    std::uint32_t known_ = 0;             ///< components so far
+    std::uint32_t known_ = 0;             ///< number of components so far
     OverhangSurvey survey_;
 };
 
@@ -113,8 +113,8 @@ void OverhangSurveyor::number_pieces(const SurveyedLayer& layer, int index) {
     stability_->keep_only(live_);
 }
 
-/// Small islands are held in their middle, before their outlines are looked at; large ones there only when
-/// they have no point.
+/// Places a point in the middle of islands that have none: of small ones before the outlines are walked, of
+/// large ones afterwards.
 void OverhangSurveyor::hold_islands(const SurveyedLayer& layer, double z, std::size_t points_before,
                                     bool small_ones) {
     if (std::find(island_.begin(), island_.end(), 1) == island_.end()) return;
@@ -157,10 +157,11 @@ void OverhangSurveyor::lay_on_bed(const SurveyedLayer& layer) {
     }
 }
 
-/// What stands out over the layer below faces down: a support can reach it, where it is not nearly a wall.
+/// Offers the samples that stand out over the layer below: there the surface faces down, so that a support
+/// can reach it, unless it is nearly upright.
 void OverhangSurveyor::offer_places(const SurveyedLayer& layer, const std::vector<double>& out, double z,
                                     double thickness) {
-    // Outlines of one shape in two layers differ by a quarter of the tolerance, after straightening.
+    // After simplification, equal outlines in two layers may differ by a quarter of the tolerance.
     const double measurable = std::max(by_.tolerance / 4, thickness / 3);
     for (const OutlinePath& path : layer.paths) {
         if (path.piece == no_piece) continue;

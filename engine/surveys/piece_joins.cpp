@@ -1,4 +1,5 @@
-// Pieces as thinned points, a tree between them, and the shortest way at each of its edges.
+// Join survey: pieces as sparse points, a spanning tree between them, and the shortest connection at each of
+// its edges.
 #include "engine/surveys/piece_joins.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ struct PiecePoint {
     std::uint32_t piece;
 };
 
-/// Points of all pieces, the first of each piece in each cell of a cubic grid.
+/// Sparse points of all pieces: the first point of each piece in each cell of a cubic grid.
 class ThinnedPoints {
   public:
     ThinnedPoints(const Box& bounds, double cell)
@@ -32,7 +33,7 @@ class ThinnedPoints {
     double cell() const { return cell_; }
     std::size_t size() const { return points_.size(); }
     void add(dvec3 at, std::uint32_t piece) { points_.try_emplace({cell_of(at), piece}, at); }
-    /// Pieces get their final numbers; of a cell's points of one piece one stays.
+    /// Gives pieces their final numbers. Of several points of one piece in a cell, one is kept.
     template <typename Find>
     void rename(Find find) {
         std::map<Key, dvec3> renamed;
@@ -43,14 +44,14 @@ class ThinnedPoints {
     void visit(Visit visit) const {
         for (const auto& [key, at] : points_) visit(PiecePoint{at, key.second});
     }
-    /// The point nearest to `from` among those that are wanted, nearer than the squared_length root of
-    /// `best`; null when there is none. Narrows `best`.
+    /// Returns the wanted point nearest to `from`, if its squared distance is below `best`, and lowers `best`
+    /// to it; null otherwise.
     template <typename Wanted>
     const dvec3* nearest(dvec3 from, Wanted wanted, double& best, std::uint32_t& piece) const {
         const dvec3* found = nullptr;
         const Cell middle = cell_of(from);
         for (int ring = 0; ring <= max_rings_; ++ring) {
-            const double away = (ring - 1) * cell_;  // at least, of all in the ring
+            const double away = (ring - 1) * cell_;  // lower bound of the distance of the ring's points
             if (ring > 0 && away > 0 && away * away >= best) break;
             visit_ring(middle, ring, [&](const Key& key, const dvec3& at) {
                 const double d = squared_length(at - from);
@@ -69,7 +70,7 @@ class ThinnedPoints {
         const dvec3 c = glm::floor((p - origin_) / cell_);
         return {static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
     }
-    /// The points in the shell of cells at this distance from the middle one.
+    /// Visits the points in the shell of cells at distance `ring` from the middle cell.
     template <typename Visit>
     void visit_ring(Cell middle, int ring, Visit visit) const {
         for (int x = middle[0] - ring; x <= middle[0] + ring; ++x) {
@@ -90,14 +91,14 @@ class ThinnedPoints {
     std::map<Key, dvec3> points_;
 };
 
-/// An edge of the tree, and the runs about its ends.
+/// An edge of the tree, and the runs around its ends.
 struct Edge {
     PiecePoint a, b;
     std::vector<PlacedRun> runs_a, runs_b;
 };
 
-/// Boruvka's tree over the pieces, by the distances of their points: in every round each set but the largest
-/// takes the shortest way out.
+/// Returns Boruvka's spanning tree over the pieces, by the distances of their points. In every round each set
+/// except the largest is joined to the nearest other set.
 std::vector<Edge> spanning_tree(const ThinnedPoints& points, const std::vector<std::uint32_t>& pieces,
                                 std::uint32_t largest) {
     const auto place_of = [&](std::uint32_t piece) {
@@ -139,7 +140,7 @@ struct LabelledRows : LayerProduct {
     LabelledLayer labelled;
 };
 
-/// What both passes have in common: rows, and the numbers of their pieces.
+/// The common part of both passes: rows, and the numbers of their pieces.
 class PieceSurveyor : public LayerPass {
   public:
     PieceSurveyor(const Job& job, double pitch)
@@ -184,7 +185,7 @@ class PieceSurveyor : public LayerPass {
     RunComponents components_;
 };
 
-/// The first pass: points of every piece.
+/// The first pass: collects points of every piece.
 class PointSurveyor : public PieceSurveyor {
   public:
     PointSurveyor(const Job& job, double pitch, double cell)
@@ -205,7 +206,7 @@ class PointSurveyor : public PieceSurveyor {
     double step_;
 };
 
-/// The second pass: the runs about the ends of edges.
+/// The second pass: collects the runs around the ends of edges.
 class EdgeSurveyor : public PieceSurveyor {
   public:
     EdgeSurveyor(const Job& job, double pitch, std::vector<Edge>& edges, double reach, RunComponents& known)
@@ -232,7 +233,7 @@ class EdgeSurveyor : public PieceSurveyor {
     }
 
   private:
-    /// An end of an edge, and where the runs about it go.
+    /// An end of an edge, and the list for the runs around it.
     struct End {
         dvec3 at;
         std::vector<PlacedRun>* runs;
@@ -244,10 +245,10 @@ class EdgeSurveyor : public PieceSurveyor {
     std::vector<Edge>& edges_;
     double reach_;
     RunComponents& known_;
-    std::map<std::uint32_t, std::vector<End>> ends_;  // in reach of the layer at hand, by piece
+    std::map<std::uint32_t, std::vector<End>> ends_;  // ends within reach of the current layer, by piece
 };
 
-/// The shortest way between two sets of runs.
+/// Returns the shortest connection between two sets of runs.
 PieceJoin shortest_way(const Edge& edge, const PieceSurveyor& surveyor) {
     PieceJoin best{edge.a.at, edge.b.at};
     double least = squared_length(best.b - best.a);
@@ -259,7 +260,7 @@ PieceJoin shortest_way(const Edge& edge, const PieceSurveyor& surveyor) {
             const double d = gap * gap + dy * dy + dz * dz;
             if (d >= least) continue;
             least = d;
-            // Side by side: in the middle of what they have in common.
+            // Runs side by side are connected in the middle of their overlap.
             const double lo = std::max(a0.x, b0.x), hi = std::min(a1.x, b1.x), middle = 0.5 * (lo + hi);
             const bool overlap = lo <= hi;
             best.a = {overlap ? middle : (a1.x < b0.x ? a1.x : a0.x), a0.y, a0.z};

@@ -1,4 +1,5 @@
-// The survey for joins: two streaming passes over a job's layers that find short ways between its pieces.
+// Join survey: finds short connections between the disconnected pieces of a part, in two streaming passes
+// over a job's layers.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace lamella {
 
-/// A way from a point of one piece to a point of another.
+/// A straight connection from a point of one piece to a point of another.
 struct PieceJoin {
     dvec3 a{0}, b{0};  ///< mm
     double length() const { return glm::distance(a, b); }
@@ -15,22 +16,24 @@ struct PieceJoin {
 
 struct JoinSurveyOptions : PassControl {
     double pitch = 0.1;              ///< mm from one surveyed row to the next
-    std::size_t max_pieces = 10000;  ///< that can be joined
+    std::size_t max_pieces = 10000;  ///< most pieces that can be joined
 };
 
 struct JoinSurvey {
-    std::size_t pieces = 0;        ///< of the part, the largest included
-    std::vector<PieceJoin> joins;  ///< one less than there are pieces: with them all are one
+    std::size_t pieces = 0;        ///< number of pieces of the part
+    std::vector<PieceJoin> joins;  ///< one less than pieces: a spanning tree
 };
 
-/// Finds a spanning tree of short ways between the connected pieces of a job's part. Runs that overlap or
-/// touch, in neighbouring rows and layers, corners included, are of one piece.
+/// Finds a spanning tree of short connections between the pieces of a job's part. Runs that overlap or touch,
+/// in neighbouring rows and layers, corners included, belong to one piece.
 ///
-/// Pieces are first known by points about a 64th of the job's diagonal apart, which choose who is joined to
-/// whom (Boruvka's tree); each way is then made the shortest there is between the runs about its ends. A pure
-/// function of part, layers and pitch, the same by any number of threads. Memory depends on a few layers'
-/// runs, on the runs about the joins and on those points, not on the number of layers. Throws InputError when
-/// the pitch does not suit the job (survey_pitch_range says which do) or there are too many pieces,
+/// The first pass represents the pieces by points about a 64th of the job's diagonal apart. These decide
+/// which pieces are joined (Boruvka's tree). The second pass replaces each connection by the shortest one
+/// between the runs around its ends.
+///
+/// A pure function of part, layers and pitch, independent of the number of threads. Memory depends on a few
+/// layers' runs, on the runs around the joins and on the points, not on the number of layers. Throws
+/// InputError when the pitch does not suit the job (see survey_pitch_range) or there are too many pieces,
 /// Interrupted when cancelled.
 JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options);
 

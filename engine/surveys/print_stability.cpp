@@ -1,4 +1,4 @@
-// Moments about the edges of convex hulls that grow with every hold.
+// PrintStability: moments about the edges of convex hulls, which grow with every support point.
 #include "engine/surveys/print_stability.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double gravity = 9.80665e-6;  // N per g/cm^3 and mm^3
 constexpr double widening = 0.2;        // mm by which a point must widen the hull to count
-constexpr double further = 0.05;        // mm by which a place must lie further out than a lower one
+constexpr double further = 0.05;        // mm by which a place must lie farther out than a lower one
 
 constexpr double c1 = 0.92387953251128674, c2 = 0.70710678118654752, c3 = 0.38268343236508977;
 constexpr std::array<std::array<double, 2>, 16> compass{{{1, 0},
@@ -28,7 +28,7 @@ constexpr std::array<std::array<double, 2>, 16> compass{{{1, 0},
                                                          {c2, -c2},
                                                          {c1, -c3}}};
 
-/// The convex hull, counter-clockwise, without points on its edges (Andrew's monotone chain).
+/// Returns the convex hull, counter-clockwise, without points on its edges (Andrew's monotone chain).
 std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
     std::sort(points.begin(), points.end(),
               [](dvec2 a, dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -163,7 +163,7 @@ PrintStability::Edge PrintStability::weakest_edge(const Component& c, double hei
 
 const dvec3* PrintStability::max_helpful(const Component& c, const Edge& edge) const {
     const dvec3* furthest_out = nullptr;
-    const dvec3* furthest_in = nullptr;  // there it holds the part down
+    const dvec3* furthest_in = nullptr;  // there a point holds the part down
     double out = -widening, in = 0;
     for (std::size_t k = 0; k < directions; ++k) {
         if (c.reach[k] == -infinity) continue;

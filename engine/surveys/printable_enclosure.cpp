@@ -1,4 +1,4 @@
-// Sweeps down and up over a stack of layers.
+// Printable enclosures: sweeps down and up over a stack of layers.
 #include "engine/surveys/printable_enclosure.h"
 
 #include "engine/base/error.h"
@@ -14,7 +14,7 @@ RunRows grown(const RunRows& rows, double by, double row_pitch) {
     return out;
 }
 
-/// The layer with all that the one beside it has further than a step inside.
+/// Returns the union of a layer and the erosion of a neighbouring layer by a step.
 RunRows with_inside_of(const RunRows& layer, const RunRows& beside, const EnclosureRule& rule) {
     RunRows inside, out;
     shrink_rows(beside, rule.step, rule.row_pitch, inside);
@@ -22,19 +22,19 @@ RunRows with_inside_of(const RunRows& layer, const RunRows& beside, const Enclos
     return out;
 }
 
-/// What of the layer above stands too far out over this one. Rows are taken for what lies between them: where
-/// they graze an outline, a disc may miss it by a part of a row.
+/// Returns the parts of the layer above that stand out too far over this layer. Half a row is added to the
+/// limit, because a row that grazes an outline may be missed by a disc by a part of a row.
 RunRows hanging_over(const RunRows& layer, const RunRows& above, const EnclosureRule& rule) {
     RunRows hanging;
     subtract(above, grown(layer, rule.corner + rule.row_pitch / 2, rule.row_pitch), hanging);
     return hanging;
 }
 
-/// The layer with what holds all of the one above. Sharp corners and fins are drawn in as far as they may be:
-/// of them comes in, row by row outward, what is needed. What hangs together with nothing else stays as it
-/// is.
+/// Returns the layer, grown so that it carries all of the layer above. Sharp corners and fins are drawn in as
+/// far as the rule allows: the layer grows into them row by row, only as far as needed. Pieces of the layer
+/// above that are connected to nothing else are taken over.
 RunRows with_thin_of(const RunRows& layer, const RunRows& above, const EnclosureRule& rule) {
-    constexpr int longest = 256;  // rows that a fin is followed
+    constexpr int longest = 256;  // rows for which a fin is followed
     RunRows hanging = hanging_over(layer, above, rule);
     if (hanging.runs().empty()) return layer;
     const double reach = rule.corner + rule.row_pitch / 2;
@@ -50,7 +50,7 @@ RunRows with_thin_of(const RunRows& layer, const RunRows& above, const Enclosure
     return out;
 }
 
-/// Whether the layer is another than before.
+/// Replaces a layer. Returns true if it changed.
 bool take(LayerStack& layers, std::size_t i, const RunRows& rows) {
     if (rows == layers[i]) return false;
     layers.replace(i, rows);

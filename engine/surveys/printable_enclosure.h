@@ -1,4 +1,4 @@
-// Tight printable enclosures: what holds given layers and has an outline that can be printed as a wall.
+// Printable enclosures: tight enclosures of given layers whose outline can be printed as a wall.
 #pragma once
 
 #include "engine/layers/layer_stream.h"
@@ -8,26 +8,27 @@ namespace lamella {
 
 /// Lengths in run units.
 struct EnclosureRule {
-    double step = run_unit;        ///< by which a layer may be drawn in against its neighbours
-    double corner = 2 * run_unit;  ///< by which sharp corners of it may; at least the step
-    double row_pitch = run_unit;   ///< from row to row; at most the step
+    double step = run_unit;        ///< distance by which an outline may move between neighbouring layers
+    double corner = 2 * run_unit;  ///< distance by which sharp corners may move; at least `step`
+    double row_pitch = run_unit;   ///< from row to row; at most `step`
 };
 
-/// Grows the layers of a stack, none of which shrinks, until each layer's outline lies within a step of the
-/// outline of the layer below, at sharp corners within `corner`:
-/// - what a disc of radius `step` leaves of a layer, when one stands about each point outside it, lies in the
-///   layers above and below it;
-/// - nothing of a layer lies further than `corner` and half a row from the layer below. Where straight sides
-/// are
-///   drawn in by a step, their corner moves by more, 1.4 steps where it is a right angle, and still more
-///   where it is acute; what that leaves behind comes in row by row as far as is needed, and what hangs
-///   together with nothing else, such as the thin end of what began in the air, goes down to the lowest
-///   layer.
+/// Grows the layers of a stack until each layer's outline is within a step of the outline of the layer below,
+/// at sharp corners within `corner`. No layer shrinks. Two conditions hold afterwards:
+/// - The erosion of a layer by a disc of radius `step` lies within the layers above and below it.
+/// - No point of a layer is farther than `corner` and half a row from the layer below.
 ///
-/// Without such things the result is the smallest that holds this, for the first condition alone decides it,
-/// and what several stacks hold that fulfil it, does so, too. Sweeps down and up until nothing changes;
-/// returns their number. Hornus, Lefebvre, Dumas and Claux 2016; keeping what is thin is ours. Throws
-/// Interrupted when cancelled (may be null), and InputError where the stack has no room.
+/// If straight sides are drawn in by a step, their corner moves by more: by 1.4 steps at a right angle, and
+/// by still more at an acute one. Corners that stand out too far for the second condition are therefore drawn
+/// in row by row, as far as needed. A piece connected to nothing else, such as the thin end of a feature that
+/// began in the air, is continued down to the lowest layer.
+///
+/// Without such corners and pieces the result is the smallest possible one: then the first condition alone
+/// decides, and the intersection of stacks that fulfil it fulfils it, too.
+///
+/// Sweeps down and up until nothing changes, and returns the number of sweeps. After Hornus, Lefebvre, Dumas
+/// and Claux 2016; to keep thin features is ours. `cancel` may be null. Throws Interrupted when cancelled,
+/// and InputError when the stack exceeds its memory limit.
 int enclose(LayerStack& layers, const EnclosureRule& rule, const CancelToken* cancel);
 
 }  // namespace lamella

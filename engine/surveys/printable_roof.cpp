@@ -1,4 +1,4 @@
-// Connected parts of a layer one by one: wholly, or grown and under a hip roof.
+// Printable roofs: each connected part of a layer becomes cavity as a whole, or by dilation and a hip roof.
 #include "engine/surveys/printable_roof.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace lamella {
 namespace {
 
-/// The rows [first, first + count) of a layer; beyond it they are empty.
+/// Returns the rows [first, first + count) of a layer; rows outside it are empty.
 RunRows rows_of(const RunRows& all, int first, int count) {
     RunRows some;
     for (int l = first; l < first + count; ++l) {
@@ -20,8 +20,8 @@ RunRows rows_of(const RunRows& all, int first, int count) {
     return some;
 }
 
-/// The cavity of one connected part of a layer's inside. All rows are those of the part, and as many beside
-/// it as a step reaches.
+/// The cavity of one connected part of a layer's inside. All rows cover the part, and as many rows beside it
+/// as a step reaches.
 class PartCavity {
   public:
     PartCavity(const RunRows& above, const RunRows& part, const RoofRule& rule)
@@ -44,10 +44,11 @@ class PartCavity {
         shrink_rows(rows, by, rule_.row_pitch, out);
         return out;
     }
-    /// What would hang further than a step from all that is solid beside such a cavity.
+    /// Returns the solid above such a cavity that would hang farther than a step from the solid beside it.
     RunRows overhang(const RunRows& cavity) const { return without(shrunk(cavity, rule_.step), above_); }
 
-    /// The cavity above and a step about it; what would be too thin between its parts is closed.
+    /// Returns the cavity above, dilated by a step. Walls between its parts that would be too thin become
+    /// cavity.
     RunRows grown_above() const {
         RunRows cavity = common(grown(above_, rule_.step), part_);
         if (rule_.min_wall == 0 || cavity.runs().empty()) return cavity;
@@ -55,7 +56,8 @@ class PartCavity {
         return common(united(cavity, shrunk(grown(cavity, half), half)), part_);
     }
 
-    /// Less what is solid above within reach of what would hang.
+    /// Returns the cavity without the points near hanging solid that have solid above them: thin walls
+    /// continue downward.
     RunRows without_thin_walls_lost(const RunRows& cavity) const {
         const RunRows hanging = overhang(cavity);
         if (hanging.runs().empty()) return cavity;
@@ -63,7 +65,7 @@ class PartCavity {
         return without(cavity, without(about, above_));
     }
 
-    /// The part's inside beyond a distance from its border: the least from which on nothing hangs.
+    /// Returns the erosion of the part by the least distance that leaves nothing hanging, by bisection.
     RunRows under_hip_roof(const RunRows& cavity) const {
         constexpr int parts_of_a_step = 16;
         double too_little = 0, enough = half_width();
@@ -81,7 +83,7 @@ class PartCavity {
         return best;
     }
 
-    /// No point of the part lies further than this from its border.
+    /// Returns an upper bound of the distance of the part's points from its border.
     double half_width() const {
         std::int32_t longest = 0;
         for (const Run& run : part_.runs()) longest = std::max(longest, run.end - run.begin);
@@ -93,7 +95,7 @@ class PartCavity {
     const RoofRule& rule_;
 };
 
-/// The rows of one component of a labelled layer, with `margin` empty ones on either side.
+/// Returns the rows of one component of a labelled layer, with `margin` empty rows on either side.
 RunRows rows_of_component(const RunRows& all, const LabelledLayer& labels, std::uint32_t component,
                           int margin) {
     const ComponentExtent& extent = labels.components[component];
@@ -110,7 +112,7 @@ RunRows rows_of_component(const RunRows& all, const LabelledLayer& labels, std::
     return rows;
 }
 
-/// Joins rows that begin with line `first` to those of a whole layer.
+/// Returns the union of a whole layer and rows that begin at its line `first`.
 RunRows joined(const RunRows& whole, const RunRows& some, int first) {
     return united(whole, rows_of(some, -first, static_cast<int>(whole.lines())));
 }

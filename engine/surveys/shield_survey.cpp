@@ -1,4 +1,5 @@
-// Layers grow by gap and wall as they stream; then the enclosure is swept, and its outline kept.
+// Shield survey: layers are dilated by gap and wall as they stream; then sweeps make the enclosure, and its
+// outermost wall is kept.
 #include "engine/surveys/shield_survey.h"
 
 #include <algorithm>
@@ -13,12 +14,12 @@
 namespace lamella {
 namespace {
 
-/// What the shield has to hold, layer by layer.
+/// Collects the regions that the shield must enclose, layer by layer.
 class ShieldSurveyor : public LayerPass {
   public:
     ShieldSurveyor(const Job& job, const ShieldOptions& options)
         : options_(options),
-          // As many rows as the wall takes, and one more for what lies between the rows that are looked at.
+          // The wall in whole rows; reach_ has one more row for features between the surveyed rows.
           wall_(std::ceil(options.wall / options.pitch - 1e-9) * run_unit),
           reach_(units(options.gap) + wall_ + run_unit),
           smooth_(units(options.bead)),
@@ -36,7 +37,7 @@ class ShieldSurveyor : public LayerPass {
     LayerStack& layers() { return layers_; }
     dvec2 origin() const { return rect_.lo; }
     double units(double mm) const { return mm * (run_unit / options_.pitch); }
-    /// The wall's thickness, run units.
+    /// Returns the wall's thickness, run units.
     double wall() const { return wall_; }
 
   private:
@@ -45,7 +46,7 @@ class ShieldSurveyor : public LayerPass {
     Rect rect_;
     RowBand band_;
     LayerStack layers_;
-    LayerGroups groups_;  // solid in any of their layers
+    LayerGroups groups_;  // union of the layers of the current group so far
 };
 
 std::unique_ptr<LayerProduct> ShieldSurveyor::render(const Layer& layer) const {
@@ -63,17 +64,17 @@ void ShieldSurveyor::write(const Layer& /*layer*/, LayerProduct& product) {
     if (groups_.add(std::move(static_cast<RowsProduct&>(product).rows))) layers_.push(groups_.take());
 }
 
-/// The rows with what is thinner than `least` made about as thick.
+/// Returns the rows with parts thinner than `least` thickened to about that thickness.
 RunRows thickened(const RunRows& rows, double least) {
     RunRows core, opened, grown;
     shrink_rows(rows, least / 2, run_unit, core);
-    // A row more: slivers where rows graze an outline are not thin.
+    // One more row: slivers where rows graze an outline do not count as thin.
     grow_rows(WeightedRows(core, least / 2 + run_unit), run_unit, opened);
     grow_rows(WeightedRows(without(rows, opened), least / 2), run_unit, grown);
     return united(rows, grown);
 }
 
-/// Leaves of each layer what lies within the wall's thickness of its outline.
+/// Replaces each layer by the points within the wall's thickness of its outline.
 void keep_walls(LayerStack& layers, double wall) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const RunRows outer = thickened(layers[i], wall);
@@ -100,7 +101,7 @@ ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
     LayerStack& layers = surveyor.layers();
     ShieldSurvey survey;
     const double step = surveyor.units(options.step * options.layers_at_once);
-    constexpr double corner = 2.5;  // steps: corners of 50 degrees and more are drawn in with their sides
+    constexpr double corner = 2.5;  // steps: corners of 50 degrees and more may move with their sides
     survey.sweeps = enclose(layers, {step, corner * step, run_unit}, options.cancel);
     keep_walls(layers, surveyor.wall());
     const double height = job.layer_height * options.layers_at_once;

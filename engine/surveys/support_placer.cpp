@@ -1,10 +1,11 @@
-// Cells of points, found by hashing.
+// SupportPlacer: a hash grid of points.
 #include "engine/surveys/support_placer.h"
 
 namespace lamella {
 namespace {
 
-/// A cell's number: 21 bits a coordinate. Cells that share a number are told apart by the distance.
+/// Returns a cell's key: 21 bits per coordinate. Distinct cells may share a key; the distance test tells
+/// their points apart.
 std::uint64_t cell_key(double x, double y, double z) {
     constexpr double half = 1 << 20;
     const auto bits = [](double v) {

@@ -1,4 +1,4 @@
-// SupportPlacer: support points as they are placed, and what they hold.
+// SupportPlacer: places support points and answers what they hold.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace lamella {
 
-/// Points by cells of their spacing. The answers do not depend on the order of the cells.
+/// A hash grid of points, with cells as large as the search radius. Results do not depend on the order of
+/// cells.
 class PointCells {
   public:
     explicit PointCells(double size) : size_(size) {}
     void add(dvec3 p);
-    /// Whether a point lies within the cells' size of p and not above it.
+    /// Returns true if a point lies within the cell size of p and not above it.
     bool any_below(dvec3 p) const;
 
   private:
@@ -23,17 +24,17 @@ class PointCells {
     std::unordered_map<std::uint64_t, std::vector<dvec3>> cells_;
 };
 
-/// Takes points as they come, but for those in a blocked region: they are counted, and hold only what is
-/// blocked itself.
+/// Collects support points. Points in a blocked region are left out and counted; they count as holding
+/// blocked places only.
 class SupportPlacer {
   public:
-    /// spacing in mm; `blocked` may be null.
+    /// `spacing` in mm; `blocked` may be null.
     SupportPlacer(double spacing, FieldPtr blocked);
 
-    /// Whether a point within the spacing, not above p, holds p.
+    /// Returns true if a point holds p: it lies within the spacing of p and not above it.
     bool held(dvec3 p) const;
     bool blocked(dvec3 p) const { return blocked_ && blocked_->value(p) < 0; }
-    /// False where the place is blocked.
+    /// Places a point. Returns false if the place is blocked.
     bool place(dvec3 p, SupportReason reason);
 
     const std::vector<SupportPoint>& points() const { return points_; }

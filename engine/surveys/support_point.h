@@ -1,4 +1,4 @@
-// Support points: places of a part that something must hold from below while it is printed.
+// SupportPoint: a place where a part must be held from below while it is printed.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace lamella {
 
-/// Why a place must be held.
+/// The reason why a place must be held.
 enum class SupportReason : std::uint8_t {
     overhang,  ///< the outline stands out too far over the layer below
-    island,    ///< material that appears with nothing under it
+    island,    ///< a piece begins with nothing below it
     span,      ///< a ceiling too wide to be bridged
     stability  ///< the print would topple
 };
