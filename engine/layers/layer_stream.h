@@ -43,11 +43,13 @@ struct StreamReport {
 ///     job.part = make_sphere({0, 0, 0}, 10);
 ///     job.bounds = job.part->bounds();
 ///     job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
-///     const StreamReport report = stream_layers(job, backend, {.range = {0, job.layer_count}});
+///     StreamOptions options;
+///     options.range = {0, job.layer_count};
+///     const StreamReport report = stream_layers(job, backend, options);
 ///
-/// Layers are rendered in parallel and written in order. Memory is bounded by the
-/// look-ahead, not by the number of layers. Throws whatever the back-end throws, InputError when the range is
-/// not within the job, and Interrupted when cancelled before the last layer was written.
+/// Layers are rendered in parallel and written in order. Memory is bounded by the look-ahead, not by the
+/// number of layers. Throws whatever the back-end throws, InputError when the range is not within the job,
+/// and Interrupted when cancelled before the last layer was written.
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options);
 
 /// Streams all layers of a job through a pass that writes nothing. Throws what the pass throws, and
