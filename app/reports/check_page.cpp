@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/reports/fault_picture.h"
+#include "engine/checks/check_table.h"
 #include "printers/common/thumbnail.h"
 #include "recipe/keys/check_words.h"
 
@@ -185,7 +186,7 @@ std::string section_of(const CheckResult& result, const CheckOutcome& outcome, c
         check_name(result.check), word(result), escaped(sentence(check_fault(result.check))),
         escaped(check_advice(result.check)), escaped(check_limit(result.check, outcome.plan.options.limits)),
         places_text(result.count),
-        result.check == Check::build_volume ? "" : ", " + size_text(result.check, result.total) + " in all");
+        check_info(result.check).adds_up ? ", " + size_text(result.check, result.total) + " in all" : "");
     const std::size_t cards = std::min(result.worst.size(), max_cards);
     if (result.count > cards) text += fmt::format("<p>The worst {} are shown.</p>\n", cards);
     text += "<div class=\"cards\">\n";

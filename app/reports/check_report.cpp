@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/checks/check_table.h"
 #include "recipe/build/json_triple.h"
 #include "recipe/keys/check_words.h"
 
@@ -20,7 +21,7 @@ constexpr std::size_t places_in_text = 3;
 std::string found_text(const CheckResult& result) {
     if (result.passed()) return "";
     std::string text = places_text(result.count);
-    if (result.count > 1 && result.check != Check::build_volume)
+    if (result.count > 1 && check_info(result.check).adds_up)
         text += ", " + size_text(result.check, result.total) + " in all";
     return text;
 }
@@ -58,23 +59,6 @@ std::string places(const CheckResult& result) {
 
 /// "mm", "mm2" or "mm3" behind a key.
 std::string keyed(const char* key, Check check) { return fmt::format("{}_{}", key, size_unit(check)); }
-
-/// What a check's limit is measured in; empty where it has none.
-const char* limit_unit(Check check) {
-    switch (check) {
-        case Check::overhangs:
-        case Check::bridges:
-        case Check::thickness:
-        case Check::necks:
-        case Check::gaps:
-            return "mm";
-        case Check::cavities:
-        case Check::cups:
-            return "mm3";
-        default:
-            return "";
-    }
-}
 
 /// All sizes that were asked for, whether or not a check of them was.
 Json limits_mm_json(const PrintLimits& limits) {
@@ -126,7 +110,8 @@ Json result_json(const CheckResult& result, const CheckOutcome& outcome) {
               {"verdict", result.verdict == Severity::fail ? "fail" : "warn"},
               {"passed", result.passed()},
               {"limit", check_limit(check, outcome.plan.options.limits)}};
-    if (const std::string unit = limit_unit(check); !unit.empty()) json["limit_" + unit] = result.limit;
+    if (const std::string unit = check_info(check).limit_unit; !unit.empty())
+        json["limit_" + unit] = result.limit;
     json["count"] = result.count;
     json[keyed("total", check)] = result.total;
     json["worst"] = Json::array();

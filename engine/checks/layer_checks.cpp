@@ -5,7 +5,9 @@
 
 namespace lamella {
 
-void SheetCheck::add(const LabelledLayer& layer, int index) {
+void SheetCheck::add(LayerSample& sample, PreparedRows /*prepared*/) {
+    const LabelledLayer& layer = sample.part;
+    const int index = sample.index;
     if (layer.components.size() < 2) return;
     const auto largest = std::ranges::max_element(layer.components, {}, &ComponentExtent::length);
     const auto kept = static_cast<std::uint32_t>(largest - layer.components.begin());
@@ -20,15 +22,15 @@ void SheetCheck::add(const LabelledLayer& layer, int index) {
     faults_.add(std::move(fault));
 }
 
-void EmptyCheck::add(const RunRows& rows, int index) {
-    if (!rows.runs().empty()) return end_gap(index);
-    if (begin_ < 0) begin_ = index;
+void EmptyCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
+    if (!layer.rows.printed().runs().empty()) return end_gap(layer.index);
+    if (begin_ < 0) begin_ = layer.index;
 }
 
-void EmptyCheck::finish(int layer_count) {
+void EmptyCheck::finish() {
     // The last layer's plane may lie above a part whose height is no multiple of a layer's.
-    if (begin_ == layer_count - 1 && layer_count > 1) begin_ = -1;
-    end_gap(layer_count);
+    if (begin_ == layer_count_ - 1 && layer_count_ > 1) begin_ = -1;
+    end_gap(layer_count_);
 }
 
 void EmptyCheck::end_gap(int end) {
@@ -45,7 +47,9 @@ void EmptyCheck::end_gap(int end) {
     begin_ = -1;
 }
 
-void ReachCheck::add(const RunRows& rows, int index) {
+void ReachCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
+    const RunRows& rows = layer.rows.printed();
+    const int index = layer.index;
     for (std::size_t l = 0; l < rows.lines(); ++l) {
         if (rows.line(l).empty()) continue;
         const int row = static_cast<int>(l);

@@ -1,16 +1,16 @@
 // Checks that look at layers one by one: sheets in pieces, empty layers, and the machine's reach.
 #pragma once
 
-#include "engine/checks/fault_list.h"
+#include "engine/checks/check_table.h"
 
 namespace lamella {
 
 /// Sheet check: a layer that is cut out of a sheet must be one piece.
-class SheetCheck {
+class SheetCheck : public LayerCheck {
   public:
-    SheetCheck(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
-    void add(const LabelledLayer& layer, int index);
-    const FaultList& faults() const { return faults_; }
+    explicit SheetCheck(const CheckContext& context) : grid_(context.grid), faults_(context.max_faults) {}
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    const FaultList& faults(Check /*check*/) const override { return faults_; }
 
   private:
     CheckGrid grid_;
@@ -18,29 +18,31 @@ class SheetCheck {
 };
 
 /// Empty-layer check: consecutive empty layers are one fault.
-class EmptyCheck {
+class EmptyCheck : public LayerCheck {
   public:
-    EmptyCheck(const CheckGrid& grid, std::size_t most) : grid_(grid), faults_(most) {}
-    void add(const RunRows& rows, int index);
-    void finish(int layer_count);
-    const FaultList& faults() const { return faults_; }
+    explicit EmptyCheck(const CheckContext& context)
+        : grid_(context.grid), layer_count_(context.layer_count), faults_(context.max_faults) {}
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check /*check*/) const override { return faults_; }
 
   private:
     void end_gap(int end);
 
     CheckGrid grid_;
+    int layer_count_;
     int begin_ = -1;  // first of the current empty layers; -1: none
     FaultList faults_;
 };
 
 /// Build volume check: the size of the print against that of the machine. One fault per axis.
-class ReachCheck {
+class ReachCheck : public LayerCheck {
   public:
-    ReachCheck(const CheckGrid& grid, const dvec3& build_volume, std::size_t most)
-        : grid_(grid), build_volume_(build_volume), faults_(most) {}
-    void add(const RunRows& rows, int index);
-    void finish();
-    const FaultList& faults() const { return faults_; }
+    explicit ReachCheck(const CheckContext& context)
+        : grid_(context.grid), build_volume_(context.limits.build_volume), faults_(context.max_faults) {}
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check /*check*/) const override { return faults_; }
 
   private:
     void judge(glm::length_t axis, double size, const PlacedRun& end);

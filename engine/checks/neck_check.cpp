@@ -23,8 +23,9 @@ void touch_parts(const LabelledRun& run, int r, const LabelledLayer& parts,
     }
 }
 
-/// Returns the coarsest sampling that resolves a thickness (mm).
-CheckSampling sampling_for(const CheckGrid& grid, double thickness) {
+}  // namespace
+
+CheckSampling NeckCheck::sampling_for(const CheckGrid& grid, double thickness) {
     constexpr double rows_in_a_neck = 4, layers_in_a_neck = 3;
     const auto one_of = [&](double pitch, double samples) {
         return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
@@ -32,23 +33,17 @@ CheckSampling sampling_for(const CheckGrid& grid, double thickness) {
     return {one_of(grid.band.across_pitch, rows_in_a_neck), one_of(grid.layer_height, layers_in_a_neck)};
 }
 
-}  // namespace
-
-NeckCheck::NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most)
-    : NeckCheck(sampling_for(grid, thickness).subsample(grid), sampling_for(grid, thickness), thickness,
-                large_part, most) {}
-
-NeckCheck::NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness,
-                     double large_part, std::size_t most)
-    : grid_(sampled),
+NeckCheck::NeckCheck(const CheckContext& context, const CheckSampling& sampling)
+    : grid_(sampling.subsample(context.grid)),
       sampling_(sampling),
-      large_part_(large_part),
-      thin_(thin_layers(sampled_ball(sampled.band, sampled.layer_height, thickness, thickness))),
-      necks_(most) {}
+      large_part_(context.limits.large_part),
+      thin_(thin_layers(
+          sampled_ball(grid_.band, grid_.layer_height, context.limits.neck, context.limits.neck))),
+      necks_(context.max_faults) {}
 
-void NeckCheck::push(const RunRows& layer) {
+void NeckCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
     if (!sampling_.samples(pushed_++)) return;
-    solid_.push_back(sampling_.subsample(layer));
+    solid_.push_back(sampling_.subsample(layer.rows.part));
     thin_.push(solid_.back());
     carry_on();
 }

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "engine/checks/check_sampling.h"
+#include "engine/checks/check_table.h"
 #include "engine/morphology/thin_features.h"
 #include "engine/runs/streaming_parts.h"
 
@@ -14,15 +15,14 @@ namespace lamella {
 /// neck if it touches two large parts that nothing thick enough joins elsewhere. Rows and layers that are
 /// much finer than a neck's thickness are subsampled. Memory: the layers within reach of the ball, and the
 /// rests that may still be necks.
-class NeckCheck {
+class NeckCheck : public LayerCheck {
   public:
-    /// `thickness`: the least thickness of a sound joint, mm. `large_part`: the least volume of a large part,
-    /// mm^3. `most` faults are kept.
-    NeckCheck(const CheckGrid& grid, double thickness, double large_part, std::size_t most);
+    explicit NeckCheck(const CheckContext& context)
+        : NeckCheck(context, sampling_for(context.grid, context.limits.neck)) {}
 
-    void push(const RunRows& layer);
-    void finish();
-    const FaultList& necks() const { return necks_; }
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check /*check*/) const override { return necks_; }
 
   private:
     /// A layer, split into its opening and the rest.
@@ -30,8 +30,9 @@ class NeckCheck {
         LabelledLayer parts;  ///< components of the opening, as numbers of parts_
         RunRows rest;
     };
-    NeckCheck(const CheckGrid& sampled, const CheckSampling& sampling, double thickness, double large_part,
-              std::size_t most);
+    NeckCheck(const CheckContext& context, const CheckSampling& sampling);
+    /// Returns the coarsest sampling that resolves a thickness, mm.
+    static CheckSampling sampling_for(const CheckGrid& grid, double thickness);
     void carry_on();
     void split(RunRows thin);
     void join_rest(std::size_t of);

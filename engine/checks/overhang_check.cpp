@@ -122,27 +122,29 @@ std::size_t layers_of_slope(const CheckGrid& grid, const PrintLimits& limits) {
 
 }  // namespace
 
-OverhangCheck::OverhangCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most)
-    : grid_(grid),
-      limits_(limits),
-      follows_overhangs_(limits.verdict(Check::overhangs) != Severity::off ||
-                         limits.verdict(Check::bridges) != Severity::off),
-      step_(limits.overhang / grid.band.along_pitch),
-      slope_layers_(follows_overhangs_ ? layers_of_slope(grid, limits) : 0),
-      support_layers_(1 + layers_in(limits.support_gap, grid.layer_height)),
-      supports_(grid, limits.support_spacing, limits.support_gap),
-      islands_(most),
-      overhangs_(most),
-      bridges_(most) {}
+OverhangCheck::OverhangCheck(const CheckContext& context)
+    : grid_(context.grid),
+      limits_(context.limits),
+      follows_overhangs_(limits_.verdict(Check::overhangs) != Severity::off ||
+                         limits_.verdict(Check::bridges) != Severity::off),
+      step_(limits_.overhang / grid_.band.along_pitch),
+      slope_layers_(follows_overhangs_ ? layers_of_slope(grid_, limits_) : 0),
+      support_layers_(1 + layers_in(limits_.support_gap, grid_.layer_height)),
+      supports_(grid_, limits_.support_spacing, limits_.support_gap),
+      islands_(context.max_faults),
+      overhangs_(context.max_faults),
+      bridges_(context.max_faults) {}
 
-void OverhangCheck::add(LayerFootprint layer, LayerCells cells, const LabelledLayer& printed,
-                        const RowsIn& rows_in, int index) {
+void OverhangCheck::add(LayerSample& sample, PreparedRows /*prepared*/) {
+    LayerFootprint layer = std::move(sample.rows);
+    LayerCells cells = *std::move(sample.cells);
+    const int index = sample.index;
     Below next;
     if (below_.empty()) {
         next.hung = empty_rows(layer.part.lines());
         add_overhang(next.hung, index);
     } else {
-        const RunRows islands = find_islands(layer, printed, rows_in, index);
+        const RunRows islands = find_islands(layer, sample.printed(), sample.rows_in, index);
         if (follows_overhangs_) follow_overhangs(layer, cells.outer, islands, next, index);
     }
     supports_.add(layer.supports);

@@ -2,26 +2,13 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <optional>
 
+#include "engine/checks/check_table.h"
 #include "engine/checks/hanging_regions.h"
 #include "engine/checks/support_hold.h"
-#include "engine/morphology/row_bitmask.h"
 
 namespace lamella {
-
-/// The rows of a layer that the next layers are compared with.
-struct LayerFootprint {
-    RunRows part;
-    RunRows supports;            ///< empty rows if there are no supports
-    RunRows part_with_supports;  ///< the union of both; without lines if there are no supports
-
-    const RunRows& printed() const { return supports.runs().empty() ? part : part_with_supports; }
-};
-
-/// Returns the printed solid of a layer, part and supports, in the rows of any band.
-using RowsIn = std::function<RunRows(const RowBand&)>;
 
 /// Compares each layer with the layers below it. The first layer lies on the bed.
 ///
@@ -32,19 +19,16 @@ using RowsIn = std::function<RunRows(const RowBand&)>;
 /// followed over several layers, so that a slope is found if its tangent exceeds the limit by a quarter. A
 /// hanging region is excused if it is smaller than `free_stretch`, or if in one direction all bridges across
 /// it are supported at both ends and no longer than the limit.
-class OverhangCheck {
+class OverhangCheck : public LayerCheck {
   public:
-    OverhangCheck(const CheckGrid& grid, const PrintLimits& limits, std::size_t most);
+    explicit OverhangCheck(const CheckContext& context);
 
-    /// Adds the next layer. `cells` are the cells of the part, on one lattice for all layers. `printed` is
-    /// the printed solid (part and supports), labelled without growth; `rows_in` returns it in other bands.
-    void add(LayerFootprint layer, LayerCells cells, const LabelledLayer& printed, const RowsIn& rows_in,
-             int index);
-    void finish();
-
-    const FaultList& islands() const { return islands_; }
-    const FaultList& overhangs() const { return overhangs_; }
-    const FaultList& bridges() const { return bridges_; }
+    /// Reads the labels and cells of the layer, and moves its rows and cells away.
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check check) const override {
+        return check == Check::islands ? islands_ : check == Check::overhangs ? overhangs_ : bridges_;
+    }
 
   private:
     /// A layer below the current one.

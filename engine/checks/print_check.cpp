@@ -3,22 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
 #include "engine/checks/check_rows.h"
-#include "engine/checks/fault_list.h"
-#include "engine/checks/layer_checks.h"
-#include "engine/checks/neck_check.h"
-#include "engine/checks/overhang_check.h"
-#include "engine/checks/streaming_faults.h"
+#include "engine/checks/check_table.h"
 #include "engine/checks/thickness_check.h"
-#include "engine/checks/void_check.h"
 #include "engine/layers/survey_rows.h"
-#include "engine/morphology/layer_opening.h"
-#include "engine/morphology/thin_feature_search.h"
 #include "engine/runs/row_sets.h"
 
 namespace lamella {
@@ -30,46 +22,57 @@ CheckRows check_rows(const Job& job, const PrintCheckOptions& options) {
     return options.lines ? CheckRows(job, *options.lines) : CheckRows(job, options.pitch);
 }
 
-/// What the layers of a check have in common.
-struct LayerShape {
-    std::size_t lines = 0;
-    bool labels_part = false, labels_printed = false, labels_voids = false;
+/// A pass that is switched on, and its check.
+struct ActiveCheck {
+    const CheckPass* pass;
+    std::unique_ptr<LayerCheck> check;
 };
+
+/// Whether labels have the rows of a layer, or none where nobody reads them.
+bool are_labels(const LabelledLayer& labels, const RunRows& rows, bool wanted) {
+    if (!wanted) return labels.starts.empty();
+    return labels.starts.size() == rows.lines() + 1 && labels.owners.size() == rows.runs().size();
+}
 
 /// What the checks need of one layer.
 struct CheckedLayer : LayerProduct {
-    explicit CheckedLayer(const LayerShape& given) : shape(given) {}
+    CheckedLayer(const std::vector<ActiveCheck>& given, std::size_t line_count)
+        : checks(given), lines(line_count) {}
 
     void serialize(Archive& parcel) override {
-        parcel(rows.part, rows.supports, rows.part_with_supports, part, printed, voids, thin, narrow);
+        LayerFootprint& rows = layer.rows;
+        parcel(rows.part, rows.supports, rows.part_with_supports, layer.part, layer.part_with_supports);
+        prepared.resize(checks.size());
+        for (PreparedRows& one : prepared) parcel(one);
         if (parcel.unpacks() && !fits()) throw FaultError("a layer's parcel is of another check");
     }
 
-    LayerShape shape;
-    LayerFootprint rows;
-    LabelledLayer part, printed;  ///< printed only where there are supports
-    LabelledLayer voids;
-    std::optional<LayerCells> cells;  ///< of the part; not carried, and made anew where it is missing
-    RunRows thin, narrow;
+    const std::vector<ActiveCheck>& checks;
+    std::size_t lines;
+    LayerSample layer;                   ///< its cells are not sent between processes
+    std::vector<PreparedRows> prepared;  ///< by check
 
   private:
-    bool has_lines(const RunRows& found) const { return found.lines() == shape.lines; }
-    bool are_labels(const LabelledLayer& labels, bool wanted) const {
-        return labels.starts.size() == (wanted ? shape.lines + 1 : 0);
+    bool reads(bool CheckPass::*labels) const {
+        return std::ranges::any_of(checks, [&](const ActiveCheck& active) { return active.pass->*labels; });
     }
-    /// Whether what was unpacked can be held against other layers.
+    /// Whether the unpacked rows can be compared with other layers.
     bool fits() const {
-        if (!has_lines(rows.part) || !has_lines(rows.supports) || !has_lines(rows.printed())) return false;
-        if (!are_labels(part, shape.labels_part) || !are_labels(voids, shape.labels_voids)) return false;
-        if (shape.labels_part && part.owners.size() != rows.part.runs().size()) return false;
-        if (shape.labels_voids && voids.row(0).empty()) return false;
+        const LayerFootprint& rows = layer.rows;
+        if (rows.part.lines() != lines || rows.supports.lines() != lines || rows.printed().lines() != lines)
+            return false;
+        if (!are_labels(layer.part, rows.part, reads(&CheckPass::reads_part_labels))) return false;
         const bool has_supports = !rows.supports.runs().empty();
-        return are_labels(printed, shape.labels_printed && has_supports) &&
-               (printed.starts.empty() || printed.owners.size() == rows.printed().runs().size());
+        if (!are_labels(layer.part_with_supports, rows.part_with_supports,
+                        has_supports && reads(&CheckPass::reads_printed_labels)))
+            return false;
+        for (std::size_t i = 0; i < checks.size(); ++i)
+            if (!checks[i].check->accepts(prepared[i], lines)) return false;
+        return true;
     }
 };
 
-/// The part and its supports.
+/// Returns the part and its supports.
 RunRows printed_rows(const Layer& layer, const RowBand& band, Scratch& scratch) {
     RunRows part = all_rows(layer.part(), band, scratch);
     return layer.supports() == nullptr ? part : united(part, all_rows(*layer.supports(), band, scratch));
@@ -90,15 +93,16 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     const dvec3 size = job.bounds.size();
     if (!job.part || job.bounds.empty() || !std::isfinite(size.x + size.y + size.z))
         throw InputError("print check: there is no part, or its bounds are infinite");
-    const auto wanted = [&](Check check) { return limits.verdict(check) != Severity::off; };
     const double pitch = options.lines ? std::abs(options.lines->line_pitch()) : options.pitch;
     check_number("pitch", pitch, std::max(size.x, size.y) / max_rows * (1 - 1e-9));
     // A ball that fits must reach a row at least.
     const double least = 2 * pitch;
     const std::string in_rows = " in rows " + format_number(pitch, 9) + " mm apart";
-    if (wanted(Check::thickness)) check_number("least thickness", limits.thickness, least, in_rows);
-    if (wanted(Check::gaps)) check_number("least gap", limits.gap, least, in_rows);
-    if (wanted(Check::necks)) check_number("least neck", limits.neck, least, in_rows);
+    for (const Check check : all_checks()) {
+        const CheckInfo& info = check_info(check);
+        if (info.thickness_limit != nullptr && limits.wants(check))
+            check_number(info.thickness_limit, limits.*info.limit, least, in_rows);
+    }
     check_number("overhang", limits.overhang, 0);
     check_number("support spacing", limits.support_spacing, 0);
 }
@@ -110,53 +114,34 @@ struct PrintCheck::State {
         : options(given),
           rows(check_rows(job, given)),
           grid{rows.band(), job.z0(), job.layer_height},
-          layer_count(job.layer_count),
-          sheets(grid, given.max_places),
-          empty(grid, given.max_places),
-          reach(grid, given.limits.build_volume, given.max_places) {
-        const PrintLimits& limits = given.limits;
-        const std::size_t most = given.max_places;
-        if (wants(Check::connectivity)) pieces.emplace(grid, 0, most);
-        if (wants(Check::islands) || wants(Check::overhangs) || wants(Check::bridges))
-            hold.emplace(grid, limits, most);
-        if (wants(Check::thickness))
-            thickness.emplace(grid, layer_count, limits.thickness, limits.thickness_up, FeatureKind::wall,
-                              most);
-        if (wants(Check::gaps))
-            gaps.emplace(grid, layer_count, limits.gap, limits.gap_up, FeatureKind::gap, most);
-        if (wants(Check::necks)) necks.emplace(grid, limits.neck, limits.large_part, most);
-        if (wants(Check::cavities) || wants(Check::cups))
-            voids.emplace(grid, limits.cavity, limits.cup, most);
-        double reach_of_cells = 0;
-        for (const std::optional<ThicknessCheck>* check : {&thickness, &gaps})
-            if (*check) reach_of_cells = std::max(reach_of_cells, (*check)->reach());
+          layer_count(job.layer_count) {
+        const CheckContext context{grid, layer_count, given.limits, given.max_places};
+        double cell_reach = 0;
+        for (const CheckPass& pass : check_passes()) {
+            const auto wants = [&](Check check) { return given.limits.wants(check); };
+            if (std::ranges::none_of(pass.finds, wants)) continue;
+            checks.push_back({&pass, pass.make(context)});
+            reads_part_labels |= pass.reads_part_labels;
+            reads_printed_labels |= pass.reads_printed_labels;
+            reads_cells |= pass.cell_reach != nullptr;
+            if (pass.cell_reach != nullptr)
+                cell_reach = std::max(cell_reach, pass.cell_reach(*checks.back().check));
+        }
         cells.emplace(Run{0, grid.band.hi * run_unit}, static_cast<std::size_t>(grid.band.lines()),
-                      reach_of_cells, run_unit);
+                      cell_reach, run_unit);
     }
 
-    bool wants(Check check) const { return options.limits.verdict(check) != Severity::off; }
-    LayerShape shape() const {
-        return {static_cast<std::size_t>(grid.band.lines()), pieces || hold || wants(Check::sheets),
-                hold.has_value(), voids.has_value()};
-    }
-    void finish();
-    void report_all();
-    void report_one(Check check, double limit, const FaultList* faults);
+    std::size_t lines() const { return static_cast<std::size_t>(grid.band.lines()); }
+    CheckResult result(Check check, const FaultList& faults) const;
+    void make_report();
 
     PrintCheckOptions options;
     CheckRows rows;
     CheckGrid grid;
     int layer_count;
-    std::optional<StreamingFaults> pieces;
-    std::optional<OverhangCheck> hold;
-    std::optional<ThicknessCheck> thickness;
-    std::optional<ThicknessCheck> gaps;
-    std::optional<NeckCheck> necks;
-    std::optional<VoidCheck> voids;
+    std::vector<ActiveCheck> checks;
+    bool reads_part_labels = false, reads_printed_labels = false, reads_cells = false;
     std::optional<CellLattice> cells;
-    SheetCheck sheets;
-    EmptyCheck empty;
-    ReachCheck reach;
     CheckReport report;
 };
 
@@ -170,12 +155,11 @@ double check_pitch(const Job& job, const PrintLimits& limits) {
     const dvec3 size = job.bounds.size();
     constexpr double where_nothing_is_thin = 0.5;  // mm
     double least = where_nothing_is_thin;
-    const auto consider = [&](Check check, double thickness) {
-        if (limits.verdict(check) != Severity::off) least = std::min(least, thickness);
-    };
-    consider(Check::thickness, limits.thickness);
-    consider(Check::gaps, limits.gap);
-    consider(Check::necks, limits.neck);
+    for (const Check check : all_checks()) {
+        const CheckInfo& info = check_info(check);
+        if (info.thickness_limit != nullptr && limits.wants(check))
+            least = std::min(least, limits.*info.limit);
+    }
     return std::max(least / pitches_in_a_thickness, std::max(size.x, size.y) / max_rows);
 }
 
@@ -195,99 +179,70 @@ std::optional<RowBand> PrintCheck::shared_lines() const { return state_->rows.li
 
 std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     const State& state = *state_;
-    auto product = std::make_unique<CheckedLayer>(state.shape());
+    auto product = std::make_unique<CheckedLayer>(state.checks, state.lines());
+    LayerSample& sample = product->layer;
+    sample.index = layer.index();
     Scratch scratch;
-    RunRows part = state.rows.part_rows(layer, scratch);
+    sample.rows.part = state.rows.part_rows(layer, scratch);
+    const RunRows& part = sample.rows.part;
     product->area = state.grid.area(part.total_length());
-    if (product->shape.labels_part) product->part = label_layer(part, layer.index(), Growth{});
-    if (state.voids) product->voids = VoidCheck::label(part, state.grid, layer.index());
-    if (state.thickness || state.gaps || state.hold) product->cells.emplace(part, *state.cells);
-    if (state.thickness) product->thin = state.thickness->prepare(part, *product->cells);
-    if (state.gaps) product->narrow = state.gaps->prepare(part, *product->cells);
-    RunRows supports = state.rows.support_rows(layer, scratch);
+    if (state.reads_part_labels) sample.part = label_layer(part, layer.index(), Growth{});
+    if (state.reads_cells) sample.cells.emplace(part, *state.cells);
+    for (const ActiveCheck& active : state.checks) product->prepared.push_back(active.check->prepare(sample));
+    sample.rows.supports = state.rows.support_rows(layer, scratch);
+    const RunRows& supports = sample.rows.supports;
     product->support_area = state.grid.area(supports.total_length());
     if (!supports.runs().empty()) {
-        product->rows.part_with_supports = united(part, supports);
-        if (state.hold)
-            product->printed = label_layer(product->rows.part_with_supports, layer.index(), Growth{});
+        sample.rows.part_with_supports = united(part, supports);
+        if (state.reads_printed_labels)
+            sample.part_with_supports = label_layer(sample.rows.part_with_supports, layer.index(), Growth{});
     }
-    product->rows.part = std::move(part);
-    product->rows.supports = std::move(supports);
     return product;
 }
 
 std::unique_ptr<LayerProduct> PrintCheck::empty_product() const {
-    return std::make_unique<CheckedLayer>(state_->shape());
+    return std::make_unique<CheckedLayer>(state_->checks, state_->lines());
 }
 
 void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     State& state = *state_;
     auto& checked = static_cast<CheckedLayer&>(product);
-    const int index = layer.index();
-    const RunRows& part = checked.rows.part;
+    LayerSample& sample = checked.layer;
+    sample.index = layer.index();
     state.report.volume += checked.area * state.grid.layer_height;
-    if (state.wants(Check::sheets)) state.sheets.add(checked.part, index);
-    if (state.wants(Check::empty_layers)) state.empty.add(checked.rows.printed(), index);
-    if (state.wants(Check::build_volume)) state.reach.add(checked.rows.printed(), index);
-    if (state.voids) state.voids->add(std::move(checked.voids), index);
-    if (state.thickness) state.thickness->add(part, checked.thin);
-    if (state.gaps) state.gaps->add(part, checked.narrow);
-    if (state.necks) state.necks->push(part);
-    if (state.hold) {
-        if (!checked.cells) checked.cells.emplace(part, *state.cells);
-        Scratch scratch;
-        state.hold->add(
-            std::move(checked.rows), *std::move(checked.cells),
-            checked.printed.starts.empty() ? checked.part : checked.printed,
-            [&](const RowBand& band) { return printed_rows(layer, band, scratch); }, index);
-    }
-    if (state.pieces) state.pieces->add(std::move(checked.part), index);
+    if (state.reads_cells && !sample.cells) sample.cells.emplace(sample.rows.part, *state.cells);
+    Scratch scratch;
+    sample.rows_in = [&](const RowBand& band) { return printed_rows(layer, band, scratch); };
+    for (std::size_t i = 0; i < state.checks.size(); ++i)
+        state.checks[i].check->add(sample, std::move(checked.prepared[i]));
 }
 
-void PrintCheck::finish() { state_->finish(); }
+void PrintCheck::finish() {
+    for (const ActiveCheck& active : state_->checks) active.check->finish();
+    state_->make_report();
+}
 
 const CheckReport& PrintCheck::report() const { return state_->report; }
 
-void PrintCheck::State::finish() {
-    if (pieces) {
-        pieces->finish();
-        pieces->excuse_greatest();  // the part itself
-    }
-    if (hold) hold->finish();
-    if (thickness) thickness->finish();
-    if (gaps) gaps->finish();
-    if (necks) necks->finish();
-    if (voids) voids->finish();
-    empty.finish(layer_count);
-    reach.finish();
-    report_all();
-}
-
-void PrintCheck::State::report_all() {
-    const PrintLimits& limits = options.limits;
+void PrintCheck::State::make_report() {
     report.band = grid.band;
-    report_one(Check::connectivity, 0, pieces ? &pieces->faults() : nullptr);
-    report_one(Check::sheets, 0, &sheets.faults());
-    report_one(Check::islands, 0, hold ? &hold->islands() : nullptr);
-    report_one(Check::overhangs, limits.overhang, hold ? &hold->overhangs() : nullptr);
-    report_one(Check::bridges, limits.bridge, hold ? &hold->bridges() : nullptr);
-    report_one(Check::thickness, limits.thickness, thickness ? &thickness->faults() : nullptr);
-    report_one(Check::necks, limits.neck, necks ? &necks->necks() : nullptr);
-    report_one(Check::gaps, limits.gap, gaps ? &gaps->faults() : nullptr);
-    report_one(Check::cavities, limits.cavity, voids ? &voids->cavities() : nullptr);
-    report_one(Check::cups, limits.cup, voids ? &voids->cups() : nullptr);
-    report_one(Check::build_volume, 0, &reach.faults());
-    report_one(Check::empty_layers, 0, &empty.faults());
+    for (const Check check : all_checks()) {
+        if (!options.limits.wants(check)) continue;
+        const auto finder = std::ranges::find_if(checks, [&](const ActiveCheck& active) {
+            return std::ranges::find(active.pass->finds, check) != active.pass->finds.end();
+        });
+        report.results.push_back(result(check, finder->check->faults(check)));
+    }
 }
 
-void PrintCheck::State::report_one(Check check, double limit, const FaultList* faults) {
-    if (!wants(check) || faults == nullptr) return;
+CheckResult PrintCheck::State::result(Check check, const FaultList& faults) const {
     CheckResult result;
     result.check = check;
     result.verdict = options.limits.verdict(check);
-    result.limit = limit;
-    faults->report(result);
-    report.results.push_back(std::move(result));
+    const auto limit = check_info(check).limit;
+    if (limit != nullptr) result.limit = options.limits.*limit;
+    faults.report(result);
+    return result;
 }
 
 }  // namespace lamella

@@ -24,6 +24,13 @@ enum class Check : unsigned char {
 };
 inline constexpr std::size_t check_count = 12;
 
+/// Returns all checks, in their order.
+inline std::array<Check, check_count> all_checks() {
+    std::array<Check, check_count> checks{};
+    for (std::size_t i = 0; i < check_count; ++i) checks[i] = static_cast<Check>(i);
+    return checks;
+}
+
 /// Whether a fault matters.
 enum class Severity : unsigned char { off, warn, fail };
 
@@ -46,6 +53,7 @@ struct PrintLimits {
     dvec3 build_volume{infinity};  ///< width, depth and height that the machine reaches
 
     Severity verdict(Check check) const { return verdicts[static_cast<std::size_t>(check)]; }
+    bool wants(Check check) const { return verdict(check) != Severity::off; }
 };
 
 }  // namespace lamella

@@ -18,31 +18,39 @@ int layers_for(const CheckGrid& grid, double thickness_up) {
 
 }  // namespace
 
-ThicknessCheck::ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
-                               FeatureKind medium, std::size_t most)
-    : medium_(medium),
-      sampling_{1, layers_for(grid, thickness_up)},
-      found_(grid, sampling_, layer_count, thickness, most) {
+ThicknessCheck::ThicknessCheck(const CheckContext& context, FeatureKind kind)
+    : ThicknessCheck(context, kind, kind == FeatureKind::wall ? context.limits.thickness : context.limits.gap,
+                     kind == FeatureKind::wall ? context.limits.thickness_up : context.limits.gap_up) {}
+
+ThicknessCheck::ThicknessCheck(const CheckContext& context, FeatureKind kind, double thickness,
+                               double thickness_up)
+    : kind_(kind),
+      sampling_{1, layers_for(context.grid, thickness_up)},
+      found_(context.grid, sampling_, context.layer_count, thickness, context.max_faults) {
+    const CheckGrid& grid = context.grid;
     const SampledBall ball =
         sampled_ball(grid.band, sampling_.subsample(grid).layer_height, thickness, thickness_up);
     // One more pitch of slack: sampled by rows, the border of an opening may seem up to a pitch farther in.
     measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
     row_pitch_ = ball.lattice.row_pitch;
     if (ball.lattice.layers_within(ball.radius + measure_.slack) > 0)
-        neighbours_.emplace(ball.lattice, measure_, medium);
+        neighbours_.emplace(ball.lattice, measure_, kind);
 }
 
-RunRows ThicknessCheck::prepare(const RunRows& rows, const LayerCells& cells) const {
-    RunRows found;
-    if (neighbours_) return found;
-    thin_rows(rows, cells, medium_, measure_, row_pitch_, found);
+PreparedRows ThicknessCheck::prepare(const LayerSample& layer) const {
+    PreparedRows found;
+    if (!neighbours_) thin_rows(layer.rows.part, *layer.cells, kind_, measure_, row_pitch_, found.rows);
     return found;
 }
 
-void ThicknessCheck::add(const RunRows& rows, const RunRows& prepared) {
-    if (!neighbours_) return found_.add(prepared, next_++);
+bool ThicknessCheck::accepts(const PreparedRows& prepared, std::size_t lines) const {
+    return prepared.rows.lines() == (neighbours_ ? 0 : lines);
+}
+
+void ThicknessCheck::add(LayerSample& layer, PreparedRows prepared) {
+    if (!neighbours_) return found_.add(prepared.rows, next_++);
     if (!sampling_.samples(pushed_++)) return;
-    neighbours_->push(rows);
+    neighbours_->push(layer.rows.part);
     take();
 }
 

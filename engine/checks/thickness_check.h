@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "engine/checks/check_table.h"
 #include "engine/checks/streaming_faults.h"
 #include "engine/morphology/thin_feature_search.h"
 #include "engine/morphology/thin_features.h"
@@ -15,27 +16,27 @@ inline constexpr double pitches_in_a_thickness = 5;
 
 /// Finds walls thinner, or gaps narrower, than a ball. A limit within the layer is checked layer by layer, in
 /// parallel; one across layers is checked against the neighbouring layers, in order.
-class ThicknessCheck {
+class ThicknessCheck : public LayerCheck {
   public:
-    /// `thickness` within the layer and `thickness_up` across layers, mm; `most` faults are kept.
-    ThicknessCheck(const CheckGrid& grid, int layer_count, double thickness, double thickness_up,
-                   FeatureKind medium, std::size_t most);
+    /// `kind` says whether walls or gaps are measured, and so which limits hold.
+    ThicknessCheck(const CheckContext& context, FeatureKind kind);
 
-    /// Returns how far beyond the rows the cells passed to prepare() must extend, run units. 0 if the check
-    /// is across layers.
-    double reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
-    /// Finds the faulty points of a layer within the layer; none if the check is across layers. Pure, for use
-    /// in parallel.
-    RunRows prepare(const RunRows& rows, const LayerCells& cells) const;
-    /// Adds the next layer and the result of prepare() for it.
-    void add(const RunRows& rows, const RunRows& prepared);
-    void finish();
-    const FaultList& faults() const { return found_.faults(); }
+    /// Returns how far the layer's cells are dilated, run units; 0 if layers are compared with their
+    /// neighbours.
+    double cell_reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
+    /// Finds the faults of a layer that are known without its neighbours.
+    PreparedRows prepare(const LayerSample& layer) const override;
+    bool accepts(const PreparedRows& prepared, std::size_t lines) const override;
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check /*check*/) const override { return found_.faults(); }
 
   private:
     void take();
 
-    FeatureKind medium_;
+    ThicknessCheck(const CheckContext& context, FeatureKind kind, double thickness, double thickness_up);
+
+    FeatureKind kind_;
     CheckSampling sampling_;
     Thinness measure_;
     double row_pitch_ = 0;

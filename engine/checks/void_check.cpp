@@ -10,17 +10,22 @@ constexpr std::uint32_t joined_outside = 1, on_bed = 2;
 
 }  // namespace
 
-LabelledLayer VoidCheck::label(const RunRows& solid, const CheckGrid& grid, int layer) {
-    const RunRows voids = complement(solid, 0, grid.band.hi * run_unit);
-    return label_layer(voids, layer, Growth{});
+PreparedRows VoidCheck::prepare(const LayerSample& layer) const {
+    const RunRows voids = complement(layer.rows.part, 0, grid_.band.hi * run_unit);
+    return {{}, label_layer(voids, layer.index, Growth{})};
 }
 
-void VoidCheck::add(LabelledLayer voids, int layer) {
+bool VoidCheck::accepts(const PreparedRows& prepared, std::size_t lines) const {
+    return prepared.labels.starts.size() == lines + 1 && !prepared.labels.row(0).empty();
+}
+
+void VoidCheck::add(LayerSample& layer, PreparedRows prepared) {
+    LabelledLayer& voids = prepared.labels;
     ComponentTags tags;
-    tags.flags.assign(voids.components.size(), layer == 0 ? on_bed : 0);
+    tags.flags.assign(voids.components.size(), layer.index == 0 ? on_bed : 0);
     tags.flags[voids.row(0).front().component] |= joined_outside;
     ended_.clear();
-    voids_.add(std::move(voids), layer, tags, ended_);
+    voids_.add(std::move(voids), layer.index, tags, ended_);
     for (const EndedComponent& ended : ended_) judge(ended, false);
 }
 

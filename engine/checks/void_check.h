@@ -1,7 +1,7 @@
 // VoidCheck: finds cavities and suction cups in the void of a solid that is printed layer by layer.
 #pragma once
 
-#include "engine/checks/fault_list.h"
+#include "engine/checks/check_table.h"
 
 namespace lamella {
 
@@ -12,25 +12,27 @@ namespace lamella {
 /// A cavity is a component without a way out, once the part is off its bed. A cup is a component that was
 /// closed off while its layers were printed, between the bed, the part and the film or blade at the layer's
 /// plane, and that opens later, upward or to the bed.
-class VoidCheck {
+class VoidCheck : public LayerCheck {
   public:
-    /// `min_cavity`, `min_cup`: least volumes that are faults, mm^3. `most` faults of each kind are kept.
-    VoidCheck(const CheckGrid& grid, double min_cavity, double min_cup, std::size_t most)
-        : grid_(grid), min_cavity_(min_cavity), min_cup_(min_cup), cavities_(most), cups_(most) {}
+    explicit VoidCheck(const CheckContext& context)
+        : grid_(context.grid),
+          min_cavity_(context.limits.cavity),
+          min_cup_(context.limits.cup),
+          cavities_(context.max_faults),
+          cups_(context.max_faults) {}
 
-    /// Returns the labelled void of a layer. `solid` has nothing in its first row, which is outside. Pure.
-    static LabelledLayer label(const RunRows& solid, const CheckGrid& grid, int layer);
-    void add(LabelledLayer voids, int layer);
-    void finish();
-
-    const FaultList& cavities() const { return cavities_; }
-    const FaultList& cups() const { return cups_; }
+    /// Labels the void of the layer; its first row is outside.
+    PreparedRows prepare(const LayerSample& layer) const override;
+    bool accepts(const PreparedRows& prepared, std::size_t lines) const override;
+    void add(LayerSample& layer, PreparedRows prepared) override;
+    void finish() override;
+    const FaultList& faults(Check check) const override { return check == Check::cups ? cups_ : cavities_; }
 
   private:
     void judge(const EndedComponent& ended, bool at_the_top);
 
     CheckGrid grid_;
-    double min_cavity_, min_cup_;
+    double min_cavity_, min_cup_;  // mm^3
     StreamingComponents voids_;
     std::vector<EndedComponent> ended_;
     FaultList cavities_, cups_;

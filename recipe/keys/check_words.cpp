@@ -6,48 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "engine/checks/check_table.h"
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
 namespace {
-
-struct Words {
-    const char* name;
-    const char* fault;
-    const char* advice;
-    const char* unit;
-};
-
-/// By Check.
-constexpr std::array<Words, check_count> table{{
-    {"connectivity", "a piece is not joined to the rest of the part",
-     "Join it to the part, or leave loose pieces of foam out with --drop-islands.", "mm3"},
-    {"sheets", "a layer falls into several pieces",
-     "Join them in the design, or have bars put between them: --printer-ties join.", "mm2"},
-    {"islands", "something begins with nothing below it",
-     "Supports hold it (--support bridges or pillars), or another way up needs none.", "mm2"},
-    {"overhangs", "a layer stands out too far over the one below",
-     "Supports hold it (--support bridges or pillars), or a gentler slope or thinner layers need none.",
-     "mm2"},
-    {"bridges", "a stretch between two holds is too long",
-     "Shorten it, turn the part, or add supports (--support bridges or pillars).", "mm"},
-    {"thickness", "a wall or strut is too thin",
-     "Make it thicker there: a thicker skin (--skin) or beam (--beam), or a machine that makes finer things.",
-     "mm3"},
-    {"necks", "large parts are joined by something thin",
-     "Make the neck thicker, or expect it to break there.", "mm3"},
-    {"gaps", "a void is too narrow and closes up", "Widen it, or fill it.", "mm3"},
-    {"cavities", "a void is closed off",
-     "Open it: --drains 1 for a hollow part, a [[hole]], or a foam of open cells.", "mm3"},
-    {"cups", "a void is closed off by the vat's film while it is printed",
-     "Give it a hole near the plate (--drains 2, or a [[hole]]), or turn the part over.", "mm3"},
-    {"build_volume", "the part sticks out of the machine's reach",
-     "Scale or turn the part, or take a larger machine.", "mm"},
-    {"empty_layers", "a layer holds nothing of the part", "Join what lies above it to what lies below.",
-     "mm"},
-}};
-
-const Words& words_of(Check check) { return table[static_cast<std::size_t>(check)]; }
 
 std::string with_upright(double within, double up) {
     std::string text = fmt::format("at least {:.4g} mm", within);
@@ -62,44 +25,65 @@ std::string build_volume_text(dvec3 available) {
     return text + " mm";
 }
 
+struct Words {
+    const char* fault;
+    const char* advice;
+    std::string (*limit)(const PrintLimits& limits);
+};
+
+/// By Check.
+const std::array<Words, check_count> table{{
+    {"a piece is not joined to the rest of the part",
+     "Join it to the part, or leave loose pieces of foam out with --drop-islands.",
+     [](const PrintLimits&) -> std::string { return "the part is one piece"; }},
+    {"a layer falls into several pieces",
+     "Join them in the design, or have bars put between them: --printer-ties join.",
+     [](const PrintLimits&) -> std::string { return "each layer is one piece"; }},
+    {"something begins with nothing below it",
+     "Supports hold it (--support bridges or pillars), or another way up needs none.",
+     [](const PrintLimits&) -> std::string { return "nothing begins in the air"; }},
+    {"a layer stands out too far over the one below",
+     "Supports hold it (--support bridges or pillars), or a gentler slope or thinner layers need none.",
+     [](const PrintLimits& limits) {
+         return fmt::format("at most {:.4g} mm over the layer below", limits.overhang);
+     }},
+    {"a stretch between two holds is too long",
+     "Shorten it, turn the part, or add supports (--support bridges or pillars).",
+     [](const PrintLimits& limits) {
+         return fmt::format("at most {:.4g} mm from hold to hold", limits.bridge);
+     }},
+    {"a wall or strut is too thin",
+     "Make it thicker there: a thicker skin (--skin) or beam (--beam), or a machine that makes finer things.",
+     [](const PrintLimits& limits) { return with_upright(limits.thickness, limits.thickness_up); }},
+    {"large parts are joined by something thin", "Make the neck thicker, or expect it to break there.",
+     [](const PrintLimits& limits) {
+         return fmt::format("at least {:.4g} mm between parts over {:.4g} mm3", limits.neck,
+                            limits.large_part);
+     }},
+    {"a void is too narrow and closes up", "Widen it, or fill it.",
+     [](const PrintLimits& limits) { return with_upright(limits.gap, limits.gap_up); }},
+    {"a void is closed off", "Open it: --drains 1 for a hollow part, a [[hole]], or a foam of open cells.",
+     [](const PrintLimits& limits) { return fmt::format("no closed void over {:.4g} mm3", limits.cavity); }},
+    {"a void is closed off by the vat's film while it is printed",
+     "Give it a hole near the plate (--drains 2, or a [[hole]]), or turn the part over.",
+     [](const PrintLimits& limits) { return fmt::format("no suction cup over {:.4g} mm3", limits.cup); }},
+    {"the part sticks out of the machine's reach", "Scale or turn the part, or take a larger machine.",
+     [](const PrintLimits& limits) { return build_volume_text(limits.build_volume); }},
+    {"a layer holds nothing of the part", "Join what lies above it to what lies below.",
+     [](const PrintLimits&) -> std::string { return "something in every layer"; }},
+}};
+
+const Words& words_of(Check check) { return table[static_cast<std::size_t>(check)]; }
+
 }  // namespace
 
 std::string process_name(Process process) { return choice_names(process)[static_cast<std::size_t>(process)]; }
-std::string check_name(Check check) { return words_of(check).name; }
+std::string check_name(Check check) { return check_info(check).name; }
 std::string check_fault(Check check) { return words_of(check).fault; }
 std::string check_advice(Check check) { return words_of(check).advice; }
-const char* size_unit(Check check) { return words_of(check).unit; }
+const char* size_unit(Check check) { return check_info(check).unit; }
 
-std::string check_limit(Check check, const PrintLimits& limits) {
-    switch (check) {
-        case Check::connectivity:
-            return "the part is one piece";
-        case Check::sheets:
-            return "each layer is one piece";
-        case Check::islands:
-            return "nothing begins in the air";
-        case Check::overhangs:
-            return fmt::format("at most {:.4g} mm over the layer below", limits.overhang);
-        case Check::bridges:
-            return fmt::format("at most {:.4g} mm from hold to hold", limits.bridge);
-        case Check::thickness:
-            return with_upright(limits.thickness, limits.thickness_up);
-        case Check::necks:
-            return fmt::format("at least {:.4g} mm between parts over {:.4g} mm3", limits.neck,
-                               limits.large_part);
-        case Check::gaps:
-            return with_upright(limits.gap, limits.gap_up);
-        case Check::cavities:
-            return fmt::format("no closed void over {:.4g} mm3", limits.cavity);
-        case Check::cups:
-            return fmt::format("no suction cup over {:.4g} mm3", limits.cup);
-        case Check::build_volume:
-            return build_volume_text(limits.build_volume);
-        case Check::empty_layers:
-            return "something in every layer";
-    }
-    return "";
-}
+std::string check_limit(Check check, const PrintLimits& limits) { return words_of(check).limit(limits); }
 
 std::string size_text(Check check, double size) {
     const char* unit = size_unit(check);

@@ -64,12 +64,21 @@ CellLattice lattice(double reach) {
 }
 
 /// Limits of resin printers.
-PrintLimits limits() {
-    PrintLimits limits;
+CheckContext context() {
+    CheckContext context{grid(), layer_count, {}, max_places};
     for (const Check check : {Check::islands, Check::overhangs})
-        limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
-    limits.overhang = layer_height;
-    return limits;
+        context.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
+    context.limits.overhang = layer_height;
+    context.limits.neck = 0.6;
+    return context;
+}
+
+LayerSample sample(int layer) {
+    LayerSample sample;
+    sample.index = layer;
+    sample.rows.part = layers()[static_cast<std::size_t>(layer)];
+    sample.rows.supports = empty_rows(sample.rows.part.lines());
+    return sample;
 }
 
 void check_rows(benchmark::State& state) {
@@ -153,9 +162,12 @@ void check_pieces(benchmark::State& state) {
 void check_voids(benchmark::State& state) {
     layers();
     for (auto _ : state) {
-        VoidCheck voids(grid(), 1, 10, max_places);
-        for (int i = 0; i < layer_count; ++i)
-            voids.add(VoidCheck::label(layers()[static_cast<std::size_t>(i)], grid(), i), i);
+        VoidCheck voids(context());
+        for (int i = 0; i < layer_count; ++i) {
+            LayerSample layer = sample(i);
+            PreparedRows labelled = voids.prepare(layer);
+            voids.add(layer, std::move(labelled));
+        }
         voids.finish();
     }
 }
@@ -174,15 +186,16 @@ void check_hold(benchmark::State& state) {
         benchmark::DoNotOptimize(all_rows(*slices.back(), grid().band, scratch));
     }
     for (auto _ : state) {
-        OverhangCheck hold(grid(), limits(), max_places);
+        OverhangCheck check(context());
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            const RunRows& rows = layers()[i];
-            const auto rows_in = [&](const RowBand& band) { return all_rows(*slices[i], band, scratch); };
-            hold.add({rows, empty_rows(rows.lines()), {}}, LayerCells(rows, lattice(0)), labels[i], rows_in,
-                     static_cast<int>(i));
+            LayerSample layer = sample(static_cast<int>(i));
+            layer.part = labels[i];
+            layer.cells.emplace(layer.rows.part, lattice(0));
+            layer.rows_in = [&](const RowBand& band) { return all_rows(*slices[i], band, scratch); };
+            check.add(layer, {});
         }
-        hold.finish();
-        state.counters["overhangs"] = static_cast<double>(hold.overhangs().count());
+        check.finish();
+        state.counters["overhangs"] = static_cast<double>(check.faults(Check::overhangs).count());
     }
 }
 
@@ -190,8 +203,11 @@ void check_necks(benchmark::State& state) {
     layers();
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     for (auto _ : state) {
-        NeckCheck necks(grid(), 0.6, 1000, max_places);
-        for (const RunRows& rows : layers()) necks.push(rows);
+        NeckCheck necks(context());
+        for (int i = 0; i < layer_count; ++i) {
+            LayerSample layer = sample(i);
+            necks.add(layer, {});
+        }
         necks.finish();
     }
 }

@@ -1,0 +1,48 @@
+// The table of checks: one row a kind of fault, and one a class that finds some.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "engine/checks/layer_check.h"
+#include "engine/checks/print_limits.h"
+
+namespace lamella {
+
+/// A kind of fault.
+struct CheckInfo {
+    const char* name;                       ///< its key in settings and reports
+    const char* unit;                       ///< of the size of a fault: "mm", "mm2" or "mm3"
+    double PrintLimits::*limit = nullptr;   ///< what sizes or thicknesses are compared with; null: nothing
+    const char* limit_unit = "";            ///< "mm" or "mm3"
+    const char* thickness_limit = nullptr;  ///< the limit's name, if it is a thickness that rows must resolve
+    bool adds_up = true;                    ///< whether the sum of fault sizes means anything
+};
+
+/// Returns the row of a check.
+const CheckInfo& check_info(Check check);
+
+/// What a check is made for.
+struct CheckContext {
+    CheckGrid grid;
+    int layer_count = 0;
+    PrintLimits limits;
+    std::size_t max_faults = 10;  ///< of each kind that are kept
+};
+
+/// A class that finds faults of some kinds, and the parts of a LayerSample that it reads besides the rows.
+struct CheckPass {
+    std::span<const Check> finds;
+    std::unique_ptr<LayerCheck> (*make)(const CheckContext& context);
+    bool reads_part_labels = false;
+    bool reads_printed_labels = false;
+    /// Returns how far it dilates the layer's cells, run units; null: it reads no cells.
+    double (*cell_reach)(const LayerCheck& check) = nullptr;
+};
+
+/// Returns all passes, in the order in which they are given a layer. Checks that move out of the layer come
+/// last.
+std::span<const CheckPass> check_passes();
+
+}  // namespace lamella
