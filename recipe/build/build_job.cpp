@@ -9,8 +9,8 @@
 #include "engine/layers/survey_rows.h"
 #include "engine/solids/box_solid.h"
 #include "engine/solids/csg.h"
-#include "engine/solids/shell.h"
 #include "recipe/build/build_process.h"
+#include "recipe/build/fill_body.h"
 #include "recipe/identity.h"
 
 namespace lamella {
@@ -18,73 +18,6 @@ namespace lamella {
 namespace {
 
 constexpr int max_layers = 10'000'000;
-
-/// A skin with windows before it is drilled, and the thickest that it is, mm.
-struct CutSkin {
-    FieldPtr shell;
-    double depth = 0;
-};
-
-CutSkin cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
-    const GradedNumber& thickness = recipe.skin->thickness;
-    CutSkin skin;
-    if (thickness.is_formula() || !gradings.overrides("skin.thickness").empty()) {
-        built.skin = graded("skin.thickness", thickness,
-                            {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
-        skin.shell = make_shell(built.body, built.skin->asked, built.skin->limits);
-        skin.depth = built.skin->made->range(built.body->bounds()).hi;
-    } else {
-        skin.depth = thickness.number();
-        skin.shell = make_shell(built.body, skin.depth);
-    }
-    skin.shell = cut_windows(recipe, std::move(skin.shell), built.body, skin.depth, gradings, built.pattern);
-    return skin;
-}
-
-/// The body filled with foam, under a skin with holes.
-FieldPtr drilled(const BuiltJob& built, FieldPtr shell, const std::vector<DrilledHole>& holes) {
-    shell = without_holes(std::move(shell), holes);
-    FieldPtr inside = built.foam ? make_union({built.foam->field, std::move(shell)}) : std::move(shell);
-    std::vector<DrilledHole> through = holes;
-    std::erase_if(through, [](const DrilledHole& hole) { return !hole.through; });
-    return without_holes(make_intersection({built.body, std::move(inside)}), through);
-}
-
-/// The part under a skin with windows and holes; drains are placed once all else is there.
-FieldPtr with_cut_skin(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
-    const CutSkin skin = cut_skin(recipe, built, gradings);
-    built.holes = drilled_holes(recipe, *built.body, skin.depth);
-    FieldPtr part = drilled(built, skin.shell, built.holes);
-    if (recipe.skin->drains == 0) return part;
-    Job job = built.designed;
-    job.part = part;
-    built.drains = place_drains(recipe, job, *built.body, skin.depth);
-    std::vector<DrilledHole> holes = built.holes;
-    holes.insert(holes.end(), built.drains->holes.begin(), built.drains->holes.end());
-    return drilled(built, skin.shell, holes);
-}
-
-/// The body itself, or filled with foam and skin.
-FieldPtr part_of(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
-    const FieldPtr foam = built.foam ? built.foam->field : nullptr;
-    if (!foam && !recipe.skin) return built.body;
-    if (!recipe.skin) return make_filled_body(built.body, foam, 0);
-    const GradedNumber& thickness = recipe.skin->thickness;
-    try {
-        if (has_cut_skin(recipe)) return with_cut_skin(recipe, built, gradings);
-        const SkinSide side = recipe.skin->side;
-        const bool varies = thickness.is_formula() || !gradings.overrides("skin.thickness").empty();
-        if (!varies) return make_filled_body(built.body, foam, thickness.number(), side);
-        built.skin = graded("skin.thickness", thickness,
-                            {recipe.skin->thickness_min, recipe.skin->thickness_max}, gradings);
-        return make_filled_body(built.body, foam, built.skin->asked, built.skin->limits, side);
-    } catch (const LocatedError&) {
-        throw;
-    } catch (const InputError& error) {
-        throw InputError((thickness.where.empty() ? "skin.thickness" : thickness.where) + ": " +
-                         error.what() + "; accepted: a mesh, or another shape than this one");
-    }
-}
 
 int layers_of(double height, double layer_height) {
     if (height / layer_height > max_layers) {
@@ -134,7 +67,7 @@ BuiltJob build_job(const Recipe& recipe) {
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
     set_layers(recipe, job);
     job.part =
-        with_regions(part_of(recipe, built, gradings), built.body, recipe.foam || recipe.skin, built.regions);
+        with_regions(fill_body(recipe, built, gradings), built.body, recipe.foam || recipe.skin, built.regions);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});
