@@ -25,7 +25,7 @@
  * signal handler. Callbacks for fields, gradings and the rendering of layers are called by several threads
  * at once. A callback may call the library with a context of its own.
  *
- * EXAMPLE. The area of the section at z = 3 mm of a part, error handling left out:
+ * EXAMPLE. The area of the section at z = 3 mm of a part; error handling and release are left out:
  * ```
  *     lamella_context* context;
  *     lamella_recipe* recipe;
