@@ -223,26 +223,27 @@ struct ShieldRecipe {
     double pitch = 0;     ///< row spacing of the survey, mm; 0: derived from the overhang
 };
 
-/// What makes up for the way a machine prints.
+/// Machine compensation: scaling and in-plane offsets.
 struct ProcessRecipe {
-    dvec3 scale{1};  ///< of the finished part along x, y, z: about its middle, from its lowest point
-    double xy_compensation = 0;             ///< by which every layer's outline grows, mm; negative: shrinks
-    double elephant_foot = 0;               ///< by which the first layer's outline is drawn in, mm
-    std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
+    dvec3 scale{1};  ///< of the finished part along x, y, z: about the middle of its bounds in x and y, and
+                     ///< their lowest z
+    double xy_compensation = 0;             ///< outward offset of every layer's outline, mm; negative: inward
+    double elephant_foot = 0;               ///< inward offset of the first layer's outline, mm
+    std::int64_t elephant_foot_layers = 1;  ///< number of layers over which that offset fades away
 };
 
-/// What is mended before a part is printed. Lengths in mm as printed; 0: left as it is.
+/// Repairs before a part is printed. Lengths in mm as printed; 0: no repair of this kind.
 struct RepairRecipe {
-    double thickness = 0;  ///< what is thinner within a layer is made so thick
-    double gap = 0;        ///< void narrower within a layer is filled
-    double join = 0;       ///< diameter of the struts that join loose pieces
+    double thickness = 0;  ///< walls thinner than this within a layer are thickened to it
+    double gap = 0;        ///< gaps narrower than this within a layer are filled
+    double join = 0;       ///< diameter of struts that join disconnected pieces
 };
 
-/// What holds the part up while it is printed; its numbers are the printer's.
+/// The kind of supports; their dimensions are part of the printer's profile.
 enum class SupportKind : unsigned char {
     none,
-    bridges,  ///< bars on pillars
-    pillars   ///< a pillar under every point
+    bridges,  ///< horizontal bars on pillars
+    pillars   ///< a pillar under every support point
 };
 
 /// A hole drilled through the skin.
@@ -250,9 +251,9 @@ struct HoleRecipe {
     std::string where;     ///< where the entry begins, for messages
     dvec3 at{0};           ///< mm; the hole begins at the nearest point of the surface
     double radius = 0;     ///< mm
-    dvec3 direction{0};    ///< inward; zero: at right angles to the surface
+    dvec3 direction{0};    ///< inward; zero: along the surface normal
     double depth = 0;      ///< from the surface, mm; 0: through the skin
-    bool through = false;  ///< through the filling, too
+    bool through = false;  ///< the hole also passes through the foam
 };
 
 /// Copies of the part on one plate.
