@@ -1,4 +1,4 @@
-// Materials of a TOML table, by name.
+// Parses tables of materials (TOML), and looks materials up by name.
 #include "recipe/base_material.h"
 
 #include <fmt/format.h>

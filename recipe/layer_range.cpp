@@ -1,4 +1,4 @@
-// Reading "A:B".
+// Parses "A:B".
 #include "recipe/layer_range.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// From assignments to a recipe: profile first, then the rest, and the rules that join several keys.
+// Turns assignments into a recipe: profile first, then the rest, then the rules that relate several keys.
 #include "recipe/recipe_draft.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace lamella {
 
 namespace {
 
-/// The keys that name a body; one of them holds.
+/// The keys that name a body; exactly one is used.
 const std::vector<std::string> body_keys{"mesh", "shape", "field"};
 
 std::string listed(const std::vector<std::string>& words, const char* between = ", ") {
@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string>& words, const char* between = 
     return text;
 }
 
-/// All keys that go with a kind, or with any kind of the section.
+/// Returns the keys that apply to a kind, or to all kinds of the section.
 std::vector<std::string> keys_of(const Kind& kind) {
     std::vector<std::string> keys;
     for (const std::string& need : kind.needs) {
@@ -35,7 +35,7 @@ std::vector<std::string> keys_of(const Kind& kind) {
     return keys;
 }
 
-/// What every entry of a list section has.
+/// Keys of every entry of a list section.
 std::vector<std::string> needs_of_list(std::string_view section) {
     if (section == "hole") return {"at", "radius"};
     if (section == "region") return {};
@@ -91,7 +91,7 @@ void RecipeDraft::give_grading(const std::string& name, HostGiven<GradingPtr> gr
     host_gradings_[name] = std::move(grading);
 }
 
-/// Gives the entries of kind host what the program has for them.
+/// Gives the entries of kind host the program's objects.
 template <typename Entries, typename Given>
 void RecipeDraft::hand_over(const std::string& section, Entries& entries, const Given& given) {
     for (auto& entry : entries) {
@@ -114,7 +114,7 @@ const RecipeDraft::Entry* RecipeDraft::entry(std::string_view section, std::stri
     return found == entries_.end() ? nullptr : &found->second;
 }
 
-/// Where a key stands, or where it would stand.
+/// Returns the place of a key, or where it would be written.
 std::string RecipeDraft::where(std::string_view section, std::string_view key, std::size_t number) const {
     if (const Entry* given = entry(section, key, number); given && !given->where.empty()) return given->where;
     if (const auto begin = sections_.find({std::string(section), number}); begin != sections_.end()) {
@@ -135,7 +135,7 @@ std::size_t RecipeDraft::count(const Section& section) const {
     return most;
 }
 
-/// A body given by a flag takes the place of the one in the recipe, whichever kind that was.
+/// A body given by a flag replaces the recipe's, whatever its kind.
 void RecipeDraft::drop_overridden_body() {
     const auto from_flag = [&](const std::string& key) {
         const Entry* given = entry("part", key);
@@ -154,7 +154,7 @@ void RecipeDraft::drop_overridden_body() {
     }
 }
 
-/// Where a section or an entry of a list section begins.
+/// Returns the place where a section or an entry of a list section begins.
 std::string RecipeDraft::where_begins(const std::string& section, std::size_t number) const {
     const auto begin = sections_.find({section, number});
     return begin == sections_.end() ? section : begin->second;
@@ -179,7 +179,7 @@ void RecipeDraft::check_need(const Part& part, const std::string& need, const st
     }
 }
 
-/// Whether a foam's modulus decides how large its cells, or members, are.
+/// Returns true if a foam's modulus determines its cells or its members.
 bool RecipeDraft::is_chosen_for_modulus(const KindSection& section, const std::string& need) const {
     return section.section == "foam" && entry("foam", "modulus") != nullptr &&
            (need == "cell" || need == "beam" || need == "wall");
@@ -210,7 +210,8 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
     }
 }
 
-/// Exactly one body, which may be the only [[field]]; false when there are several.
+/// Checks that there is exactly one body, which may be the only [[field]]. Returns false when there are
+/// several.
 bool RecipeDraft::check_bodies() {
     std::vector<const Entry*> given;
     for (const std::string& key : body_keys) {
@@ -258,7 +259,8 @@ void RecipeDraft::check_structure() {
     if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
 }
 
-/// The size of a pixel is said in one way: by its edge, both its sides, or dots per inch. A flag's way holds.
+/// Checks that the pixel size is given in one way: by its edge, both its sides, or dots per inch. A flag has
+/// precedence over the recipe.
 void RecipeDraft::check_pixels() {
     const std::vector<std::vector<std::string>> ways{{"pixel"}, {"dpi"}, {"pixel_x", "pixel_y"}};
     const auto given = [&](const std::vector<std::string>& way, bool flags_only) -> const Entry* {
@@ -287,7 +289,7 @@ void RecipeDraft::check_pixels() {
     }
 }
 
-/// Looks up the profile.
+/// Looks up the recipe's profile.
 void RecipeDraft::check_printer() {
     check_pixels();
     const Entry* given = entry("printer", "profile");
@@ -313,7 +315,7 @@ Recipe RecipeDraft::assemble() {
         }
     }
     if (count(*find_section("support")) > 0) {
-        // Numbers alone ask for supports, but the kind may say that there are none all the same.
+        // Any number of [support] enables supports, unless support.kind is given.
         const Entry* kind = entry("support", "kind");
         recipe.support = SupportKind::bridges;
         if (kind && kind->value) find_setting("support", "kind")->store(recipe, 0, *kind->value);

@@ -1,4 +1,4 @@
-// Rules that join a region's keys with the fields, the foam and the skin.
+// Rules that relate a region's keys to the fields, the foam and the skin.
 #include "recipe/recipe_regions.h"
 
 #include <fmt/format.h>
@@ -28,11 +28,11 @@ std::string unknown_field(const Recipe& recipe, const RegionRecipe& region) {
                        known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
 }
 
-/// The limits that the foam or the skin sets for a number; nothing where it has no such number.
+/// Returns the limits of a number in the foam or skin; nothing when it has no such number.
 std::optional<Interval> limits_of(const Recipe& recipe, const std::string& key) {
     if (key == "skin.thickness") return Interval{recipe.skin->thickness_min, recipe.skin->thickness_max};
     const FoamRecipe& foam = *recipe.foam;
-    // Of a foam's modulus, cells and members the one that is not given follows from the others.
+    // Of a foam's modulus, cells and members, the one that is not given follows from the other two.
     if (key == "foam.modulus" && !is_given(foam.modulus, false)) return std::nullopt;
     if (key == "foam.modulus") return Interval{0, infinity};
     if (key == "foam.cell" && !is_given(foam.cell, false)) return std::nullopt;

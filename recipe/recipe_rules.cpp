@@ -1,4 +1,4 @@
-// The rules between settings that are each fine on their own.
+// Rules that relate several settings, each of which is valid alone.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,7 +15,7 @@
 
 namespace lamella {
 
-/// Rules between what stretches a foam and its kind.
+/// Checks a foam's stretch and turn against its kind.
 void RecipeDraft::check_stretch(const FoamRecipe& foam) {
     const auto stretch = constant(foam.stretch);
     if (entry("foam", "turn") && stretch == dvec3(1)) {
@@ -42,7 +42,7 @@ void RecipeDraft::check_stretch(const FoamRecipe& foam) {
     }
 }
 
-/// Rules between a number that may vary and its limits.
+/// Checks a graded number against its limits.
 void RecipeDraft::check_limits(const std::string& section, const std::string& key, const GradedNumber& number,
                                double least, double most) {
     const std::string low = key + "_min", high = key + "_max";
@@ -56,7 +56,7 @@ void RecipeDraft::check_limits(const std::string& section, const std::string& ke
     }
 }
 
-/// Rules between the numbers of a foam.
+/// Checks the numbers of a foam against each other.
 void RecipeDraft::check_foam(const FoamRecipe& foam) {
     check_stretch(foam);
     if (entry("foam", "cell")) check_limits("foam", "cell", foam.cell, foam.cell_min, foam.cell_max);
@@ -71,7 +71,7 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
     }
 }
 
-/// A modulus takes the place of the cells or of the members.
+/// Checks that a modulus replaces either the cells or the members.
 void RecipeDraft::check_modulus(const Recipe& recipe) {
     const FoamRecipe& foam = *recipe.foam;
     if (!entry("foam", "modulus")) {
@@ -109,7 +109,7 @@ void RecipeDraft::check_modulus(const Recipe& recipe) {
                           where("foam", "modulus")));
 }
 
-/// Rules between the keys of a material.
+/// Checks the keys of a material against each other.
 void RecipeDraft::check_material(const Recipe& recipe) {
     const MaterialRecipe& material = *recipe.material;
     const auto refuse_idle = [&](const char* key, const char* wanted) {
@@ -153,7 +153,7 @@ void RecipeDraft::check_output(const OutputRecipe& output) {
     }
 }
 
-/// Rules between the sizes of a scaffold, whether a recipe gives them or the printer's profile.
+/// Checks the sizes of a scaffold, from the recipe or the printer's profile.
 void RecipeDraft::check_support(const PrinterProfile& printer) {
     const SupportProfile& s = printer.support;
     const auto at_most = [&](const char* key, double size, const char* other, double most, const char* why) {
@@ -178,7 +178,7 @@ void RecipeDraft::check_support(const PrinterProfile& printer) {
     }
 }
 
-/// The scripts of a G-code file, whether a recipe has them or the printer's profile.
+/// Checks the scripts of a G-code file, from the recipe or the printer's profile.
 void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     for (const auto& [key, script] :
          {std::pair("start_script", &gcode.start_script), std::pair("layer_script", &gcode.layer_script),
@@ -188,7 +188,7 @@ void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     }
 }
 
-/// A skin with windows or holes lies inside.
+/// Checks that a skin with windows or holes lies inside the surface.
 void RecipeDraft::check_cut_skin(const Recipe& recipe) {
     const SkinRecipe& skin = *recipe.skin;
     if (skin.side == SkinSide::inside) return;
@@ -197,7 +197,7 @@ void RecipeDraft::check_cut_skin(const Recipe& recipe) {
                           where("skin", "side")));
 }
 
-/// Rules between drains, their keys and the foam.
+/// Checks drains against their keys and the foam.
 void RecipeDraft::check_drains(const Recipe& recipe) {
     if (recipe.skin->drains == 0) {
         for (const char* key : {"drain_radius", "drain_pitch"}) {
@@ -213,7 +213,7 @@ void RecipeDraft::check_drains(const Recipe& recipe) {
     }
 }
 
-/// Rules between cavities, the shield and what they go together with.
+/// Checks cavities and the shield against the settings that they depend on.
 void RecipeDraft::check_enclosures(const Recipe& recipe) {
     if (recipe.cavity && (recipe.foam || recipe.skin)) {
         refuse(0, fmt::format("{}: a part with {} is hollow already; accepted: cavities in a solid part",
@@ -225,7 +225,7 @@ void RecipeDraft::check_enclosures(const Recipe& recipe) {
     }
 }
 
-/// Rules between the sizes of the part's shape, or of a field's.
+/// Checks the sizes of the part's shape, or of a field's.
 template <typename Sizes>
 void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Sizes& sizes) {
     if (shape == "capsule" && sizes.height < 2 * sizes.radius) {
@@ -240,7 +240,7 @@ void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Si
     }
 }
 
-/// Rules between numbers that are each fine on their own.
+/// Checks numbers that are valid alone against each other.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam) check_foam(*recipe.foam);

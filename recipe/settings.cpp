@@ -1,4 +1,4 @@
-// Reading, checking and describing values by the settings table.
+// Parses, checks and describes values by the settings table.
 #include "recipe/settings.h"
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ std::optional<std::string> lines_objection(const std::string& text) {
     return std::nullopt;
 }
 
-/// Formulas may be parted into lines.
+/// Formulas may span several lines.
 std::optional<std::string> formula_objection(std::string text) {
     const auto white = [](char c) { return c == '\n' || c == '\r' || c == '\t'; };
     std::replace_if(text.begin(), text.end(), white, ' ');
@@ -107,7 +107,7 @@ std::optional<T> entire(std::string_view text) {
     return number;
 }
 
-/// A number where the text is one, otherwise a formula.
+/// Returns a number if the text is one, otherwise a formula.
 GradedNumber parse_graded(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(' ');
     const std::size_t end = text.find_last_not_of(' ');
@@ -117,7 +117,7 @@ GradedNumber parse_graded(std::string_view text) {
     return {std::string(text), ""};
 }
 
-/// Three with commas between them; commas within brackets belong to a formula.
+/// Parses three separated by commas; commas within brackets belong to a formula.
 std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
     GradedTriple triple;
     std::size_t count = 0, begin = 0;
@@ -133,7 +133,7 @@ std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
     return triple;
 }
 
-/// Rows with semicolons between them.
+/// Parses rows separated by semicolons.
 std::optional<NumberRows> parse_rows(std::string_view text, std::size_t columns) {
     NumberRows rows;
     while (rows.size() <= max_rows) {
@@ -357,7 +357,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 
 namespace {
 
-/// Text in a cell of a Markdown table.
+/// Escapes text for a cell of a Markdown table.
 std::string table_cell(const std::string& text) {
     std::string cell;
     for (const char c : text) {

@@ -1,4 +1,4 @@
-// The kinds of gradings, a line each, and the order in which they are made.
+// The registry of grading kinds; makes gradings and those they depend on.
 #include "recipe/build/build_gradings.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ GradingPtr package(const GradingRecipe& grading, Gradings& /*others*/) {
     return make_formula_grading(std::move(function.formula), std::move(function.others));
 }
 
-/// The part's own mesh serves where no file is given.
+/// Makes an attribute grading; without a file, from the part's own mesh.
 GradingPtr attribute(const GradingRecipe& grading, Gradings& others) {
     const PartRecipe& part = others.recipe().part;
     const std::string& file = grading.file.empty() ? part.mesh : grading.file;
@@ -78,7 +78,8 @@ std::span<const GradingBuilder> grading_builders() {
     using G = GradingRecipe;
     static const std::vector<GradingBuilder> list{
         {{"constant", {"value"}, {}}, [](const G& g, Gradings&) { return make_constant_grading(g.value); }},
-        {{"formula", {"formula"}, {}}, [](const G& g, Gradings& others) { return others.resolve(g.formula); }},
+        {{"formula", {"formula"}, {}},
+         [](const G& g, Gradings& others) { return others.resolve(g.formula); }},
         {{"volume", {"file"}, {"box", "channel"}}, volume},
         {{"3mf", {"file", "property|function"}, {"object"}}, package},
         {{"table", {"along", "rows|file"}, {"smooth"}}, build_table},
@@ -99,7 +100,7 @@ std::span<const GradingBuilder> grading_builders() {
     return list;
 }
 
-/// What formulas mean by a name besides x, y and z.
+/// Returns the grading behind a name other than x, y and z.
 GradingPtr Gradings::named(const std::string& name) {
     if (const auto made = made_.find(name); made != made_.end()) return made->second;
     if (name == depth_name) {
@@ -157,13 +158,13 @@ std::span<const RegionalNumber> Gradings::overrides(const std::string& key) cons
 
 namespace {
 
-/// The key of the recipe that limits another one from above; null where there is none.
+/// Returns the recipe's key for the upper limit of another key; null when there is none.
 const Setting* upper_limit(const std::string& key) {
     const std::size_t dot = key.find('.');
     return find_setting(key.substr(0, dot), key.substr(dot + 1) + "_max");
 }
 
-/// What holds where a formula has no number, for a body that it should have numbers in.
+/// Returns the number used where a formula is undefined, for a body in which it should be defined.
 double greatest_of(const GradedUse& use, const std::string& where, const Field& body) {
     const Setting* key = upper_limit(use.key);
     const bool stated = key && use.limits.hi < key->limits.hi;

@@ -1,4 +1,4 @@
-// The order of surveys.
+// Runs the surveys in their order.
 #include "recipe/build/finish_job.h"
 
 #include "recipe/build/repair_job.h"

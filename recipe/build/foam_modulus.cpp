@@ -1,4 +1,4 @@
-// Laws by name; sizes from moduli.
+// Looks up laws by the foam's name; solves for sizes from moduli.
 #include "recipe/build/foam_modulus.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ namespace lamella {
 
 namespace {
 
-/// Tests of a file: a cell, a member (mm) and a modulus (MPa) a line, under a line of words or none.
+/// Reads tests from a file: cell (mm), member (mm) and modulus (MPa) on each line, after an optional line of
+/// column names.
 std::vector<StiffnessTest> read_tests(const std::string& path) {
     const std::string text = whole_file(path, "a table of compression tests");
     std::vector<StiffnessTest> tests;
@@ -92,15 +93,15 @@ GradedUse member_use(const FoamRecipe& foam, Gradings& gradings,
                : graded("foam.beam", foam.beam, {foam.beam_min, foam.beam_max}, gradings, names);
 }
 
-/// What a modulus asks for instead of a number of the recipe.
+/// Returns the number that follows from a modulus in place of a recipe's.
 GradedUse solved(const std::string& key, GradingPtr asked, Interval limits) {
-    // Ranges are widened for rounding; a foam that is the same everywhere has to be known as such.
+    // Ranges are widened for rounding; a uniform foam must remain recognisable as constant.
     if (const auto same = asked->constant()) asked = make_constant_grading(*same);
     GradingPtr made = make_clamped_grading(asked, limits);
     return {key, std::move(asked), std::move(made), limits, "mm"};
 }
 
-/// Closed cells have a law for one proportion of beams, walls and windows.
+/// Returns true if beams, walls and windows of closed cells keep one proportion, as their law requires.
 bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
     if (foam.kind != "closed") return true;
     const bool same = !foam.beam.is_formula() && !foam.wall.is_formula() && !foam.window.is_formula();
@@ -108,7 +109,7 @@ bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
     return same && !overridden("foam.beam") && !overridden("foam.wall") && !overridden("foam.window");
 }
 
-/// Whether one law can hold for the whole foam.
+/// Returns true if one law can describe the whole foam.
 bool has_one_shape(const FoamRecipe& foam, const Gradings& gradings) {
     return constant(foam.stretch) == dvec3(1) && is_proportioned(foam, gradings);
 }

@@ -1,4 +1,4 @@
-// A survey of what all layers have in common, away from their borders.
+// Surveys the intersection of all layers, eroded by the holes' radius and margin.
 #include "recipe/build/place_dowels.h"
 
 #include <fmt/format.h>
@@ -15,11 +15,12 @@ namespace lamella {
 namespace {
 
 struct ClearProduct : LayerProduct {
-    Polygons clear;  ///< where the axis of a hole may stand
+    Polygons clear;  ///< allowed positions of a hole's axis
     bool empty = false;
 };
 
-/// What is clear in all layers so far, and which of the places asked for are not.
+/// Intersects the allowed positions of all layers so far. Throws InputError when a given place is not
+/// allowed.
 class ClearSurvey : public Backend {
   public:
     ClearSurvey(double radius, double tolerance, std::vector<dvec2> places)
@@ -37,7 +38,7 @@ class ClearSurvey : public Backend {
     }
     void write(const Layer& layer, LayerProduct& product) override {
         auto& found = dynamic_cast<ClearProduct&>(product);
-        if (found.empty) return;  // nothing there to be aligned
+        if (found.empty) return;  // an empty layer needs no alignment
         for (const dvec2& place : places_) {
             if (is_inside(found.clear, place)) continue;
             throw InputError(fmt::format(
@@ -54,7 +55,7 @@ class ClearSurvey : public Backend {
     void end() override {}
 
     const Polygons& clear() const { return clear_; }
-    /// The first layer that leaves no place at all; negative where there is none.
+    /// The first layer at which no allowed position is left; negative when there is none.
     int closed() const { return closed_; }
 
   private:
@@ -77,7 +78,7 @@ std::vector<dvec2> places_of(const CuttingProfile& cutting) {
     return places;
 }
 
-/// Layers whose cutting plane the holes pass through.
+/// Returns the number of layers whose cutting planes the holes pass through.
 int layers_of(const Job& job, double height) {
     if (height == 0) return job.layer_count;
     int count = 0;

@@ -1,4 +1,4 @@
-// A survey of the void, and a hole or two for each cavity.
+// Surveys the void, and drills one or two holes into each cavity.
 #include "recipe/build/place_drains.h"
 #include "recipe/build/json_triple.h"
 
@@ -30,7 +30,7 @@ double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
 
 DrilledHole drain(const Field& body, dvec3 at, double radius, double depth) {
     DrilledHole hole = drill(body, at, dvec3(0), radius, 0, depth);
-    // The hole leads through the point itself and somewhat beyond, however deep that lies.
+    // The hole passes through the point and slightly beyond, however deep the point lies.
     const dvec3 axis = hole.to - hole.from;
     const double length = std::sqrt(glm::dot(axis, axis));
     const double way = glm::dot(at - hole.from, axis) / length + radius;

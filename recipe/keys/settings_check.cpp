@@ -1,4 +1,4 @@
-// The rows of the settings table about print checks: how small a machine makes things, and what matters.
+// The rows of the settings table about print checks: the machine's limits, and the severity of each fault.
 #include "recipe/keys/check_words.h"
 #include "recipe/keys/settings_rows.h"
 
@@ -24,7 +24,7 @@ void add_check_row(std::vector<Setting>& t, const char* key, const char* flag, S
     t.push_back(row<place>("check", key, flag, std::move(facts)));
 }
 
-/// A size whose usual value, which holds where it is negative, is said in `usual`.
+/// Adds a size. A negative value selects the default, which `usual` describes.
 template <auto member>
 void add_size(std::vector<Setting>& t, const char* key, const char* flag, bool is_volume,
               const std::string& what, const std::string& usual) {

@@ -1,4 +1,4 @@
-// The rows of the settings table about cavities inside the part and the shield about it.
+// The rows of the settings table about cavities inside the part and the shield around it.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

@@ -1,4 +1,4 @@
-// The rows of the settings table about how stiff a foam is wanted, and what it is made of.
+// The rows of the settings table about a foam's modulus and its material.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

@@ -1,4 +1,4 @@
-// The rows of the settings table about the plate: how many of a part are made at once.
+// The rows of the settings table about the plate: copies of the part.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

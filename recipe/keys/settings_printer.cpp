@@ -30,8 +30,8 @@ void add_machine(std::vector<Setting>& t) {
         {.choices = backend_words(), .help = "Back-end that makes the output."}));
 }
 
-/// The pixel's edge as printheads state it. What is told is rounded to 1e-6, for a quotient's quotient is not
-/// quite the number that was given.
+/// The pixel size in dots per inch, as printheads state it. The value read back is rounded to 1e-6, because
+/// two divisions do not return exactly the number that was given.
 Setting dots_per_inch() {
     constexpr double inch = 25.4;  // mm
     Setting s = described<double>("printer", "dpi", "--printer-dpi",
@@ -160,7 +160,7 @@ void add_vector(std::vector<Setting>& t) {
         {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin round the part in vector files."}));
 }
 
-/// A number of the printer's section.
+/// Adds a number of the [printer] section.
 template <auto member>
 void add_machine_number(std::vector<Setting>& t, const char* key, const char* flag, const char* unit,
                         Limits limits, const char* help) {

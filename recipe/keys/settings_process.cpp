@@ -1,4 +1,4 @@
-// The rows of the settings table about what makes up for the way a machine prints.
+// The rows of the settings table about machine compensation.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

@@ -1,4 +1,4 @@
-// The rows of the settings table about solids by name and the regions that they make.
+// The rows of the settings table about named solids and regions.
 #include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_kinds.h"
 

@@ -1,4 +1,4 @@
-// The rows of the settings table about what is mended before a part is printed.
+// The rows of the settings table about repairs before printing.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

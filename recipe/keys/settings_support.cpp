@@ -1,4 +1,4 @@
-// The rows of the settings table about what holds the part up while it is printed.
+// The rows of the settings table about supports.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -13,7 +13,7 @@ namespace {
 constexpr Limits thickness{0.05, 100};
 constexpr Limits amount_limits{0, 1000};
 
-/// A row of the printer's supports. Whoever sets one wants supports, unless support.kind says otherwise.
+/// Adds a row of the printer's supports. Setting one enables supports unless support.kind says otherwise.
 template <auto member>
 void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     static constexpr auto place = [](Recipe & r) -> auto& { return r.printer.support.*member; };
@@ -26,7 +26,7 @@ void add_support_row(std::vector<Setting>& t, const char* key, const char* flag,
     t.push_back(std::move(s));
 }
 
-/// What must be held.
+/// The overhangs to support.
 void add_needs(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::overhang>(
@@ -69,7 +69,7 @@ void add_needs(std::vector<Setting>& t) {
                                  {.unit = "g/cm3", .limits = {0.01, 30}, .help = "Density of the material."});
 }
 
-/// How the scaffold is shaped.
+/// The shape of the scaffold.
 void add_shape(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::bridge>(
@@ -119,7 +119,7 @@ void add_shape(std::vector<Setting>& t) {
          .help = "Height by which the part is raised over the bed, held by supports alone."});
 }
 
-/// How supports are printed.
+/// The way supports are printed.
 void add_printing(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::speed>(

@@ -1,4 +1,4 @@
-// The rows of the settings table about where an extruder's beads go: walls, infill, seam, brim and skirt.
+// The rows of the settings table about an extruder's toolpaths: walls, infill, seam, brim and skirt.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {

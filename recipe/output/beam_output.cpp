@@ -1,4 +1,4 @@
-// Checks before the layers, the file after them.
+// Checks the output before the layers, and writes its file after them.
 #include "recipe/output/beam_output.h"
 
 #include <fmt/format.h>

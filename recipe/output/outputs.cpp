@@ -1,4 +1,4 @@
-// Reading paths, endings and profiles of outputs.
+// Parses paths, endings and profiles of outputs.
 #include "recipe/output/outputs.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace lamella {
 namespace {
 
-/// Where the profile begins in PATH@PROFILE; npos where there is none. An @ in a folder's name or before an
-/// ending belongs to the path.
+/// Returns the position of the profile in PATH@PROFILE; npos when there is none. An @ in a folder's name or
+/// before an ending belongs to the path.
 std::size_t profile_mark(const std::string& named) {
     const std::size_t mark = named.rfind('@');
     if (mark == std::string::npos || named.find_first_of("/.", mark) != std::string::npos)

@@ -1,4 +1,4 @@
-// Outputs in a folder that nobody sees.
+// Opens the outputs in a temporary folder.
 #include "recipe/output/render_only.h"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone when this is.
+/// A temporary folder that is removed with this object.
 class ScratchFolder {
   public:
     ScratchFolder() {
@@ -58,7 +58,7 @@ class Renderer : public Backend {
     void end() override {}
 
   private:
-    ScratchFolder folder_;  ///< outlives what is open in it
+    ScratchFolder folder_;  ///< outlives the files open in it
     std::unique_ptr<Backend> outputs_;
     LayerRange whole_;
 };
