@@ -1,4 +1,4 @@
-// `lamella check`: whether a part can be made by a machine's process, and where it cannot.
+// `lamella check`: checks a part against the limits of a machine's process.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +25,7 @@ struct CheckCommand : JobOptions {
     bool json = false;
 };
 
-/// Of one part, which the check is of.
+/// A recipe with a single part, to which the check applies.
 Recipe recipe_of(const CheckCommand& options) {
     Recipe recipe = options.recipe.read();
     recipe.plate.copies = 1;
@@ -48,14 +48,14 @@ CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, con
     return checking.outcomes().front();
 }
 
-/// `ranks`: the processes that share the layers; null where there is this one alone.
+/// Checks the layers; `ranks`: the processes that share them, null for a single process.
 std::string run(const CheckCommand& options, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = recipe_of(options);
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
-    // Files that cannot be made are told of before anything is looked at.
+    // Output files are opened first, so that errors appear before the long work.
     if (!options.page.empty() && options.page == options.output)
         throw InputError("--report: " + options.page +
                          " is the file of --output, too; accepted: another one for each");
@@ -72,7 +72,7 @@ std::string run(const CheckCommand& options, Ranks* ranks) {
     return outcome.report.passed() ? "" : failure_text(outcome);
 }
 
-/// What a process does that is not the first of several.
+/// The work of ranks other than 0.
 void run_worker(const CheckCommand& given, Ranks& ranks) {
     CheckCommand options = given;
     options.quiet = true;

@@ -1,4 +1,4 @@
-// `lamella dump`: the foam itself, seeds or beams in a box, as lines of numbers.
+// `lamella dump`: prints the foam's seeds or beams in a box as lines of numbers.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// `lamella extract`: the masks of a printer's job as a folder of PNG files.
+// `lamella extract`: writes the masks of a print job as a folder of PNG files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -43,13 +43,13 @@ std::vector<std::byte> encode(const MaskImage& mask, const JobFacts& facts) {
     return encode_png({mask.width, mask.height, facts.pixel_x.value_or(0), facts.pixel_y.value_or(0)}, runs);
 }
 
-/// By the greys, mm^2; 0 where the size of a pixel is not known.
+/// Returns the area by grey values, mm^2; 0 when the pixel size is unknown.
 double covered_area(const MaskImage& mask, const JobFacts& facts) {
     const double pixels = std::accumulate(mask.pixels.begin(), mask.pixels.end(), 0.0) / 255;
     return pixels * facts.pixel_x.value_or(0) * facts.pixel_y.value_or(0);
 }
 
-/// A job.json as that of a stack, with what the file told of itself.
+/// Makes a job.json like that of a PNG stack, with the facts of the file.
 Json describe(const ExtractOptions& options, const JobFacts& facts, LayerRange range) {
     Json json{{"format", "lamella-layers"},
               {"version", 1},

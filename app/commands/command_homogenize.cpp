@@ -1,4 +1,4 @@
-// `lamella homogenize`: how stiff the foam of a recipe is.
+// `lamella homogenize`: computes the stiffness of a recipe's foam.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +37,7 @@ struct HomogenizeCommand {
     bool quiet = false;
 };
 
-/// From beams that hardly print to those that leave little void.
+/// From beams that are barely printable to those that leave little void.
 const std::vector<double> default_ratios{0.03, 0.04, 0.055, 0.075, 0.1, 0.14, 0.19, 0.26};
 
 std::vector<double> ratios_of(const std::string& text) {
@@ -58,15 +58,15 @@ void draw(const HomogenizeCommand& command, const StiffnessPlot& plot) {
     out.close();
 }
 
-/// What a command comes to: the solves for one result, or for each point of a law.
+/// The plan of a command: the solves for one result, or for each point of a law.
 struct Homogenizing {
     Recipe recipe;
     StiffnessOptions options;
-    std::vector<double> ratios;  ///< of a law's points
+    std::vector<double> ratios;  ///< ratios of members to cells, one for each point of a law
     std::vector<StiffnessSolve> solves;
 };
 
-/// What cannot be made is found out before anything is computed.
+/// Makes the plan. Checks everything before the first solve. Throws InputError.
 Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel) {
     Homogenizing plan{command.recipe.read(false), command.options, {}, {}};
     const Recipe& recipe = plan.recipe;
@@ -78,7 +78,7 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
     options.cancel = &cancel;
     if (recipe.material) {
         options.material = base_material(*recipe.material).elastic;
-        if (!(options.material.young > 0)) options.material.young = 1;  // results are shares of it
+        if (!(options.material.young > 0)) options.material.young = 1;  // results are relative to it
     }
     if (options.samples == 0) options.samples = command.table ? samples_of_a_law : 1;
     check_uniform(*recipe.foam);
@@ -94,7 +94,7 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
     return plan;
 }
 
-/// Writes a law, each point as soon as it is known.
+/// Writes a law, each point as soon as it is computed.
 void write_table(const HomogenizeCommand& command, const Homogenizing& plan, DistributedSolves& solves,
                  TextOutput& out) {
     const std::string name = law_name(*plan.recipe.foam);
@@ -132,7 +132,7 @@ void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan,
                            : stiffness_text(foam, material, found));
 }
 
-/// `ranks`: the processes that share the solves; null where there is this one alone.
+/// `ranks`: the processes that share the solves; null for a single process.
 void run(const HomogenizeCommand& command, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
@@ -144,7 +144,7 @@ void run(const HomogenizeCommand& command, Ranks* ranks) {
     out.close();
 }
 
-/// What a process does that is not the first of several.
+/// The work of ranks other than 0.
 void run_worker(const HomogenizeCommand& command, Ranks& ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);

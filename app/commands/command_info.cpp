@@ -1,4 +1,4 @@
-// `lamella info`: what a recipe will make, before it is made, and what a finished job holds.
+// `lamella info`: describes the job of a recipe before it is made, or a finished job file.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ Json mesh_json(const MeshReport& mesh) {
             {"notes", mesh.notes}};
 }
 
-/// The number, or the formula that gives it.
+/// Returns a number, or the formula that gives it.
 Json graded_json(const GradedNumber& number) {
     return number.is_formula() ? Json(number.formula()) : Json(number.number());
 }
@@ -171,7 +171,7 @@ std::string mesh_text(const Json& mesh) {
     return text;
 }
 
-/// "cells of 2 mm" or "cells of `1 + d` mm".
+/// Returns "cells of 2 mm" or "cells of `1 + d` mm".
 std::string graded_text(const Json& number) {
     return number.is_string() ? "`" + number.get<std::string>() + "`"
                               : fmt::format("{}", number.get<double>());
@@ -277,7 +277,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
 }
 
-/// SettingSpec and areas of a finished job.
+/// Facts and areas of a finished job.
 void run_job(const InfoOptions& options, const JobFile& job) {
     const AreaSummary areas = measure_areas(job, options.threads, isatty(STDERR_FILENO) == 0);
     TextOutput out("");

@@ -1,4 +1,4 @@
-// `lamella join`: shards of a job, made on several machines, into its outputs.
+// `lamella join`: joins shards of a job, made on several machines, into its outputs.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// `lamella keys`: the reference of everything a recipe can say.
+// `lamella keys`: prints the reference of all recipe keys.
 #include <memory>
 #include <string>
 

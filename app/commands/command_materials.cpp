@@ -1,4 +1,4 @@
-// `lamella materials`: the base materials that a recipe can name.
+// `lamella materials`: lists the base materials that a recipe can name.
 #include <fmt/format.h>
 
 #include <algorithm>

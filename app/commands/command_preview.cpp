@@ -1,4 +1,4 @@
-// `lamella preview`: a picture of the part, whole or cut open.
+// `lamella preview`: renders a picture of the part, whole or cut open.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -30,8 +30,8 @@ struct PreviewCommand {
     bool quiet = false;
 };
 
-/// Writes under a name of its own first, so that the picture appears complete. The ending tells
-/// the format and therefore stays last.
+/// Writes to a temporary name first, so that the picture appears complete. The format follows the ending,
+/// which therefore stays last.
 void save(const Picture& image, const std::string& path) {
     const std::filesystem::path final_path(path);
     const std::filesystem::path unfinished =

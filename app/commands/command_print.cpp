@@ -20,7 +20,7 @@ namespace {
 
 struct PrintOptions : JobOptions {
     LinkSettings link;
-    std::string firmware;  ///< marlin or grbl; empty: as the recipe's printer, marlin for a ready file
+    std::string firmware;  ///< marlin or grbl; empty: that of the recipe's printer, marlin for a ready file
     std::vector<double> park;
     std::optional<double> z;
     bool dry_run = false;
@@ -35,7 +35,7 @@ bool is_gcode_file(const std::string& input) {
     return false;
 }
 
-/// Which of the two kinds of sender. Throws InputError where the recipe writes for another one.
+/// Selects the sender, Marlin or grbl. Throws InputError when the recipe's printer uses another one.
 bool is_grbl(const PrintOptions& options, const std::optional<Recipe>& recipe) {
     if (!recipe) return options.firmware == "grbl";
     const bool grbl = recipe->printer.gcode.flavour == Flavour::grbl;
@@ -51,7 +51,7 @@ void say(const PrintOptions& options, const std::string& text) {
     if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);
 }
 
-/// Sends layers as they are computed, or a ready file.
+/// Prints layers as they are computed, or a ready file.
 void produce(const PrintOptions& options, const std::optional<Recipe>& recipe,
              const std::optional<PreparedJob>& prepared, std::unique_ptr<GcodeOutput> output,
              const CancelToken& cancel) {

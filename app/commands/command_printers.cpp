@@ -1,4 +1,4 @@
-// `lamella printers`: the back-ends and the machine profiles, or one profile as TOML.
+// `lamella printers`: lists back-ends and machine profiles, or prints one profile as TOML.
 #include <memory>
 
 #include "app/commands/commands.h"

@@ -1,4 +1,4 @@
-// `lamella section`: one section of the part at any height.
+// `lamella section`: writes one section of the part at any height.
 #include <fmt/format.h>
 
 #include <memory>
@@ -22,7 +22,7 @@ struct SectionOptions {
     std::string output;
 };
 
-/// The format asked for, or else the one that the file's name ends in.
+/// Returns the requested format, or else that of the file's ending.
 std::string chosen_format(const SectionOptions& options) {
     if (!options.format.empty()) return options.format;
     const std::string_view path = options.output;

@@ -1,4 +1,4 @@
-// `lamella serve`: sections for other programs, through a pipe.
+// `lamella serve`: answers other programs through a pipe.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t longest_request = std::size_t{64} << 20;
 
-/// The next length on standard input, 4 bytes, the lowest first; nothing where it ends between requests.
+/// Reads the next length from standard input, 4 bytes, little-endian; returns nothing when the input ends
+/// between requests.
 std::optional<std::size_t> read_length() {
     std::array<unsigned char, 4> bytes{};
     const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), stdin);

@@ -48,14 +48,14 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// What a run made and what is to be said of it.
+/// The results of a run that its summary reports.
 struct Written {
     std::optional<BeamLatticeReport> beams;
     std::vector<std::string> notes;
-    std::vector<CheckOutcome> checks;  ///< by output; empty where none was asked for
+    std::vector<CheckOutcome> checks;  ///< one for each output; empty when none was requested
 };
 
-/// Of a part's volume (mm^3), g; 0 where the material's density is not known.
+/// Returns the mass of a part's volume (mm^3), g; 0 when the material's density is unknown.
 double mass_of(const Recipe& recipe, double volume) {
     constexpr double mm3_per_cm3 = 1000;
     return recipe.material ? base_material(*recipe.material).density * volume / mm3_per_cm3 : 0;
@@ -124,7 +124,7 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         std::fputs(("\n" + check_text(checked)).c_str(), stderr);
 }
 
-/// What a check of the machines fails for; empty when nothing. What to do about it is the user's to say.
+/// Returns the failures of the checks; empty for none. The user decides what to do about them.
 std::string failures_text(const std::vector<CheckOutcome>& checks) {
     std::string text;
     for (const CheckOutcome& checked : checks) {
@@ -148,7 +148,7 @@ std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe
     return outputs;
 }
 
-/// Standard output takes the layers and nothing else.
+/// Throws InputError for options that conflict with layers on standard output.
 void check_standard_output(const SliceOptions& options) {
     if (options.json) {
         throw InputError(
@@ -159,7 +159,7 @@ void check_standard_output(const SliceOptions& options) {
         throw InputError("--resume: standard output cannot be continued; name a file with -o");
 }
 
-/// What cannot be shared among processes.
+/// Throws InputError for options that shards or several processes do not support.
 void check_sharing(const SliceOptions& options, const Ranks* ranks) {
     if (!options.shard.empty() && options.check)
         throw InputError(
@@ -173,7 +173,7 @@ void check_sharing(const SliceOptions& options, const Ranks* ranks) {
             "lamella's own printers");
 }
 
-/// Where the layers go: the outputs, or a shard of what they would get.
+/// Makes the back-end of the outputs, or of a shard for them.
 std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vector<Output>& outputs,
                                    const Job& job) {
     if (options.shard.empty()) return make_outputs(outputs, options.force);
@@ -181,7 +181,7 @@ std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vecto
                              settings_of(outputs), options.force);
 }
 
-/// The outputs with the checks beside them that were asked for.
+/// Adds the requested checks to the outputs.
 std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& checking,
                                      const SliceOptions& options, const Recipe& recipe,
                                      const std::vector<Output>& outputs, const Job& job) {
@@ -190,7 +190,7 @@ std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& 
     return checking.beside(std::move(to), outputs, recipe.part.name, job, parts);
 }
 
-/// `ranks`: the processes that share the layers; null where there is this one alone.
+/// Slices; `ranks`: the processes that share the layers, null for a single process.
 std::string run(const SliceOptions& options, Ranks* ranks) {
     check_sharing(options, ranks);
     const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
@@ -207,7 +207,7 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const BuiltJob& built = prepared.built;
     StreamOptions stream = prepared.stream;
-    // Of several runs for ranges of layers, the first writes the beams.
+    // Of several runs over ranges of layers, only the first writes the beams.
     const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
     if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
@@ -234,7 +234,7 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     return failures_text(checks);
 }
 
-/// What a process does that is not the first of several. What is wrong, the first one finds out as well.
+/// The work of ranks other than 0. Rank 0 finds the same mistakes and reports them.
 void run_worker(const SliceOptions& given, Ranks& ranks) {
     SliceOptions options = given;
     options.quiet = true;

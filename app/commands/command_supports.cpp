@@ -1,4 +1,4 @@
-// `lamella supports`: what holds a part while it is printed, as figures or as every piece.
+// `lamella supports`: describes the supports of a part, as statistics or piece by piece.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ struct SupportsCommand : JobOptions {
 
 constexpr const char* reasons[] = {"overhang", "island", "span", "stability"};
 
-/// Material of the supports, mm^3: their runs, a fifth of a millimetre apart, on every layer.
+/// Returns the material of the supports, mm^3: their runs, 0.2 mm apart, on every layer.
 double support_volume(const Job& job) {
     constexpr double pitch = 0.2;
     if (!job.supports) return 0;
@@ -79,7 +79,7 @@ Json pieces_json(const SupportPlan& plan) {
             {"connectors", std::move(connectors)}};
 }
 
-/// Lengths of the scaffold's pieces, mm.
+/// Returns the lengths of the scaffold's pieces, mm.
 struct Lengths {
     double bridges = 0, pillars = 0, connectors = 0;
 };
@@ -136,7 +136,7 @@ void run(const SupportsCommand& options) {
     if (recipe.support == SupportKind::none) recipe.support = SupportKind::bridges;
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    recipe.shield.reset();  // which is of no concern here
+    recipe.shield.reset();  // not needed here
     const BuiltSupports supports = *finish_with_progress(recipe, built, options, cancel).supports;
     TextOutput out(options.output);
     out.write(options.json ? as_json(supports, built.job) : as_text(supports, built.job));

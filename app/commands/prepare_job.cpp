@@ -1,4 +1,4 @@
-// Surveys, supports and plates before the first layer.
+// Runs surveys, builds supports and arranges plates before the first layer.
 #include "app/commands/prepare_job.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ std::string shell_quoted(const std::string& argument) {
     return text + "'";
 }
 
-/// The recipes of what stands beside the part, with its machine, layers and supports.
+/// Reads the recipes of the other inputs on the plate, with the first one's machine, layer height and
+/// supports.
 std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) {
     std::vector<Recipe> recipes;
     for (const std::string& input : options.beside) {
@@ -40,7 +41,7 @@ std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) 
     return recipes;
 }
 
-/// Makes the job one of all parts and their copies.
+/// Replaces the job by one with all parts and their copies.
 void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
                 const JobOptions& options, const CancelToken& cancel) {
     std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
@@ -108,7 +109,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     if (built.dowels && !options.quiet)
         std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
-    // Surveys take time: what is wrong should be known before them.
+    // Surveys take time: report mistakes before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);

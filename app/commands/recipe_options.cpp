@@ -1,4 +1,4 @@
-// One option a row of the settings table, with its recipe key in the help.
+// One option for each row of the settings table, with its recipe key in the help.
 #include "app/commands/recipe_options.h"
 
 #include <fmt/format.h>

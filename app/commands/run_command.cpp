@@ -1,4 +1,4 @@
-// Parsing the command line, and running what it asks for.
+// Parses the command line and runs its subcommand.
 #include "app/commands/run_command.h"
 
 #include "app/commands/command_help.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int bad_input = 2;
 
-/// The deepest subcommand that was named: its help is the one asked for.
+/// Returns the deepest subcommand named, whose help is printed.
 CLI::App& chosen(CLI::App& root) {
     const auto named = root.get_subcommands();
     return named.empty() ? root : chosen(*named.front());

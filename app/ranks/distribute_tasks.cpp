@@ -1,4 +1,4 @@
-// A rank asks, is told a number, and sends what came of it.
+// A rank asks, gets a task's number, and sends the result.
 #include "app/ranks/distribute_tasks.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace lamella {
 namespace {
 
-/// What rank 0 answers.
+/// The reply of rank 0 to a request.
 struct Order {
     void serialize(Archive& parcel) { parcel(task, count, identity); }
-    std::uint64_t task = 0, count = 0;  ///< equal where none is left
+    std::uint64_t task = 0, count = 0;  ///< equal when no task is left
     std::string identity;
 };
 
-/// What it is sent.
+/// The message to rank 0 with a result.
 struct Result {
     void serialize(Archive& parcel) { parcel(task, bytes); }
     std::uint64_t task = 0;

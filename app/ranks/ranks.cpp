@@ -1,4 +1,4 @@
-// Whether mpirun started us is said by its environment; its library is loaded only then.
+// The environment tells whether mpirun started this process; the MPI module is loaded only then.
 #include "app/ranks/ranks.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {
 
-/// How many processes the launcher says that there are: Open MPI, MPICH and Intel MPI, or PMIx.
+/// Returns the number of processes that the launcher states: Open MPI, MPICH and Intel MPI, or PMIx.
 int launched() {
     for (const char* name : std::array{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
         const char* size = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing sets it

@@ -1,4 +1,4 @@
-// Requests over the C interface, whose statuses and messages go into the replies.
+// Answers requests through the C interface; its statuses and messages go into the replies.
 #include "app/reports/section_server.h"
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ T sized() {
     return value;
 }
 
-/// A failure that the context knows more of.
+/// A failure whose details the context has.
 struct Failed {
     std::int32_t status;
 };
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError(what); }
 
-/// A member of a request, or `usual` where it is left out.
+/// Returns a member of a request, or `usual` when it is absent.
 template <typename T>
 T member(const Json& request, const char* key, const char* kind, std::optional<T> usual = {}) {
     const auto found = request.find(key);
@@ -71,7 +71,7 @@ lamella_raster raster_of(const Json& request) {
     return raster;
 }
 
-/// Numbers as they stand in a reply.
+/// Appends numbers in the byte format of replies.
 template <typename T, typename Number>
 void append(std::string& bytes, std::span<const Number> numbers) {
     for (const Number number : numbers) {
@@ -82,7 +82,7 @@ void append(std::string& bytes, std::span<const Number> numbers) {
     }
 }
 
-/// Lists of points, two numbers each.
+/// Reads lists of points, two numbers each.
 struct Polygons {
     explicit Polygons(const Json& lists) {
         if (!lists.is_array()) refuse("polygons: is no list; accepted: a list of [x, y, x, y, ...] lists");

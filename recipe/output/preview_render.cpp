@@ -188,7 +188,7 @@ class Scene {
         const dvec3 p = camera_.eye + direction * cell.lo;
         const dvec3 inside = camera_.eye + direction * ((cell.lo + cell.hi) / 2);
         dvec3 normal = -grid_.slope(grid_.to_grid(p));
-        // The face of a grid cell is hit where the surface itself faces away.
+        // A grid cell's face can be hit where the surface itself faces away: drop that part of the normal.
         normal -= direction * std::max(glm::dot(normal, direction), 0.0);
         const double length = glm::length(normal);
         return {p, length > 0 ? normal / length : -direction, false, of_support(inside)};
@@ -196,7 +196,7 @@ class Scene {
 
     bool is_solid(dvec3 p) const { return is_quick_ ? grid_.solid_at(grid_.to_grid(p)) : all_.value(p) < 0; }
 
-    /// Returns the position inside the solid.
+    /// Returns true if a position inside the solid belongs to the supports.
     bool of_support(dvec3 inside) const {
         if (is_quick_) return part_grid_ != nullptr && !part_grid_->solid_at(grid_.to_grid(inside));
         return part_ != nullptr && !(part_->value(inside) < 0);

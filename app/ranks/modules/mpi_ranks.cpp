@@ -90,7 +90,7 @@ class MpiRanks : public Ranks {
         });
     }
 
-    /// Large messages move on only while someone calls MPI. Costs nothing while none is on the way.
+    /// Large messages progress only during calls to MPI. Costs nothing while none is in transit.
     void keep_moving() {
         std::unique_lock lock(calling_);
         for (;;) {
@@ -105,8 +105,8 @@ class MpiRanks : public Ranks {
 
     int rank_ = 0, size_ = 1;
     std::mutex calling_;
-    std::deque<Message> on_the_way_;  // whose messages stay where they are until they have arrived
-    std::condition_variable sent_;    // something is on the way, or it is all done
+    std::deque<Message> on_the_way_;  // a deque: messages must not move in memory until they have arrived
+    std::condition_variable sent_;    // signals a message in transit, or the end
     bool done_ = false;
     std::thread mover_;
 };
