@@ -35,7 +35,8 @@ bool is_gcode_file(const std::string& input) {
     return false;
 }
 
-/// Selects the sender, Marlin or grbl. Throws InputError when the recipe's printer uses another one.
+/// Returns true if lines are for grbl, false if they are for Marlin. Throws InputError when the recipe's
+/// printer uses the other one.
 bool is_grbl(const PrintOptions& options, const std::optional<Recipe>& recipe) {
     if (!recipe) return options.firmware == "grbl";
     const bool grbl = recipe->printer.gcode.flavour == Flavour::grbl;

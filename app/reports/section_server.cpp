@@ -82,7 +82,7 @@ void append(std::string& bytes, std::span<const Number> numbers) {
     }
 }
 
-/// Reads lists of points, two numbers each.
+/// Polygons from lists of points, two numbers each.
 struct Polygons {
     explicit Polygons(const Json& lists) {
         if (!lists.is_array()) refuse("polygons: is no list; accepted: a list of [x, y, x, y, ...] lists");

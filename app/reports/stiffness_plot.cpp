@@ -143,7 +143,8 @@ struct Facet {
     double depth, young, light;
 };
 
-/// Draws the surface, seen from the front, the right and above; its greatest modulus is scaled to 1.
+/// Returns the facets of the surface, seen from the front, the right and above; its greatest modulus is
+/// scaled to 1.
 std::vector<Facet> facets_of(const ElasticTensor& compliance, double most) {
     constexpr int rings = 36, around = 72;
     const dvec3 towards = glm::normalize(dvec3(0.55, -0.75, 0.45));  // direction of the eye
