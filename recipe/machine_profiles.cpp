@@ -61,7 +61,7 @@ void MachineProfiles::add_folder(const std::string& folder, bool must_exist) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
         if (!must_exist) return;
-        throw InputError(folder + ": is no folder; accepted: a folder of machine profiles (.toml)");
+        throw InputError(folder + ": is not a folder; accepted: a folder of machine profiles (.toml)");
     }
     std::vector<Place> found;
     for (const auto& entry : fs::directory_iterator(folder, error)) {

@@ -99,12 +99,12 @@ void RecipeDraft::hand_over(const std::string& section, Entries& entries, const 
         const bool asks = entry.kind == host_kind, is_given = found != given.end();
         if (asks && is_given) entry.host = found->second;
         if (asks == is_given) continue;
-        refuse(0, asks
-                      ? fmt::format("{}: kind {}: the program gives no {} `{}`; accepted: another kind, or a "
-                                    "program that does",
-                                    entry.where, host_kind, section, entry.name)
-                      : fmt::format("{}: kind {}: the program gives a {} `{}`, too; accepted: kind {}",
-                                    entry.where, entry.kind, section, entry.name, host_kind));
+        refuse(0, asks ? fmt::format("{}: kind {}: the embedding program does not provide the {} `{}`; "
+                                     "accepted: another kind, or a program that provides it",
+                                     entry.where, host_kind, section, entry.name)
+                       : fmt::format(
+                             "{}: kind {}: the embedding program also provides a {} `{}`; accepted: kind {}",
+                             entry.where, entry.kind, section, entry.name, host_kind));
     }
 }
 
@@ -170,10 +170,10 @@ void RecipeDraft::check_need(const Part& part, const std::string& need, const st
     if (given.empty()) {
         const std::string other =
             keys.size() > 1 ? fmt::format(" (or {})", listed({keys.begin() + 1, keys.end()}, " or ")) : "";
-        refuse(0, fmt::format("{}: missing, {} needs it{}; accepted: {}",
+        refuse(0, fmt::format("{}: missing, required by {}{}; accepted: {}",
                               where(part.section, keys.front(), part.entry), why, other, accepted(setting)));
     } else if (given.size() > 1) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: one of {}",
+        refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of {}",
                               where(part.section, given[1], part.entry),
                               where(part.section, given[0], part.entry), listed(keys)));
     }
@@ -203,10 +203,13 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
         const Entry* given = entry(section.section, key, number);
         if (!given || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
         const bool no_shape = section.section == "part" && word == "none";
-        refuse(0, no_shape ? fmt::format("{}: only a shape has it; accepted: part.shape / --shape with it",
-                                         given->where)
-                           : fmt::format("{}: {} does not have it; accepted: {}", given->where, why,
-                                         listed(wanted)));
+        refuse(
+            0,
+            no_shape
+                ? fmt::format(
+                      "{}: applies only to a shape; accepted: this key together with part.shape / --shape",
+                      given->where)
+                : fmt::format("{}: does not apply to {}; accepted: {}", given->where, why, listed(wanted)));
     }
 }
 
@@ -220,20 +223,19 @@ bool RecipeDraft::check_bodies() {
         if (body && !(key == "shape" && std::get<std::string>(*body->value) == "none")) given.push_back(body);
     }
     if (given.size() > 1) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh, a shape or a field, one of them",
+        refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of a mesh, a shape and a field",
                               given[1]->where, given[0]->where));
         return false;
     }
     const std::size_t fields = count(*find_section("field"));
     if (!given.empty() || !body_required_ || fields == 1) return true;
     const std::string begin = where_begins("part", 0);
-    refuse(0, fields == 0
-                  ? fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), "
-                                "part.shape / --shape, or a [[field]]",
-                                begin)
-                  : fmt::format("{}: no body is given; accepted: part.field / --field with the name of "
-                                "one of the {} [[field]]",
-                                begin, fields));
+    refuse(0, fields == 0 ? fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), "
+                                        "part.shape / --shape, or a [[field]]",
+                                        begin)
+                          : fmt::format("{}: no body is given; accepted: part.field / --field with the name "
+                                        "of one of the {} [[field]] entries",
+                                        begin, fields));
     return true;
 }
 
@@ -281,9 +283,9 @@ void RecipeDraft::check_pixels() {
     for (const auto& way : ways) {
         const Entry* one = given(way, false);
         if (first && one) {
-            refuse(0,
-                   fmt::format("{}: contradicts {}; accepted: pixel alone, dpi alone, or pixel_x and pixel_y",
-                               one->where, first->where));
+            refuse(0, fmt::format(
+                          "{}: conflicts with {}; accepted: pixel alone, dpi alone, or pixel_x and pixel_y",
+                          one->where, first->where));
         }
         if (!first) first = one;
     }
@@ -374,8 +376,8 @@ void RecipeDraft::throw_mistakes() {
 std::string RecipeDraft::profile_kind(const std::string& path) {
     const Entry* kind = entry("printer", "kind");
     if (!kind) {
-        refuse(0, fmt::format("{}: neither based_on nor printer.kind is given; accepted: the name of another "
-                              "profile, or {}",
+        refuse(0, fmt::format("{}: neither based_on nor printer.kind is given; accepted: based_on = the name "
+                              "of another profile, or printer.kind = {}",
                               path, accepted(*find_setting("printer", "kind"))));
     }
     throw_mistakes();

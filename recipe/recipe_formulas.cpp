@@ -90,15 +90,16 @@ class FormulaCheck {
             const std::string where = entry.where + ".name";
             const std::string taken = taken_by(entry.name);
             if (!is_identifier(entry.name)) {
-                refuse(where, fmt::format("\"{}\" is no name", entry.name.substr(0, 64)),
+                refuse(where, fmt::format("\"{}\" is not a valid name", entry.name.substr(0, 64)),
                        "up to 64 letters, digits and _, not beginning with a digit");
             } else if (!taken.empty()) {
-                refuse(where, fmt::format("`{}` is {} in formulas", entry.name, taken), "another name");
+                refuse(where, fmt::format("`{}` is reserved: it means {} in formulas", entry.name, taken),
+                       "another name");
             } else if (const auto [first, fresh] = seen.emplace(entry.name, entry.where); !fresh) {
                 refuse(where,
                        fmt::format("`{}` is the name of another [[{}]] ({})", entry.name, section,
                                    first->second),
-                       "a name of its own");
+                       "a unique name");
             }
         }
     }
@@ -150,7 +151,8 @@ class FormulaCheck {
         for (const GradingRecipe& grading : recipe_.gradings) known.push_back(grading.name);
         try {
             if (!use.depth && reads(text, depth_name)) {
-                return refuse(use.number->where, "uses the depth `d` below the surface that it makes itself",
+                return refuse(use.number->where,
+                              "uses the depth `d` below the surface, but defines that surface itself",
                               "x, y, z and gradings");
             }
             parse_formula(text, known);
@@ -203,7 +205,7 @@ class FormulaCheck {
             for (auto name = again + 1; name != path_.end(); ++name)
                 circle += fmt::format(" uses `{}`, which", *name);
             refuse(from.where, fmt::format("{} uses `{}`", circle, from.name),
-                   "gradings that do not lead back to themselves");
+                   "gradings that do not depend on themselves");
             return {};
         }
         if (path_.size() >= deepest_grading) {
@@ -236,10 +238,11 @@ class FormulaCheck {
             if (!field.formula.is_formula()) continue;
             for (const std::string& name : names_beyond_place(field.formula.formula())) {
                 if (!followed_[name].depth) continue;
-                refuse(field.formula.where,
-                       fmt::format("`{}` depends on the depth `d` below the surface that this formula makes",
-                                   name),
-                       "x, y, z and gradings without `d`");
+                refuse(
+                    field.formula.where,
+                    fmt::format("`{}` depends on the depth `d` below the surface, which this formula defines",
+                                name),
+                    "x, y, z and gradings without `d`");
             }
         }
     }

@@ -33,7 +33,7 @@ std::string read_whole(const std::string& path, const char* kind) {
     text.resize(static_cast<std::size_t>(file.gcount()));
     if (text.size() > largest_file) {
         throw InputError(
-            fmt::format("{}: has more than {} bytes, which no {} needs", path, largest_file, kind));
+            fmt::format("{}: has more than {} bytes, the limit for a {}", path, largest_file, kind));
     }
     return text;
 }
@@ -249,7 +249,7 @@ class TomlRecipe {
         std::vector<std::string> known{"description", "based_on"};
         known.insert(known.end(), profile_sections.begin(), profile_sections.end());
         const std::string near = nearest(name, known);
-        return "does not belong into a machine profile" +
+        return "is not a key of a machine profile" +
                (near.empty() ? "" : fmt::format(", did you mean `{}`?", near));
     }
 
@@ -338,11 +338,12 @@ class TomlRecipe {
         const Setting* setting = find_setting(section, key);
         if (!setting) return refuse_key(section, number, key, line);
         if (in_profile_ && setting->name() == "printer.profile") {
-            return refuse(line, setting->name(), "a recipe has it, a profile does not",
+            return refuse(line, setting->name(), "belongs in a recipe, not in a profile",
                           "based_on, above the sections");
         }
         if (in_profile_ && setting->name() == "support.kind") {
-            return refuse(line, setting->name(), "recipes ask for supports, profiles shape them",
+            return refuse(line, setting->name(),
+                          "belongs in a recipe: a profile only sets dimensions of supports",
                           "the other keys of [support]");
         }
         const std::string where = at(line, setting->name());

@@ -48,7 +48,7 @@ std::optional<std::string> text_objection(const std::string& text, std::size_t l
 
 /// Lines are printable ASCII: machines take no other bytes.
 std::optional<std::string> lines_objection(const std::string& text) {
-    if (text.find_first_not_of('\n') == std::string::npos) return "there is no line";
+    if (text.find_first_not_of('\n') == std::string::npos) return "it has no line";
     if (text.size() > longest_script) return fmt::format("it has more than {} bytes", longest_script);
     int line = 1;
     for (const char c : text) {
@@ -79,11 +79,12 @@ std::optional<std::string> rows_objection(const Setting& setting, const NumberRo
     if (rows.empty()) return "it is empty";
     if (rows.size() > max_rows) return fmt::format("it has more than {} rows", max_rows);
     if (shape.rows != 0 && rows.size() != shape.rows) {
-        return fmt::format("{} were found where {} belong", rows.size(), shape.rows);
+        return fmt::format("the number of rows is {} instead of {}", rows.size(), shape.rows);
     }
     for (const auto& row : rows) {
         if (row.size() != shape.columns) {
-            return fmt::format("{} numbers were found where {} belong together", row.size(), shape.columns);
+            return fmt::format("the number of values in a row is {} instead of {}", row.size(),
+                               shape.columns);
         }
         for (const double v : row) {
             if (auto wrong = range_objection(setting, v)) return wrong;

@@ -115,19 +115,19 @@ void run(const ExtractOptions& options) {
 void add_extract_command(CLI::App& root) {
     auto options = std::make_shared<ExtractOptions>();
     CLI::App& command =
-        *root.add_subcommand("extract", "Write the masks of a printer's job as PNG files with a job.json");
+        *root.add_subcommand("extract", "Write the masks of a print job as PNG files with a job.json");
     command
         .add_option("JOB", options->job,
                     "SL1, GOO or NanoDLP file, Ember tar.gz, or folder of masks with a job.json")
         ->type_name("")
         ->required();
-    command.add_option("-o,--output", options->output, "Folder to make")->type_name("DIR")->required();
+    command.add_option("-o,--output", options->output, "Folder to write")->type_name("DIR")->required();
     command
         .add_option("--layers", options->layers,
                     "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
-    command.add_flag("--resume", options->resume, "Continue a folder that was begun and interrupted");
-    command.add_flag("--force", options->force, "Replace a folder of layers that exists");
+    command.add_flag("--resume", options->resume, "Continue an interrupted folder");
+    command.add_flag("--force", options->force, "Replace an existing folder of layers");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(command,
                    "  lamella extract insole.goo -o insole/\n"

@@ -317,15 +317,16 @@ void add_info_command(CLI::App& root) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App& command =
         *root.add_subcommand("info",
-                             "Say what a recipe will make: size, layers, foam, mesh, memory; or what a "
-                             "finished job (SL1, GOO, NanoDLP, Ember, folder of masks) holds");
+                             "Describe what a recipe will make: size, layers, foam, mesh, memory; or the "
+                             "contents of a finished job (SL1, GOO, NanoDLP, Ember, folder of masks)");
     options->recipe.add_to(command);
     command.get_option("INPUT")->description(
         "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
         "masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
-    command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
-    command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
+    command.add_flag("--islands", options->islands,
+                     "Survey all layers for pieces that are not connected to the part");
+    command.add_option("--threads", options->threads, "Threads for the memory estimate; 0: one per core")
         ->check(CLI::Range(0, 1024));
     finish_command(command,
                    "  lamella info insole.toml\n"

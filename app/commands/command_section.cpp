@@ -55,7 +55,8 @@ void run(const SectionOptions& options) {
     const std::string format = chosen_format(options);
     TextOutput out(options.output);
     if (format == "png" && out.to_terminal()) {
-        throw InputError("--format: a terminal cannot show png; accepted: -o FILE, a pipe, or svg or json");
+        throw InputError(
+            "--format: png is not written to a terminal; accepted: -o FILE, a pipe, or svg or json");
     }
     out.write(section(options, format));
     out.close();
@@ -74,7 +75,8 @@ void add_section_command(CLI::App& root) {
         ->required()
         ->type_name("MM");
     command
-        .add_option("--format", options->format, "svg, png or json; default: by the file's name, else svg")
+        .add_option("--format", options->format,
+                    "svg, png or json; default: from the ending of the file, else svg")
         ->check(CLI::IsMember({"svg", "png", "json"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");

@@ -153,17 +153,17 @@ void run(const SupportsCommand& options) {
 
 void add_supports_command(CLI::App& root) {
     auto options = std::make_shared<SupportsCommand>();
-    CLI::App& command = *root.add_subcommand(
-        "supports", "Plan what holds the part while it is printed: points, bridges, pillars, material");
+    CLI::App& command =
+        *root.add_subcommand("supports", "Plan the supports of the part: points, bridges, pillars, material");
     options->recipe.add_to(command);
-    command.add_flag("--json", options->json, "Every piece, as JSON");
+    command.add_flag("--json", options->json, "Write every piece as JSON");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
     command
         .add_option("--plans", options->plans,
-                    "Folder where plans are kept for later runs of the same job, \"\" for none; default: "
+                    "Folder in which plans are kept for later runs of the same job, \"\" for none; default: "
                     "lamella/plans in the user's cache")
         ->type_name("DIR");
-    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options->threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(command,

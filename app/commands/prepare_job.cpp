@@ -129,24 +129,25 @@ void add_job_options(CLI::App& command, JobOptions& options) {
                     "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
     command
-        .add_option(
-            "--beside", options.beside,
-            "Another recipe or model on the same plate; with several, --beside stands before each. It "
-            "is cut and supported as the first one says")
+        .add_option("--beside", options.beside,
+                    "Another recipe or model on the same plate, with the machine, layer height and supports "
+                    "of the first; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--look-ahead", options.look_ahead, "Layers in flight at most; 0: two a thread")
+    command
+        .add_option("--look-ahead", options.look_ahead,
+                    "Maximum number of layers in flight; 0: two per thread")
         ->check(CLI::Range(0, 4096));
     add_survey_options(command, options);
 }
 
 void add_survey_options(CLI::App& command, JobOptions& options) {
-    command.add_option("--threads", options.threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options.threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--plans", options.plans,
-                    "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "
+                    "Folder in which support plans are kept for later runs of the same job, \"\" for none; "
                     "default: lamella/plans in the user's cache")
         ->type_name("DIR");
 }

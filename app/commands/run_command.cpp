@@ -50,7 +50,8 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
 int run_command(const std::vector<std::string>& arguments) {
     try {
         CLI::App root(
-            "Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
+            "Streaming procedural layers for 3D printing: turns meshes, shapes and foam into printable "
+            "layers.",
             "lamella");
         root.require_subcommand(1);
         root.set_help_all_flag("--help-all", "Print the help with all options, and exit");

@@ -50,7 +50,8 @@ void TextOutput::close() {
     std::FILE* file = file_;
     file_ = nullptr;
     if (std::fclose(file) != 0) fail("written");
-    if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("given its name");
+    if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0)
+        fail("renamed from its temporary name");
 }
 
 bool TextOutput::to_terminal() const { return isatty(fileno(file_)) != 0; }

@@ -86,7 +86,7 @@ void render_blocks(Ranks& ranks, const Job& job, std::unique_ptr<Backend> render
         const auto beginning = unpacked<Beginning>(*told);
         if (beginning.identity != job.identity)
             throw InputError(
-                "its job is another than that of rank 0; accepted: the same recipe and files for all");
+                "its job differs from that of rank 0; accepted: the same recipe and files for all ranks");
         const auto send = [&](int layer, std::string bytes) {
             wait_for([&] { return ranks.outstanding() < blocks_ahead * layers_in_a_block; }, options.cancel);
             ranks.send(0, tag_of(layer), std::move(bytes));

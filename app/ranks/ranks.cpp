@@ -25,8 +25,8 @@ std::unique_ptr<Ranks> started_ranks() {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): a loader knows no types
     const auto make = reinterpret_cast<MakeRanksFunction>(
         module_function("liblamella_mpi.so", "lamella_make_ranks", ModuleScope::shared,
-                        "was started by mpirun, but has no MPI",
-                        "accepted: a lamella that was built where MPI is installed, or one process"));
+                        "was started by mpirun, but is built without MPI",
+                        "accepted: a lamella built with MPI, or a single process"));
     return std::unique_ptr<Ranks>(make());
 }
 

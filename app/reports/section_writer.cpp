@@ -25,8 +25,8 @@ RowBand page_band(const Rect& page, const ImageProfile& image) {
     const dvec2 size = page.size();
     if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > max_pixels) {
         throw InputError(
-            fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
-                        "{} x {} mm; accepted: larger pixels",
+            fmt::format("printer.pixel / --printer-pixel: with pixels of {} x {} mm a page has more than {} "
+                        "pixels at {} x {} mm; accepted: larger pixels",
                         image.pixel_x, image.pixel_y, max_pixels, size.x, size.y));
     }
     RowBand band;

@@ -86,8 +86,7 @@ FieldPtr package_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
     if (!field.function.empty() && !field.object.empty()) {
         throw InputError(field.where +
-                         ".object: a function belongs to no object; accepted: object or function, "
-                         "one of them");
+                         ".object: cannot be combined with a function; accepted: object or function");
     }
     VolumetricModel model(field.file);
     if (!field.function.empty()) {
@@ -95,9 +94,9 @@ FieldPtr package_field(const FieldBuildContext& making) {
         return bounded(making, {std::move(function.formula), std::move(function.others)});
     }
     if (!field.bounds.empty()) {
-        throw InputError(field.where +
-                         ".bounds: objects have bounds of their own; accepted: bounds with a "
-                         "function");
+        throw InputError(
+            field.where +
+            ".bounds: objects have their own bounds; accepted: bounds only together with a function");
     }
     return placed(field.object.empty() ? model.built() : model.object(field.object), making.place);
 }
@@ -155,7 +154,7 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
         case Shape::none:
             break;
     }
-    throw InputError("this shape has no sizes to be made of");
+    throw InputError("this shape cannot be made from sizes");
 }
 
 FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,

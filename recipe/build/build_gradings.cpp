@@ -44,7 +44,8 @@ GradingPtr package(const GradingRecipe& grading, Gradings& /*others*/) {
     VolumetricModel model(grading.file);
     if (!grading.property.empty()) return model.property(grading.property, grading.object);
     if (!grading.object.empty())
-        throw InputError("a function belongs to no object; accepted: object with a property");
+        throw InputError(
+            "object cannot be combined with a function; accepted: object together with a property");
     PlacedFormula function = model.function(grading.function);
     return make_formula_grading(std::move(function.formula), std::move(function.others));
 }
@@ -55,7 +56,7 @@ GradingPtr attribute(const GradingRecipe& grading, Gradings& others) {
     const std::string& file = grading.file.empty() ? part.mesh : grading.file;
     if (file.empty()) {
         throw InputError("there is no mesh to read `" + grading.attribute +
-                         "` from; accepted: a file, or a PLY as part.mesh");
+                         "` from; accepted: file with the path of a PLY mesh, or a PLY mesh as part.mesh");
     }
     return make_attribute_grading(file, grading.attribute, millimetres(part.unit) * part.scale, 1);
 }
@@ -104,7 +105,10 @@ std::span<const GradingBuilder> grading_builders() {
 GradingPtr Gradings::named(const std::string& name) {
     if (const auto made = made_.find(name); made != made_.end()) return made->second;
     if (name == depth_name) {
-        if (!body_) throw InputError("the depth `d` needs a part whose surface it is measured from");
+        if (!body_)
+            throw InputError(
+                "the depth `d` is measured from the part's surface, but there is no part; accepted: a "
+                "formula without `d`, or a recipe with [part]");
         return made_[name] = make_depth_grading(body_);
     }
     for (const GradingRecipe& grading : recipe_.gradings) {
@@ -174,11 +178,12 @@ double greatest_of(const GradedUse& use, const std::string& where, const Field& 
         const double twice = 2 * found.asked.hi;
         return twice > use.limits.lo ? std::min(use.limits.hi, twice) : use.limits.hi;
     }
-    const std::string remedy =
-        key ? fmt::format(", or {} / {}, which holds where there is none", key->name(), key->flag) : "";
+    const std::string remedy = key ? fmt::format(", or {} / {}, which is used where the formula is undefined",
+                                                 key->name(), key->flag)
+                                   : "";
     throw LocatedError(
-        fmt::format("{}: {:.3g} % of the part has no number; accepted: a formula with a number "
-                    "at every point of it{}",
+        fmt::format("{}: the formula is undefined in {:.3g} % of the part; accepted: a formula that is "
+                    "defined at every point of the part{}",
                     where, 100.0 * found.undefined / found.points, remedy));
 }
 

@@ -33,10 +33,13 @@ std::vector<StiffnessTest> read_tests(const std::string& path) {
         const std::vector<double> numbers = numbers_of(row.cells, where);
         if (numbers.size() != 3 || !(std::ranges::min(numbers) > 0))
             throw InputError(where +
-                             "a test is three positive numbers: cell (mm), member (mm), modulus (MPa)");
+                             "not three positive numbers; accepted: cell (mm), member (mm) and modulus (MPa) "
+                             "on each line");
         tests.push_back({numbers[1] / numbers[0], numbers[2]});
     }
-    if (tests.empty()) throw InputError(path + ": there is no test in it; accepted: cell, member, modulus");
+    if (tests.empty())
+        throw InputError(path +
+                         ": contains no test; accepted: lines of cell (mm), member (mm), modulus (MPa)");
     return tests;
 }
 
@@ -117,8 +120,8 @@ bool has_one_shape(const FoamRecipe& foam, const Gradings& gradings) {
 void check_shape(const FoamRecipe& foam, const Gradings& gradings) {
     if (is_proportioned(foam, gradings)) return;
     throw InputError(foam.modulus.where +
-                     ": the law of closed cells holds for beams, walls and windows that are the same "
-                     "everywhere; accepted: numbers for them, and no region that changes one");
+                     ": the law of closed cells requires uniform beams, walls and windows; accepted: numbers "
+                     "instead of formulas for them, and no region that changes one");
 }
 
 FoamSizes sizes_for_modulus(const FoamRecipe& foam, Gradings& gradings, const BuiltModulus& modulus) {
@@ -153,8 +156,8 @@ FoamSizes foam_sizes(const FoamRecipe& foam, Gradings& gradings, std::optional<B
     }
     if (!modulus && (asks || (recipe.material && !recipe.material->tests.empty()))) {
         throw InputError(
-            fmt::format("{}: no law of this foam ({}) is known; accepted: foam.law / --foam-law with a file "
-                        "that `lamella homogenize --table` writes for it",
+            fmt::format("{}: there is no stiffness law for this foam ({}); accepted: foam.law / --foam-law "
+                        "with a file that `lamella homogenize --table` writes for it",
                         asks ? foam.modulus.where : "material.tests / --material-tests", law_name(foam)));
     }
     FoamSizes sizes;

@@ -46,7 +46,9 @@ double period_of(const Recipe& recipe) {
     const double side = 1;  // side of the region, mm; periods do not depend on it
     const double period = build_foam_alone(recipe, {dvec3(0), dvec3(side)}, 1).period;
     if (!(period > 0))
-        throw InputError("foam: with this stretch it does not repeat along x, y and z, as a sample has to");
+        throw InputError(
+            "foam: with this stretch the foam is not periodic along x, y and z, as a sample must be; "
+            "accepted: a foam without foam.stretch");
     return period;
 }
 

@@ -42,9 +42,9 @@ class ClearSurvey : public Backend {
         for (const dvec2& place : places_) {
             if (is_inside(found.clear, place)) continue;
             throw InputError(fmt::format(
-                "printer.dowel_at / --printer-dowel-at: the hole at ({}, {}) mm would come too near to "
-                "the border of layer {}, or beside it; accepted: places {:.4g} mm inside every layer "
-                "(dowel_diameter / 2 + dowel_margin), or a dowel_height that ends below",
+                "printer.dowel_at / --printer-dowel-at: the hole at ({}, {}) mm is outside layer {} or too "
+                "close to its border; accepted: places {:.4g} mm inside every layer (dowel_diameter / 2 + "
+                "dowel_margin), or a dowel_height that ends below that layer",
                 place.x, place.y, layer.index(), radius_));
         }
         if (closed_ >= 0) return;
@@ -71,8 +71,8 @@ std::vector<dvec2> places_of(const CuttingProfile& cutting) {
     for (const auto& row : cutting.dowel_at) places.emplace_back(row[0], row[1]);
     if (!places.empty() && cutting.dowels != 0 && places.size() != static_cast<std::size_t>(cutting.dowels)) {
         throw InputError(
-            fmt::format("printer.dowel_at / --printer-dowel-at: {} places for {} dowels; accepted: as many, "
-                        "or dowel_at alone",
+            fmt::format("printer.dowel_at / --printer-dowel-at: {} places are given for {} dowels; accepted: "
+                        "as many places as printer.dowels, or dowel_at alone",
                         places.size(), cutting.dowels));
     }
     return places;
@@ -96,7 +96,7 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
     const CuttingProfile& cutting = recipe.printer.cutting;
     if (cutting.dowels == 1) {
         throw InputError(
-            "printer.dowels / --printer-dowels: one pin lets a layer turn about it; accepted: 0, 2 or 3");
+            "printer.dowels / --printer-dowels: a layer can rotate about a single pin; accepted: 0, 2 or 3");
     }
     DowelHoles holes;
     holes.diameter = cutting.dowel_diameter;
@@ -126,10 +126,10 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
             survey.closed() >= 0
                 ? fmt::format("no place lies inside all layers up to layer {}, which begins at {:.4g} mm",
                               survey.closed(), survey.closed() * job.layer_height)
-                : fmt::format("what all layers have in common is too small for {} of them", cutting.dowels);
+                : fmt::format("the area common to all layers is too small for {} holes", cutting.dowels);
         throw InputError(fmt::format(
-            "printer.dowels / --printer-dowels: {} with a hole of {} mm and {} mm about it; accepted: a "
-            "dowel_height that ends below, a smaller dowel_diameter or dowel_margin, or no dowels",
+            "printer.dowels / --printer-dowels: {}, with holes of {} mm and a margin of {} mm; accepted: a "
+            "smaller dowel_height, a smaller dowel_diameter or dowel_margin, or no dowels",
             why, cutting.dowel_diameter, cutting.dowel_margin));
     }
     return holes;

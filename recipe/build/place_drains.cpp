@@ -21,8 +21,8 @@ double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
     if (given == 0) return std::min(std::max(depth / 3, suited.lo), suited.hi);
     if (!suited.contains(given)) {
         throw LocatedError(
-            fmt::format("skin.drain_pitch / --drain-pitch: {} mm does not suit the part; accepted: {:.4g} to "
-                        "{:.4g} mm, the latter being 16 layers",
+            fmt::format("skin.drain_pitch / --drain-pitch: {} mm is out of range for this part; accepted: "
+                        "{:.4g} to {:.4g} mm (16 layers)",
                         given, suited.lo, suited.hi));
     }
     return given;
@@ -57,8 +57,8 @@ DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body
     }
     if (report.drained.size() > max_cavities) {
         throw LocatedError(
-            fmt::format("skin.drains / --drains: the part has more than {} closed cavities to drain, {} in "
-                        "all; accepted: a foam of open cells, or no drains",
+            fmt::format("skin.drains / --drains: more than {} closed cavities need drains ({} in all); "
+                        "accepted: an open-cell foam, or no drains",
                         max_cavities, report.cavities));
     }
     report.small = survey.count - report.drained.size();

@@ -20,7 +20,7 @@ class ScratchFolder {
         std::error_code error;
         std::string pattern = (fs::temp_directory_path(error) / "lamella_XXXXXX").string();
         if (error || mkdtemp(pattern.data()) == nullptr)
-            throw FaultError("no folder for unfinished layers can be made in " + pattern);
+            throw FaultError("cannot make a folder for unfinished layers in " + pattern);
         path_ = pattern;
     }
     ~ScratchFolder() {
@@ -74,8 +74,8 @@ std::string settings_of(std::span<const Output> outputs) {
     for (const Output& output : outputs) {
         if (output.open)
             throw InputError(output.path +
-                             ": layers for a plugin cannot be carried; accepted: outputs "
-                             "of lamella's own printers");
+                             ": layers rendered by a plugin cannot be stored or sent to another process; "
+                             "accepted: outputs of lamella's own printers");
         hash.add(profile_as_toml({output.printer, "", ""}) + "\n");
     }
     return hash.hex();

@@ -20,7 +20,10 @@ class MpiRanks : public Ranks {
     MpiRanks() {
         int level = 0;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
-        if (level < MPI_THREAD_SERIALIZED) throw FaultError("this MPI serves programs with one thread only");
+        if (level < MPI_THREAD_SERIALIZED)
+            throw FaultError(
+                "this MPI library does not support calls from several threads; accepted: one with "
+                "MPI_THREAD_SERIALIZED");
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
         mover_ = std::thread([this] { keep_moving(); });
@@ -43,7 +46,7 @@ class MpiRanks : public Ranks {
 
     void send(int to, int tag, std::string bytes) override {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw FaultError("a layer takes more than 2 GiB, which MPI does not carry in one piece");
+            throw FaultError("a layer has more than 2 GiB, the limit of an MPI message");
         const std::lock_guard lock(calling_);
         Message& message = on_the_way_.emplace_back();
         message.bytes = std::move(bytes);
