@@ -1,4 +1,4 @@
-// Runs are merged exactly; values are the lesser, or the greater.
+// Runs are combined exactly; values are the minimum (union) or maximum (intersection).
 #include "bindings/combined_slice.h"
 
 #include <algorithm>

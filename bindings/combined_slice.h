@@ -1,11 +1,11 @@
-// Two slices of one plane as one.
+// CombinedSlice: the union or intersection of two slices of one plane.
 #pragma once
 
 #include "engine/field/field.h"
 
 namespace lamella {
 
-/// What lies in either slice (Combine::either), or in both of them.
+/// The union (either) or the intersection (both).
 enum class Combine : unsigned char { either, both };
 
 class CombinedSlice : public SliceField {

@@ -1,4 +1,4 @@
-// What exceptions become, and the place in a recipe that a message begins with.
+// Exceptions become statuses; the place in a recipe is read from the beginning of a message.
 #include "bindings/context.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The border between C and C++: exceptions become statuses, structs are taken by their sizes.
+// Helpers at the border between C and C++: exceptions become statuses; structs are copied up to their size.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,16 @@ struct lamella_context {
 
 namespace lamella {
 
-/// A call that no program should make.
+/// A wrong use of the interface: a null pointer, an invalid size or number.
 class BadCall : public std::logic_error {
   public:
     using std::logic_error::logic_error;
 };
 
-/// Keeps what the exception in flight says, and returns its status.
+/// Stores the message of the exception in flight in the context, and returns its status.
 std::int32_t keep_failure(lamella_context& context) noexcept;
 
-/// Runs what a call does.
+/// Runs the body of a call; turns exceptions into statuses.
 template <typename Work>
 std::int32_t guarded(lamella_context* context, const Work& work) noexcept {
     if (context == nullptr) return LAMELLA_BAD_CALL;
@@ -41,15 +41,16 @@ std::int32_t guarded(lamella_context* context, const Work& work) noexcept {
     }
 }
 
-/// What a pointer of the caller's points at. Throws BadCall for null.
+/// Dereferences a pointer of the caller's. Throws BadCall for null.
 template <typename T>
 T& wanted(T* pointer, const char* what) {
     if (pointer == nullptr) throw BadCall(std::string(what) + " is a null pointer");
     return *pointer;
 }
 
-/// The caller's struct as the library knows it: what the caller does not have is zero. Throws BadCall for a
-/// null pointer, a size that is none, and members set that the library does not have.
+/// Copies the caller's struct; members that the caller's version of it lacks become zero. Throws BadCall for
+/// a null pointer, a struct_size that is not set, and nonzero members that this version of the library does
+/// not have.
 template <typename Struct>
 Struct taken(const Struct* given, const char* what) {
     const std::size_t size = wanted(given, what).struct_size;
@@ -66,7 +67,7 @@ Struct taken(const Struct* given, const char* what) {
     return result;
 }
 
-/// The same where null stands for what is usual.
+/// As `taken`, but returns a struct with all defaults for null.
 template <typename Struct>
 Struct taken_or_usual(const Struct* given, const char* what) {
     if (given != nullptr) return taken(given, what);
@@ -75,7 +76,8 @@ Struct taken_or_usual(const Struct* given, const char* what) {
     return usual;
 }
 
-/// Fills in as much of the caller's struct as the caller has. Throws BadCall as `taken` does.
+/// Fills in the caller's struct up to its struct_size. Throws BadCall for a null pointer and a struct_size
+/// that is not set.
 template <typename Struct>
 void hand_out(Struct* to, Struct value, const char* what) {
     const std::size_t size = wanted(to, what).struct_size;
@@ -84,7 +86,7 @@ void hand_out(Struct* to, Struct value, const char* what) {
     std::memcpy(to, &value, std::min(size, sizeof(Struct)));
 }
 
-/// Throws what a callback's status stands for; nothing for 0.
+/// Throws the exception that a callback's status stands for; returns if it is 0.
 void check_callback(std::int32_t status, const std::string& what);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// What the opaque types of lamella.h are.
+// Definitions of the opaque types of lamella.h.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ struct lamella_cancel {
 struct lamella_recipe {
     lamella::RecipeDraft draft;
     lamella::MachineProfiles profiles;
-    std::vector<std::pair<const lamella::Setting*, std::string>> set;  ///< over what the draft says
+    std::vector<std::pair<const lamella::Setting*, std::string>> set;  ///< precedence over the draft's values
 };
 
 struct lamella_job {
@@ -30,13 +30,13 @@ struct lamella_job {
     lamella::Job job;
 };
 
-/// A section that was opened at a height owns its slices; one of a layer lends those of the layer.
+/// A section. One that was opened at a height owns its slices; that of a layer in flight borrows the layer's.
 struct lamella_section {
-    std::vector<lamella::FieldPtr> parts;  ///< what is cut, kept alive; empty for a layer's
+    std::vector<lamella::FieldPtr> parts;  ///< keeps the cut fields alive; empty for a layer in flight
     std::unique_ptr<lamella::SliceContext> context;
     lamella::Scratch scratch;
     const lamella::SliceField* part = nullptr;
-    const lamella::SliceField* supports = nullptr;  ///< null where there are none
+    const lamella::SliceField* supports = nullptr;  ///< null when there are none
     lamella_section_info info{};
 };
 
@@ -54,10 +54,11 @@ struct lamella_contours {
 
 namespace lamella {
 
-/// Hands progress to the caller's callback, which may stop the work; empty without one.
+/// Returns a function that passes progress to the caller's callback, which may stop the work; empty without a
+/// callback.
 std::function<void(const char* what, const Progress&)> progress_to(lamella_on_progress callback, void* user);
 
-/// The section of a layer in flight.
+/// Makes `section` borrow the slices of a layer in flight.
 void lend_layer(const Layer& layer, lamella_section& section);
 
 lamella_job_info job_info(const Job& job);

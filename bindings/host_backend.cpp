@@ -1,4 +1,4 @@
-// Layers are lent as sections; what the callbacks make of them is theirs.
+// Callbacks get each layer as a borrowed section, and own what they make of it.
 #include "bindings/host_backend.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 namespace lamella {
 namespace {
 
-/// What a callback made, dropped with it.
+/// Owns the data that `render` made; calls `drop` when destroyed.
 struct HostProduct : LayerProduct {
     explicit HostProduct(const lamella_backend& from) : callbacks(from) { made.struct_size = sizeof made; }
     ~HostProduct() override {

@@ -1,4 +1,4 @@
-// HostBackend: layers to the callbacks of an embedding program or a plugin.
+// HostBackend: passes layers to the callbacks of an embedding program or a plugin.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace lamella {
 
 class HostBackend : public Backend {
   public:
-    /// `flags` are handed to `begin`. Throws BadCall where a callback is missing.
+    /// `flags` are passed to `begin`. Throws BadCall when `render` or `write` is missing.
     HostBackend(const lamella_backend& callbacks, std::uint32_t flags);
 
     int open(const Job& job, LayerRange range, bool resume) override;

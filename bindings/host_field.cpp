@@ -1,4 +1,4 @@
-// Callbacks as fields: asked for many points at a time, those of many tiles by the walk that finds runs.
+// Fields and gradings from callbacks, which are called for many points at a time.
 #include "bindings/host_field.h"
 
 #include <fmt/format.h>
@@ -15,14 +15,14 @@
 namespace lamella {
 namespace {
 
-/// A callback for values at points.
+/// A callback that evaluates points.
 struct HostValues {
     std::int32_t (*function)(void*, const double*, std::size_t, double*);
     lamella_range enclosing;  ///< may be null
     void* user;
     std::string what;  ///< for messages
 
-    /// What encloses the values in a box; everything where the program does not say.
+    /// Encloses the values in a box; infinite when the program gives no range.
     Interval range(const Box& box) const {
         Interval found{-infinity, infinity};
         if (enclosing == nullptr) return found;
@@ -61,14 +61,15 @@ class HostField : public Field {
         std::vector<double> at_centers(boxes.size());
         if (metric_ != Metric::sign) {
             std::vector<dvec3> centers;
-            // An empty box has no centre; what is told of it is not looked at.
+            // An empty box has no centre; its range is not used.
             for (const Box& box : boxes) centers.push_back((box.empty() ? box_ : box).center());
             values(centers, at_centers);
         }
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             const Interval told = values_.range(boxes[i]),
                            known = range_about(boxes[i], at_centers[i], metric_);
-            // The box's faces are the greater where the solid is cut off.
+            // The value is the maximum of the callback's and the distance to the box's faces, at which the
+            // solid is cut off.
             const Interval faces = faces_range(boxes[i]);
             out[i] = {std::max({told.lo, known.lo, faces.lo}),
                       std::min(std::max(told.hi, faces.hi), known.hi)};
@@ -79,7 +80,7 @@ class HostField : public Field {
     Box bounds() const override { return box_; }
 
   private:
-    /// Beyond the box there is nothing.
+    /// Cuts the solid off at the box.
     double cut(dvec3 p, double value) const {
         const dvec3 beyond = glm::max(box_.lo - p, p - box_.hi);
         const double faces = std::max({beyond.x, beyond.y, beyond.z});

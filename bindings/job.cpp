@@ -1,4 +1,4 @@
-// From recipes to jobs.
+// Builds jobs from recipes, with surveys, supports and copies.
 #include <algorithm>
 #include <cmath>
 

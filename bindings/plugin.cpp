@@ -1,4 +1,4 @@
-// Loading, and back-ends that are closed when they are done.
+// Loads plugins; closes their back-ends when these are destroyed.
 #include "bindings/plugin.h"
 
 #include <dlfcn.h>
@@ -14,11 +14,11 @@
 namespace lamella {
 namespace {
 
-/// A plugin's library and what it told of itself.
+/// A plugin's library and the description that it filled in.
 class Plugin {
   public:
     explicit Plugin(const std::string& path) : path_(path) {
-        // A bare name would be looked for in the system's folders.
+        // The loader would search the system's folders for a name without a slash.
         const std::string full = std::filesystem::absolute(path).string();
         library_ = dlopen(full.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (library_ == nullptr) throw InputError(fmt::format("--plugin {}: {}", path, dlerror()));
@@ -86,7 +86,7 @@ class Plugin {
     lamella_plugin told_{};
 };
 
-/// A back-end that a plugin opened, until it is closed.
+/// Owns a back-end that a plugin opened, and closes it.
 struct OpenBackend {
     OpenBackend(std::shared_ptr<const Plugin> from, const PrinterProfile& profile, const std::string& path,
                 bool force)

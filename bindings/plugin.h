@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// Loads a plugin; it stays loaded as long as any back-end of its lives. Throws InputError where there is no
-/// such file, it is no plugin, or it is one for another version of the interface.
+/// Loads a plugin, which stays loaded while any of its back-ends lives. Throws InputError when the file is
+/// missing, is not a plugin, or is built for another version of the interface.
 OutsideBackend load_plugin(const std::string& path);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Recipes by calls.
+// Recipes: read, set and extended by calls.
 #include <fmt/format.h>
 
 #include "bindings/handles.h"
@@ -20,7 +20,7 @@ std::string name_of(const char* name) {
     return text;
 }
 
-/// The setting of a key that may be set alone. Throws InputError where there is none.
+/// Returns the setting of a key that has a flag of its own. Throws InputError when there is none.
 const Setting& setting_of(const std::string& key) {
     const std::size_t dot = std::min(key.find('.'), key.size());
     const Setting* setting = find_setting(key.substr(0, dot), key.substr(std::min(dot + 1, key.size())));
@@ -60,7 +60,7 @@ std::int32_t lamella_recipe_add_text(lamella_context* context, lamella_recipe* r
     return guarded(context, [&] {
         wanted(recipe, "recipe");
         if (text == nullptr && size > 0) throw BadCall("text is a null pointer");
-        RecipeDraft draft = recipe->draft;  // which stays as it was where this is no TOML
+        RecipeDraft draft = recipe->draft;  // the recipe stays unchanged if this is not TOML
         draft.read_text({text, size}, &wanted(name, "name"));
         recipe->draft = std::move(draft);
     });

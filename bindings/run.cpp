@@ -1,4 +1,4 @@
-// Whole jobs into back-ends.
+// Runs: streams whole jobs into back-ends.
 #include <fmt/format.h>
 
 #include "bindings/handles.h"

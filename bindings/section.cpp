@@ -37,13 +37,13 @@ std::unique_ptr<lamella_section> cut_at(const Job& job, double z, int layer) {
     return made;
 }
 
-/// Nothing at all.
+/// An empty slice.
 const SliceField& nothing() {
     static const PolygonSlice empty({});
     return empty;
 }
 
-/// What of a section is asked for.
+/// The slice that `what` selects: part, supports or both.
 class Asked {
   public:
     Asked(const lamella_section& section, std::int32_t what) {
@@ -65,7 +65,7 @@ class Asked {
     std::optional<CombinedSlice> both_;
 };
 
-/// The lines of a raster's rows from `first` on.
+/// Returns the band of `count` rows of a raster from row `first` on.
 RowBand band_of(const lamella_raster& raster, int first, int count) {
     RowBand band;
     band.along_origin = raster.x;

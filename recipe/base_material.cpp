@@ -1,4 +1,4 @@
-// Materials of a TOML table, by name.
+// Parses tables of materials (TOML), and looks materials up by name.
 #include "recipe/base_material.h"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ class MaterialReader {
         const std::vector<std::string> known{"young", "poisson", "density", "product", "source"};
         for (const auto& [key, value] : table_) {
             if (std::ranges::find(known, key.str()) != known.end()) continue;
-            throw InputError(fmt::format("{}:{}: `{}` is no key of a material; accepted: {}", where_,
+            throw InputError(fmt::format("{}:{}: `{}` is not a key of a material; accepted: {}", where_,
                                          value.source().begin.line, std::string(key.str()).substr(0, 64),
                                          fmt::join(known, ", ")));
         }
@@ -68,17 +68,18 @@ std::vector<BaseMaterial> read_materials(std::string_view text, const std::strin
         const toml::table all = toml::parse(text, name);
         for (const auto& [key, value] : all) {
             if (!value.is_table())
-                throw InputError(
-                    fmt::format("{}:{}: a material is a table of its own; accepted: [pla] with "
-                                "young under it",
-                                name, value.source().begin.line));
+                throw InputError(fmt::format(
+                    "{}:{}: a material must be a table; accepted: [pla] with young and other keys below it",
+                    name, value.source().begin.line));
             materials.push_back(MaterialReader(*value.as_table(), name).read(std::string(key.str())));
         }
     } catch (const toml::parse_error& error) {
         throw InputError(
             fmt::format("{}:{}: {}", name, error.source().begin.line, std::string(error.description())));
     }
-    if (materials.empty()) throw InputError(name + ": there is no material in it; accepted: [pla] and so on");
+    if (materials.empty())
+        throw InputError(name +
+                         ": contains no material; accepted: one table for each material, such as [pla]");
     return materials;
 }
 

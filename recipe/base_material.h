@@ -1,4 +1,4 @@
-// Base materials: how stiff the solid is that foams are made of.
+// Base materials: the elastic constants and density of the solid that foams consist of.
 #pragma once
 
 #include <string>
@@ -10,26 +10,26 @@
 namespace lamella {
 
 struct BaseMaterial {
-    std::string name;           ///< empty where a recipe's numbers say it all
+    std::string name;           ///< empty when a recipe gives numbers only
     IsotropicMaterial elastic;  ///< MPa
-    bool has_poisson = false;   ///< or a third is assumed
-    double density = 0;         ///< g/cm^3; 0: not known
-    std::string product;        ///< that was measured
+    bool has_poisson = false;   ///< false: 1/3 is assumed
+    double density = 0;         ///< g/cm^3; 0: unknown
+    std::string product;        ///< the measured product
     std::string source;
 };
 
-/// Reads materials: a TOML table each, with young, poisson, density, product and source. `name` stands in
-/// messages. Throws InputError.
+/// Reads materials from TOML, one table each with young, poisson, density, product and source. `name` names
+/// the text in messages. Throws InputError for invalid text, keys or values.
 std::vector<BaseMaterial> read_materials(std::string_view text, const std::string& name);
 
-/// Those that ship with the program.
+/// Returns the built-in materials.
 std::vector<BaseMaterial> shipped_material_list();
 
-/// Whether a recipe says how stiff its material is, by a name or a number.
+/// Returns true if a recipe states its material's modulus, by name or number.
 inline bool has_modulus(const MaterialRecipe& recipe) { return !recipe.name.empty() || recipe.young > 0; }
 
-/// What a recipe's part is made of: the named material with the recipe's own numbers over it. Throws
-/// InputError for an unknown name and an unreadable table.
+/// Returns the material of a recipe's part: the named one, with the recipe's own numbers replacing its.
+/// Throws InputError for an unknown name and an unreadable table.
 BaseMaterial base_material(const MaterialRecipe& recipe);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// FNV-1a over the settings table and the bytes of input files.
+// Hashes the settings table and the bytes of input files with FNV-1a.
 #include "recipe/identity.h"
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that an input consists of: itself; of a folder or a pattern the pages there, by name;
-/// of a detached NRRD header also the data that it names.
+/// Returns the files of an input: the file itself; of a folder or pattern its pages, sorted by name; of a
+/// detached NRRD header also its data file.
 std::vector<std::string> input_files(const std::string& path) {
     std::error_code error;
     std::vector<std::string> files;
@@ -111,7 +111,7 @@ std::string job_identity(const Recipe& recipe) {
     for (const GradingRecipe& grading : recipe.gradings) {
         if (grading.host.pointer) hash.add(grading.host.identity + "\n");
     }
-    // What both fall back on is otherwise part of the supports.
+    // Both default to the overhang of the supports, whose section is hashed only when there are supports.
     if (recipe.cavity || recipe.shield) hash.add(fmt::format("{}\n", recipe.printer.support.overhang));
     return hash.hex();
 }

@@ -10,8 +10,8 @@
 
 namespace lamella {
 
-/// FNV-1a with 128 bits (Fowler, Noll, Vo: offset basis and prime as published). It tells jobs apart by
-/// accident of change; it is no defence against forgery.
+/// FNV-1a with 128 bits (Fowler, Noll, Vo: offset basis and prime as published). It detects accidental
+/// changes; it does not protect against forgery.
 class Fnv128 {
   public:
     void add(std::string_view bytes);
@@ -23,14 +23,14 @@ class Fnv128 {
     std::uint64_t low_ = 0x62b821756295c58dU;
 };
 
-/// The hash of a file's bytes. Throws InputError when it cannot be read.
+/// Returns the hash of a file's bytes. Throws InputError when it cannot be read.
 std::string hash_file(const std::string& path);
 
-/// The hash of an input: a file, a folder or pattern of pages, a header with its data.
+/// Returns the hash of an input: a file, a folder or pattern of pages, a header with its data.
 std::string hash_input(const std::string& path);
 
-/// The job's identity: program version, every setting's value (an input counts by its bytes, not by its
-/// path).
+/// Returns the job's identity: the hash of the program version and every setting's value (an input counts by
+/// its bytes, not by its path).
 std::string job_identity(const Recipe& recipe);
 
 }  // namespace lamella

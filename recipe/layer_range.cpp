@@ -1,4 +1,4 @@
-// Reading "A:B".
+// Parses "A:B".
 #include "recipe/layer_range.h"
 
 #include <fmt/format.h>
@@ -24,13 +24,13 @@ LayerRange parse_layers(const std::string& text, int count) {
         if (digits.empty()) return;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
         if (error != std::errc{} || end != digits.data() + digits.size()) {
-            refuse("\"" + std::string(digits.substr(0, 64)) + "\" is no whole number");
+            refuse("\"" + std::string(digits.substr(0, 64)) + "\" is not a whole number");
         }
     };
     side(std::string_view(text).substr(0, colon), range.first);
     side(std::string_view(text).substr(colon + 1), range.last);
     if (range.first < 0 || range.first >= range.last || range.last > count) {
-        refuse(fmt::format("{}:{} is no range of the layers", range.first, range.last));
+        refuse(fmt::format("{}:{} is not a range of the job's layers", range.first, range.last));
     }
     return range;
 }

@@ -1,4 +1,4 @@
-// Ranges of layers as people write them.
+// Parsing of layer ranges such as "10:20".
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace lamella {
 
-/// "A:B" of `count` layers, either side may be left out; all of them for "". Throws InputError, naming
-/// --layers, for what is no range of theirs.
+/// Parses "A:B" (either side may be missing) for a job of `count` layers; "" means all layers. Throws
+/// InputError, naming --layers, for any other text or a range outside the job.
 LayerRange parse_layers(const std::string& text, int count);
 
 }  // namespace lamella

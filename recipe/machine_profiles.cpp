@@ -1,4 +1,4 @@
-// Folders and built-in texts, searched in order; profiles upon profiles.
+// Searches folders and built-in texts in order; resolves profiles that are based on others.
 #include "recipe/machine_profiles.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ constexpr std::size_t max_files = 10'000;
 constexpr std::size_t longest_chain = 16;
 constexpr std::string_view ending = ".toml";
 
-/// A back-end with the settings that nothing else is known to need.
+/// A back-end's plain profile: default settings, no machine.
 MachineProfile plain(const std::string& backend) {
     MachineProfile profile;
     profile.printer.name = backend;
@@ -46,7 +46,7 @@ std::string user_profile_folder() {
         const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing sets it
         return std::string(value ? value : "");
     };
-    // A relative path there is to be ignored (XDG Base Directory Specification 0.8).
+    // A relative path must be ignored (XDG Base Directory Specification 0.8).
     if (const std::string config = variable("XDG_CONFIG_HOME"); config.starts_with('/'))
         return config + "/lamella/printers";
     const std::string home = variable("HOME");
@@ -62,7 +62,7 @@ void MachineProfiles::add_folder(const std::string& folder, bool must_exist) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
         if (!must_exist) return;
-        throw InputError(folder + ": is no folder; accepted: a folder of machine profiles (.toml)");
+        throw InputError(folder + ": is not a folder; accepted: a folder of machine profiles (.toml)");
     }
     std::vector<Place> found;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -102,7 +102,7 @@ std::string MachineProfiles::unknown(const std::string& name) const {
                        shown(name), near.empty() ? "" : ", did you mean `" + near + "`?", listing);
 }
 
-/// Looks at the places from `from` on.
+/// Finds a profile in the places from `from` on.
 std::optional<MachineProfile> MachineProfiles::find(const std::string& name, std::size_t from,
                                                     const Chain& chain) const {
     if (names_profile_file(name)) return load({fs::path(name).stem().string(), name, {}}, 0, chain);
@@ -114,7 +114,7 @@ std::optional<MachineProfile> MachineProfiles::find(const std::string& name, std
     return std::nullopt;
 }
 
-/// `next`: where to look for what has this profile's own name.
+/// `next`: the first place to search for a base with this profile's own name.
 MachineProfile MachineProfiles::load(const Place& place, std::size_t next, Chain chain) const {
     const bool built_in = place.path.empty();
     const std::string path = built_in ? fmt::format("built-in {}{}", place.name, ending) : place.path;

@@ -1,4 +1,4 @@
-// Listing machines, and writing one down as a file that can be edited.
+// Lists machines, and writes a profile as an editable file.
 #include "recipe/printer_choice.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace lamella {
 
 namespace {
 
-/// What can be made on the machine.
+/// Describes the printable size of the machine.
 std::string size_of(const PrinterProfile& p) {
     switch (find_backend(p.backend).content) {
         case LayerContent::pixels:
@@ -65,7 +65,7 @@ std::string toml_quoted(const std::string& text) {
     return out + "\"";
 }
 
-/// A list of texts, one a line.
+/// Formats a text as a TOML array of its lines.
 std::string quoted_lines(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at <= text.size();) {
@@ -76,7 +76,7 @@ std::string quoted_lines(std::string_view text) {
     return "[" + out + "]";
 }
 
-/// Keys that say again what others say, or that belong to recipes alone.
+/// Returns false for keys that repeat others, and for keys that belong to recipes alone.
 bool is_written(const Setting& setting) {
     static const std::set<std::string> left_out{"printer.profile", "printer.pixel", "printer.dpi",
                                                 "support.kind"};
@@ -88,7 +88,7 @@ std::string setting_line(const Setting& setting, const Recipe& recipe) {
     const bool is_text = std::holds_alternative<std::string>(value);
     const auto* table = std::get_if<NumberRows>(&value);
     const std::string text = table != nullptr && table->empty() ? "[]" : format_value(value);
-    // An empty text or table is no value: the key is there to be filled in.
+    // An empty text or table is written as a comment, to be filled in.
     const bool is_empty = text.empty() || text == "[]";
     const std::string literal = setting.type == ValueType::lines && !is_empty ? quoted_lines(text)
                                 : is_text                                     ? toml_quoted(text)

@@ -1,4 +1,4 @@
-// The machines that a recipe can name, as words and text for people.
+// Names, listings and defaults of the machines that a recipe can select.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace lamella {
 
-/// Names of all back-ends.
+/// Returns the names of all back-ends.
 std::vector<std::string> backend_words();
 
-/// What the machine can print on, x and y in mm; infinite where it has no bounds.
+/// Returns the printable size of the machine's plate, x and y in mm; infinite when it has no bounds.
 dvec2 plate_size(const PrinterProfile& printer);
 
-/// The back-end that files with this path's ending are for, `preferred` if it is one of them; empty where the
-/// ending says nothing.
+/// Returns the back-end for this path's ending, `preferred` if several share it and it is one of them; empty
+/// when no back-end uses the ending.
 std::string backend_of_ending(const std::string& path, const std::string& preferred);
 
-/// Where a run without -o writes: the part's name, with the back-end's usual ending.
+/// Returns the output path of a run without -o: the part's name with the back-end's default ending.
 std::string default_output(const PrinterProfile& printer, const std::string& part_name);
-/// Back-ends and profiles as text for people, with what is wrong with those that cannot be used.
+/// Returns a listing of back-ends and profiles, with the mistakes of profiles that cannot be used.
 std::string printers_listing(const MachineProfiles& profiles);
-/// A profile with all its values, as the text of a profile's file.
+/// Returns a profile with all its values in the format of a profile file.
 std::string profile_as_toml(const MachineProfile& profile);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Recipes and models are told apart by their ending.
+// Distinguishes recipes from models by their file ending.
 #include "recipe/read_recipe.h"
 
 #include <algorithm>

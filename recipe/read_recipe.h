@@ -1,4 +1,4 @@
-// From what a user names as an input to a recipe.
+// Reading of inputs: recipe files and models.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace lamella {
 
-/// Takes a recipe file (.toml), or anything else as the file of a model; nothing for "". Throws InputError
-/// where a recipe cannot be read at all; other mistakes are collected.
+/// Adds an input to a draft: a recipe file (.toml), or any other file as a model; does nothing for "". Throws
+/// InputError when a recipe cannot be read at all; other mistakes are collected.
 void read_input(RecipeDraft& draft, const std::string& input);
 
-/// The recipe of a file, or of a model without foam and skin. Throws InputError with all mistakes at once.
+/// Returns the recipe of a file, or one for a model without foam and skin. Throws InputError with all
+/// mistakes at once.
 Recipe read_recipe(const std::string& input, const MachineProfiles& profiles);
 
-/// The profiles that a run knows: those in `folder` (none when empty), then the user's, then the built-in
-/// ones. Throws InputError when the folder does not exist.
+/// Returns the profiles of a run: those in `folder` (none when empty), then the user's, then the built-in
+/// ones. Throws InputError when `folder` does not exist.
 MachineProfiles machine_profiles(const std::string& folder);
 
 }  // namespace lamella

@@ -1,5 +1,5 @@
-// Recipe: everything that decides a print, as plain data. The settings table (settings.h) says what is
-// allowed.
+// Recipe: everything that decides a print, as plain data. The settings table (settings.h) lists the accepted
+// values.
 #pragma once
 
 #include <array>
@@ -20,39 +20,39 @@ namespace lamella {
 /// A body with a closed form, centred at the origin. `none`: the body is a mesh or a [[field]].
 enum class Shape : unsigned char { none, sphere, box, cylinder, capsule, torus, gyroid };
 
-/// What one unit of a mesh file is, for formats that do not say.
+/// The length unit of mesh files whose format states none.
 enum class LengthUnit : unsigned char { mm, cm, m, inch };
 
 /// A number, or a formula that gives one at every point.
 struct GradedNumber {
     std::variant<double, std::string> value{0.0};
-    std::string where;  ///< where it stands, for messages: "foam.toml:7: foam.cell" or "--cell"
+    std::string where;  ///< its place, for messages: "foam.toml:7: foam.cell" or "--cell"
 
     bool is_formula() const { return value.index() == 1; }
-    /// The number; only where it is no formula.
+    /// The number. Requires that it is not a formula.
     double number() const { return std::get<double>(value); }
     const std::string& formula() const { return std::get<std::string>(value); }
-    /// Two are equal that ask for the same, wherever they stand.
+    /// Two are equal if their values are; places do not count.
     friend bool operator==(const GradedNumber& a, const GradedNumber& b) { return a.value == b.value; }
 };
 
 /// Three numbers, each of which may be a formula.
 using GradedTriple = std::array<GradedNumber, 3>;
 
-/// The numbers of a triple; nothing when one is a formula.
+/// Returns the numbers of a triple; nothing when one is a formula.
 std::optional<dvec3> constant(const GradedTriple& triple);
 
 /// Rows of numbers, all of one length: points, corners, ends of segments, rows of a table.
 using NumberRows = std::vector<std::vector<double>>;
 
-/// The box between two corners, mm; empty where the first is not the lower one.
+/// Returns the box between two corners, mm; empty when the first is not the lower one.
 Box box_of(const NumberRows& corners);
 
 struct PartRecipe {
     std::string mesh;   ///< path of the mesh file; empty when the body is something else
     std::string field;  ///< name of a [[field]]; empty when the body is something else
     Shape shape = Shape::none;
-    double radius = 0;     ///< sphere, cylinder, capsule; of the torus its centre circle, mm
+    double radius = 0;     ///< sphere, cylinder, capsule; torus: of its centre circle, mm
     dvec3 size{0};         ///< box and gyroid, mm
     double height = 0;     ///< cylinder and capsule, end to end, mm
     double tube = 0;       ///< torus, radius of the tube, mm
@@ -63,27 +63,27 @@ struct PartRecipe {
     std::string name;  ///< empty: taken from the input
 };
 
-/// What a program that embeds the engine puts into a recipe. Empty where it puts nothing.
+/// An object that an embedding program puts into a recipe. Empty when it gives none.
 template <typename Pointer>
 struct HostGiven {
     Pointer pointer{};
-    std::string identity;  ///< tells it from others, as a file's bytes do
+    std::string identity;  ///< identifies it, like the bytes of a file
 };
 
-/// A solid by name, for the part and regions: a shape, a mesh, the inside (below zero) of a formula, of a
-/// program for libfive's virtual machine, or of what the host gives.
+/// A named solid, for the part and regions: a shape, a mesh, the inside (below zero) of a formula, a program
+/// for libfive's virtual machine, or a field of the host.
 struct FieldRecipe {
     std::string where;  ///< where the entry begins, for messages
     std::string name;
     std::string kind = "formula";  ///< a word of the registered kinds
     GradedNumber formula;          ///< over x, y, z, mm
     std::string file;              ///< .vm, a mesh, or a volumetric 3MF
-    std::string object;            ///< 3mf: number or name of the object; empty: all that is built
+    std::string object;            ///< 3mf: number or name of the object; empty: all built objects
     std::string function;          ///< 3mf: number or name of the function instead, perhaps .output
     NumberRows bounds;             ///< two corners, mm; empty: found by search
-    dvec3 at{0};                   ///< of shapes the centre, of others the place of their origin, mm
-    dvec3 turn{0};                 ///< about x, then y, then z, degrees
-    double radius = 0;             ///< sizes of shapes, as of the part, mm
+    dvec3 at{0};                   ///< centre of a shape, position of the origin of other kinds, mm
+    dvec3 turn{0};                 ///< rotation about x, then y, then z, degrees
+    double radius = 0;             ///< sizes of shapes, as in PartRecipe, mm
     dvec3 size{0};
     double height = 0;
     double tube = 0;
@@ -92,26 +92,26 @@ struct FieldRecipe {
     HostGiven<FieldPtr> host;
 };
 
-/// What a region is made of: solid, nothing, or the part's foam or skin with other numbers; or where supports
-/// are kept away, or put wherever anything stands out.
+/// The content of a region: solid, empty, or the part's foam or skin with other numbers. `blocker` keeps
+/// supports away; `enforcer` supports every overhang.
 enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer };
 
-/// A part of the body that is made otherwise; of regions that make the same thing, later ones win.
+/// A part of the body with other content. Among regions with the same content, later ones win.
 struct RegionRecipe {
     std::string where;  ///< where the entry begins, for messages
     std::string field;  ///< name of a [[field]]
     RegionMake make = RegionMake::solid;
-    double blend = 0;  ///< width over which it passes into what is about it, mm
-    /// Numbers that hold instead of the foam's; 0 (window: below 0) where the foam's hold.
+    double blend = 0;  ///< width of the transition to its surroundings, mm
+    /// Numbers that replace the foam's; 0 (window: below 0) keeps the foam's.
     GradedNumber cell;
     GradedNumber beam;
     GradedNumber wall;
     GradedNumber window{-1.0, ""};
     GradedNumber modulus;
-    GradedNumber thickness;  ///< instead of the skin's
+    GradedNumber thickness;  ///< replaces the skin's thickness
 };
 
-/// A number that varies in space, for formulas to use by its name.
+/// A grading: a number that varies in space, which formulas use by its name.
 struct GradingRecipe {
     std::string where;  ///< where the entry begins, for messages
     std::string name;
@@ -124,13 +124,13 @@ struct GradingRecipe {
     std::string object;        ///< 3mf: number or name of the object with the property; empty: the only one
     NumberRows box;            ///< volume: two corners, mm; empty: the file says
     std::int64_t channel = 0;  ///< volume: of an image
-    GradedNumber along;        ///< table: the formula that the table is looked up with
-    NumberRows rows;           ///< table: position and number
+    GradedNumber along;        ///< table: formula of the position to look up
+    NumberRows rows;           ///< table: rows of position and number
     bool smooth = false;       ///< table
-    std::string attribute;     ///< attribute: name of the vertices' property
+    std::string attribute;     ///< attribute: name of a vertex property
     NumberRows points;         ///< attractors, mm
     NumberRows segments;       ///< attractors: six numbers each, mm
-    double near_value = 0;     ///< attractors: the number at them
+    double near_value = 0;     ///< attractors: the number at the attractors
     double far_value = 0;      ///< attractors: the number beyond their reach
     double radius = 0;         ///< attractors: their reach, mm
     Falloff falloff = Falloff::smooth;
@@ -149,33 +149,33 @@ struct FoamRecipe {
     double cell_max = 1000;
     double beam_min = 0.005;
     double beam_max = 500;
-    GradedNumber wall;    ///< thickness of walls, of a network's struts, mm
-    GradedNumber window;  ///< closed: share of the walls that is open, 0 to 1
+    GradedNumber wall;    ///< thickness of walls or of a network's struts, mm
+    GradedNumber window;  ///< closed: open share of the walls, 0 to 1
     double wall_min = 0.01;
     double wall_max = 500;
-    bool network = false;         ///< struts along one side of a periodic surface instead of a wall on it
-    std::int64_t seed = 1;        ///< of the random draws
-    double jitter = 0.05;         ///< kelvin: share of the spacing by which seeds are moved
-    std::int64_t neighbours = 5;  ///< k-nearest: beams of each seed, about
-    /// Factors on the cells along three axes at right angles; formulas for k-nearest alone.
+    bool network = false;         ///< struts on one side of a periodic surface instead of a wall along it
+    std::int64_t seed = 1;        ///< of the random numbers
+    double jitter = 0.05;         ///< kelvin: displacement of seeds as a share of their spacing
+    std::int64_t neighbours = 5;  ///< k-nearest: approximate number of beams per seed
+    /// Stretch factors of cells along three perpendicular axes; formulas for k-nearest only.
     GradedTriple stretch{GradedNumber{1.0, ""}, GradedNumber{1.0, ""}, GradedNumber{1.0, ""}};
-    GradedTriple turn{};    ///< of these axes about x, then y, then z, degrees
+    GradedTriple turn{};    ///< rotation of these axes about x, then y, then z, degrees
     std::string unit_cell;  ///< lattice: the name of a cell
     NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
-    GradedNumber modulus;   ///< Young's modulus, MPa, that cells or members are chosen for; 0: none
-    std::string law;        ///< path of laws of foams; empty: those that ship
+    GradedNumber modulus;   ///< Young's modulus, MPa, from which cells or members follow; 0: none
+    std::string law;        ///< path of a file of foam laws; empty: the built-in laws
     bool drop_islands = false;
-    double islands_pitch = 0;  ///< of the survey for them, mm; 0: what suits the foam
+    double islands_pitch = 0;  ///< row spacing of the island survey, mm; 0: derived from the foam
 };
 
-/// What the part is made of.
+/// The part's material.
 struct MaterialRecipe {
-    std::string name;     ///< of a table's material; empty where numbers say it all
-    std::string table;    ///< path of materials; empty: those that ship
+    std::string name;     ///< name of a material in a table; empty when numbers describe it
+    std::string table;    ///< path of a table of materials; empty: the built-in ones
     double young = 0;     ///< Young's modulus, MPa; 0: the table's
     double poisson = -1;  ///< Poisson's ratio; -1: the table's
     double density = 0;   ///< g/cm^3; 0: the table's
-    std::string tests;    ///< path of compression tests of foams that the law is fitted to; empty: none
+    std::string tests;    ///< path of compression tests that the foam's law is fitted to; empty: none
 };
 
 /// Beams where the foam's Voronoi faces meet the surface.
@@ -183,7 +183,7 @@ struct FrameRecipe {
     GradedNumber beam;        ///< radius, mm
     double beam_min = 0.005;  ///< the printable range of a graded radius, mm
     double beam_max = 500;
-    bool interior = true;  ///< whether the foam itself is made, too
+    bool interior = true;  ///< whether the foam inside is made, too
 };
 
 struct SkinRecipe {
@@ -193,55 +193,57 @@ struct SkinRecipe {
     SkinSide side = SkinSide::inside;  ///< of the body's surface
     std::string pattern = "closed";    ///< a word of the registered kinds
     double window = 0;                 ///< mean width of a window, mm
-    GradedNumber strut;                ///< width of what is left between windows, at least, mm
+    GradedNumber strut;                ///< minimum width of the struts between windows, mm
     double corner = -1;                ///< radius of the windows' corners, mm; negative: half the strut
-    std::int64_t seed = 1;             ///< voronoi: of the random draws
+    std::int64_t seed = 1;             ///< voronoi: of the random numbers
     std::string image;                 ///< path of a picture
-    double image_size = 0;             ///< image: what its width covers, mm
+    double image_size = 0;             ///< image: length that its width covers, mm
     double threshold = 0.5;            ///< image: grey, 0 to 1, below which it is solid
     bool invert = false;               ///< image: solid where it is bright
-    std::int64_t drains = 0;  ///< holes of each closed cavity: at its lowest point, and at its highest
-    double drain_radius = 0;  ///< mm; 0: what the skin suggests
-    double drain_pitch = 0;   ///< of the survey for cavities, mm; 0: what suits the skin
+    std::int64_t drains = 0;  ///< holes per closed cavity: at its lowest point, and with 2 also at its
+                              ///< highest
+    double drain_radius = 0;  ///< mm; 0: derived from the skin
+    double drain_pitch = 0;   ///< row spacing of the cavity survey, mm; 0: derived from the skin
 };
 
 /// Cavities whose roofs print without supports.
 struct CavityRecipe {
-    double wall = 0;      ///< about a cavity, at least, mm
+    double wall = 0;      ///< minimum wall around a cavity, mm
     double overhang = 0;  ///< of a layer of its roof over the one below, mm; 0: the printer's
-    double chamber = 0;   ///< width of the chambers that it is divided into, mm; 0: undivided
-    double least = 10;    ///< volume of a cavity, mm^3
-    double pitch = 0;     ///< of the survey, mm; 0: what suits the overhang
+    double chamber = 0;   ///< width of the chambers into which it is divided, mm; 0: undivided
+    double least = 10;    ///< minimum volume of a cavity, mm^3
+    double pitch = 0;     ///< row spacing of the survey, mm; 0: derived from the overhang
 };
 
-/// A wall close about the print.
+/// A thin wall around the print (draught or ooze shield).
 struct ShieldRecipe {
-    double gap = 0;       ///< to the print in each layer, at least, mm
+    double gap = 0;       ///< minimum distance from the print in each layer, mm
     double wall = 0.9;    ///< its thickness, mm
-    double overhang = 0;  ///< by which its outline may move from layer to layer, mm; 0: the printer's
-    double pitch = 0;     ///< of the survey, mm; 0: what suits the overhang
+    double overhang = 0;  ///< maximum shift of its outline between layers, mm; 0: the printer's
+    double pitch = 0;     ///< row spacing of the survey, mm; 0: derived from the overhang
 };
 
-/// What makes up for the way a machine prints.
+/// Machine compensation: scaling and in-plane offsets.
 struct ProcessRecipe {
-    dvec3 scale{1};  ///< of the finished part along x, y, z: about its middle, from its lowest point
-    double xy_compensation = 0;             ///< by which every layer's outline grows, mm; negative: shrinks
-    double elephant_foot = 0;               ///< by which the first layer's outline is drawn in, mm
-    std::int64_t elephant_foot_layers = 1;  ///< over which that fades away
+    dvec3 scale{1};  ///< of the finished part along x, y, z: about the middle of its bounds in x and y, and
+                     ///< their lowest z
+    double xy_compensation = 0;             ///< outward offset of every layer's outline, mm; negative: inward
+    double elephant_foot = 0;               ///< inward offset of the first layer's outline, mm
+    std::int64_t elephant_foot_layers = 1;  ///< number of layers over which that offset fades away
 };
 
-/// What is mended before a part is printed. Lengths in mm as printed; 0: left as it is.
+/// Repairs before a part is printed. Lengths in mm as printed; 0: no repair of this kind.
 struct RepairRecipe {
-    double thickness = 0;  ///< what is thinner within a layer is made so thick
-    double gap = 0;        ///< void narrower within a layer is filled
-    double join = 0;       ///< diameter of the struts that join loose pieces
+    double thickness = 0;  ///< walls thinner than this within a layer are thickened to it
+    double gap = 0;        ///< gaps narrower than this within a layer are filled
+    double join = 0;       ///< diameter of struts that join disconnected pieces
 };
 
-/// What holds the part up while it is printed; its numbers are the printer's.
+/// The kind of supports; their dimensions are part of the printer's profile.
 enum class SupportKind : unsigned char {
     none,
-    bridges,  ///< bars on pillars
-    pillars   ///< a pillar under every point
+    bridges,  ///< horizontal bars on pillars
+    pillars   ///< a pillar under every support point
 };
 
 /// A hole drilled through the skin.
@@ -249,25 +251,25 @@ struct HoleRecipe {
     std::string where;     ///< where the entry begins, for messages
     dvec3 at{0};           ///< mm; the hole begins at the nearest point of the surface
     double radius = 0;     ///< mm
-    dvec3 direction{0};    ///< inward; zero: at right angles to the surface
+    dvec3 direction{0};    ///< inward; zero: along the surface normal
     double depth = 0;      ///< from the surface, mm; 0: through the skin
-    bool through = false;  ///< through the filling, too
+    bool through = false;  ///< the hole also passes through the foam
 };
 
-/// How many of a part are made at once.
+/// Copies of the part on one plate.
 struct PlateRecipe {
     int copies = 1;
-    double gap = 5;  ///< between neighbours, mm
+    double gap = 5;  ///< distance between neighbours, mm
 };
 
-/// What is written besides the layers.
+/// Outputs other than layers.
 struct OutputRecipe {
     std::string beams;     ///< path of a 3MF beam lattice; empty for none
     NumberRows beams_box;  ///< two corners, mm; empty: the part's bounds
 };
 
-/// Without foam and skin the part is solid; with foam alone it is bare foam cut by the body; with a skin
-/// alone it is a hollow shell.
+/// A whole recipe. Without foam and skin the part is solid; with foam alone it is bare foam cut by the body;
+/// with a skin alone it is a hollow shell.
 struct Recipe {
     PartRecipe part;
     std::vector<FieldRecipe> fields;
@@ -289,7 +291,7 @@ struct Recipe {
     PrinterProfile printer;
 };
 
-/// Length of one unit, mm.
+/// Returns the length of one unit, mm.
 double millimetres(LengthUnit unit);
 
 }  // namespace lamella

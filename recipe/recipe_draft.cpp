@@ -1,4 +1,4 @@
-// From assignments to a recipe: profile first, then the rest, and the rules that join several keys.
+// Turns assignments into a recipe: profile first, then the rest, then the rules that relate several keys.
 #include "recipe/recipe_draft.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace lamella {
 
 namespace {
 
-/// The keys that name a body; one of them holds.
+/// The keys that name a body; exactly one is used.
 const std::vector<std::string> body_keys{"mesh", "shape", "field"};
 
 std::string listed(const std::vector<std::string>& words, const char* between = ", ") {
@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string>& words, const char* between = 
     return text;
 }
 
-/// All keys that go with a kind, or with any kind of the section.
+/// Returns the keys that apply to a kind, or to all kinds of the section.
 std::vector<std::string> keys_of(const Kind& kind) {
     std::vector<std::string> keys;
     for (const std::string& need : kind.needs) {
@@ -35,7 +35,7 @@ std::vector<std::string> keys_of(const Kind& kind) {
     return keys;
 }
 
-/// What every entry of a list section has.
+/// Keys of every entry of a list section.
 std::vector<std::string> needs_of_list(std::string_view section) {
     if (section == "hole") return {"at", "radius"};
     if (section == "region") return {};
@@ -91,7 +91,7 @@ void RecipeDraft::give_grading(const std::string& name, HostGiven<GradingPtr> gr
     host_gradings_[name] = std::move(grading);
 }
 
-/// Gives the entries of kind host what the program has for them.
+/// Gives the entries of kind host the program's objects.
 template <typename Entries, typename Given>
 void RecipeDraft::hand_over(const std::string& section, Entries& entries, const Given& given) {
     for (auto& entry : entries) {
@@ -99,12 +99,12 @@ void RecipeDraft::hand_over(const std::string& section, Entries& entries, const 
         const bool asks = entry.kind == host_kind, is_given = found != given.end();
         if (asks && is_given) entry.host = found->second;
         if (asks == is_given) continue;
-        refuse(0, asks
-                      ? fmt::format("{}: kind {}: the program gives no {} `{}`; accepted: another kind, or a "
-                                    "program that does",
-                                    entry.where, host_kind, section, entry.name)
-                      : fmt::format("{}: kind {}: the program gives a {} `{}`, too; accepted: kind {}",
-                                    entry.where, entry.kind, section, entry.name, host_kind));
+        refuse(0, asks ? fmt::format("{}: kind {}: the embedding program does not provide the {} `{}`; "
+                                     "accepted: another kind, or a program that provides it",
+                                     entry.where, host_kind, section, entry.name)
+                       : fmt::format(
+                             "{}: kind {}: the embedding program also provides a {} `{}`; accepted: kind {}",
+                             entry.where, entry.kind, section, entry.name, host_kind));
     }
 }
 
@@ -114,7 +114,7 @@ const RecipeDraft::Entry* RecipeDraft::entry(std::string_view section, std::stri
     return found == entries_.end() ? nullptr : &found->second;
 }
 
-/// Where a key stands, or where it would stand.
+/// Returns the place of a key, or where it would be written.
 std::string RecipeDraft::where(std::string_view section, std::string_view key, std::size_t number) const {
     if (const Entry* given = entry(section, key, number); given && !given->where.empty()) return given->where;
     if (const auto begin = sections_.find({std::string(section), number}); begin != sections_.end()) {
@@ -135,7 +135,7 @@ std::size_t RecipeDraft::count(const Section& section) const {
     return most;
 }
 
-/// A body given by a flag takes the place of the one in the recipe, whichever kind that was.
+/// A body given by a flag replaces the recipe's, whatever its kind.
 void RecipeDraft::drop_overridden_body() {
     const auto from_flag = [&](const std::string& key) {
         const Entry* given = entry("part", key);
@@ -154,7 +154,7 @@ void RecipeDraft::drop_overridden_body() {
     }
 }
 
-/// Where a section or an entry of a list section begins.
+/// Returns the place where a section or an entry of a list section begins.
 std::string RecipeDraft::where_begins(const std::string& section, std::size_t number) const {
     const auto begin = sections_.find({section, number});
     return begin == sections_.end() ? section : begin->second;
@@ -170,16 +170,16 @@ void RecipeDraft::check_need(const Part& part, const std::string& need, const st
     if (given.empty()) {
         const std::string other =
             keys.size() > 1 ? fmt::format(" (or {})", listed({keys.begin() + 1, keys.end()}, " or ")) : "";
-        refuse(0, fmt::format("{}: missing, {} needs it{}; accepted: {}",
+        refuse(0, fmt::format("{}: missing, required by {}{}; accepted: {}",
                               where(part.section, keys.front(), part.entry), why, other, accepted(setting)));
     } else if (given.size() > 1) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: one of {}",
+        refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of {}",
                               where(part.section, given[1], part.entry),
                               where(part.section, given[0], part.entry), listed(keys)));
     }
 }
 
-/// Whether a foam's modulus decides how large its cells, or members, are.
+/// Returns true if a foam's modulus determines its cells or its members.
 bool RecipeDraft::is_chosen_for_modulus(const KindSection& section, const std::string& need) const {
     return section.section == "foam" && entry("foam", "modulus") != nullptr &&
            (need == "cell" || need == "beam" || need == "wall");
@@ -203,14 +203,18 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
         const Entry* given = entry(section.section, key, number);
         if (!given || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
         const bool no_shape = section.section == "part" && word == "none";
-        refuse(0, no_shape ? fmt::format("{}: only a shape has it; accepted: part.shape / --shape with it",
-                                         given->where)
-                           : fmt::format("{}: {} does not have it; accepted: {}", given->where, why,
-                                         listed(wanted)));
+        refuse(
+            0,
+            no_shape
+                ? fmt::format(
+                      "{}: applies only to a shape; accepted: this key together with part.shape / --shape",
+                      given->where)
+                : fmt::format("{}: does not apply to {}; accepted: {}", given->where, why, listed(wanted)));
     }
 }
 
-/// Exactly one body, which may be the only [[field]]; false when there are several.
+/// Checks that there is exactly one body, which may be the only [[field]]. Returns false when there are
+/// several.
 bool RecipeDraft::check_bodies() {
     std::vector<const Entry*> given;
     for (const std::string& key : body_keys) {
@@ -219,20 +223,19 @@ bool RecipeDraft::check_bodies() {
         if (body && !(key == "shape" && std::get<std::string>(*body->value) == "none")) given.push_back(body);
     }
     if (given.size() > 1) {
-        refuse(0, fmt::format("{}: contradicts {}; accepted: a mesh, a shape or a field, one of them",
+        refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of a mesh, a shape and a field",
                               given[1]->where, given[0]->where));
         return false;
     }
     const std::size_t fields = count(*find_section("field"));
     if (!given.empty() || !body_required_ || fields == 1) return true;
     const std::string begin = where_begins("part", 0);
-    refuse(0, fields == 0
-                  ? fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), "
-                                "part.shape / --shape, or a [[field]]",
-                                begin)
-                  : fmt::format("{}: no body is given; accepted: part.field / --field with the name of "
-                                "one of the {} [[field]]",
-                                begin, fields));
+    refuse(0, fields == 0 ? fmt::format("{}: no body is given; accepted: a mesh file (part.mesh or MODEL), "
+                                        "part.shape / --shape, or a [[field]]",
+                                        begin)
+                          : fmt::format("{}: no body is given; accepted: part.field / --field with the name "
+                                        "of one of the {} [[field]] entries",
+                                        begin, fields));
     return true;
 }
 
@@ -258,7 +261,8 @@ void RecipeDraft::check_structure() {
     if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
 }
 
-/// The size of a pixel is said in one way: by its edge, both its sides, or dots per inch. A flag's way holds.
+/// Checks that the pixel size is given in one way: by its edge, both its sides, or dots per inch. A flag has
+/// precedence over the recipe.
 void RecipeDraft::check_pixels() {
     const std::vector<std::vector<std::string>> ways{{"pixel"}, {"dpi"}, {"pixel_x", "pixel_y"}};
     const auto given = [&](const std::vector<std::string>& way, bool flags_only) -> const Entry* {
@@ -279,15 +283,15 @@ void RecipeDraft::check_pixels() {
     for (const auto& way : ways) {
         const Entry* one = given(way, false);
         if (first && one) {
-            refuse(0,
-                   fmt::format("{}: contradicts {}; accepted: pixel alone, dpi alone, or pixel_x and pixel_y",
-                               one->where, first->where));
+            refuse(0, fmt::format(
+                          "{}: conflicts with {}; accepted: pixel alone, dpi alone, or pixel_x and pixel_y",
+                          one->where, first->where));
         }
         if (!first) first = one;
     }
 }
 
-/// Looks up the profile.
+/// Looks up the recipe's profile.
 void RecipeDraft::check_printer() {
     check_pixels();
     const Entry* given = entry("printer", "profile");
@@ -313,7 +317,7 @@ Recipe RecipeDraft::assemble() {
         }
     }
     if (count(*find_section("support")) > 0) {
-        // Numbers alone ask for supports, but the kind may say that there are none all the same.
+        // Any number of [support] enables supports, unless support.kind is given.
         const Entry* kind = entry("support", "kind");
         recipe.support = SupportKind::bridges;
         if (kind && kind->value) find_setting("support", "kind")->store(recipe, 0, *kind->value);
@@ -372,8 +376,8 @@ void RecipeDraft::throw_mistakes() {
 std::string RecipeDraft::profile_kind(const std::string& path) {
     const Entry* kind = entry("printer", "kind");
     if (!kind) {
-        refuse(0, fmt::format("{}: neither based_on nor printer.kind is given; accepted: the name of another "
-                              "profile, or {}",
+        refuse(0, fmt::format("{}: neither based_on nor printer.kind is given; accepted: based_on = the name "
+                              "of another profile, or printer.kind = {}",
                               path, accepted(*find_setting("printer", "kind"))));
     }
     throw_mistakes();

@@ -1,5 +1,5 @@
-// RecipeDraft: what a recipe file and the flags assign, before it becomes a Recipe, with every mistake found
-// on the way.
+// RecipeDraft: the assignments of a recipe file and flags before they become a Recipe, with every mistake
+// found so far.
 #pragma once
 
 #include <compare>
@@ -17,7 +17,7 @@
 
 namespace lamella {
 
-/// What stands above the sections of a machine profile.
+/// The keys above the sections of a machine profile.
 struct ProfileHead {
     std::string description;
     std::string based_on;        ///< name or file of another profile; empty for none
@@ -27,37 +27,38 @@ struct ProfileHead {
 /// Collects assignments from a recipe file and from flags (later ones win) and all their mistakes.
 class RecipeDraft {
   public:
-    /// Reads a recipe file. Throws InputError at once when it cannot be read or is no TOML; other mistakes
-    /// are collected.
+    /// Reads a recipe file. Throws InputError at once when it cannot be read or is not valid TOML; other
+    /// mistakes are collected.
     void read_file(const std::string& path);
-    /// The same for a recipe's text; `path` is for messages, and its folder is where relative paths start.
+    /// Reads a recipe from text. `path` names it in messages, and its folder is the base of relative paths.
     void read_text(std::string_view text, const std::string& path);
-    /// Takes the text of a flag; `where` stands for it in messages.
+    /// Assigns the text of a flag's value; `where` names its place in messages.
     void assign_flag(const Setting& setting, const std::string& text) {
         assign_flag(setting, text, setting.flag);
     }
     void assign_flag(const Setting& setting, const std::string& text, const std::string& where);
 
-    /// Puts a solid, or a number that varies in space, of the embedding program into the recipe: as a
-    /// [[field]] or [[grading]] of kind host, which is added where there is none of this name.
+    /// Adds an object of the embedding program: sets the [[field]] or [[grading]] of kind host with this
+    /// name, or appends one.
     void give_field(const std::string& name, HostGiven<FieldPtr> field);
     void give_grading(const std::string& name, HostGiven<GradingPtr> grading);
 
-    /// Where printer.profile is looked up; without this among the built-in profiles.
+    /// Sets the profiles in which printer.profile is looked up; by default the built-in ones.
     void use_profiles(MachineProfiles profiles) { profiles_ = std::move(profiles); }
 
-    /// Whether the part needs a body: false for commands that look at the foam alone.
+    /// Sets whether the part needs a body: false for commands that use the foam alone.
     void require_body(bool required) { body_required_ = required; }
 
-    /// The recipe. Throws one InputError with every mistake, a line each, when there is any.
+    /// Checks all assignments and returns the recipe. Throws one InputError that lists every mistake, a line
+    /// each.
     Recipe finish();
 
     /// Reads a machine profile instead of a recipe: `description`, `based_on` and profile_sections.
     ProfileHead read_profile_file(const std::string& path);
     ProfileHead read_profile(std::string_view text, const std::string& path);
-    /// The back-end that the profile names. Throws InputError with every mistake when it names none.
+    /// Returns the back-end that the profile names. Throws InputError with every mistake when it names none.
     std::string profile_kind(const std::string& path);
-    /// `base` with the profile's values. Throws one InputError with every mistake, as `finish` does.
+    /// Returns `base` with the profile's values over it. Throws one InputError that lists every mistake.
     PrinterProfile finish_profile(const PrinterProfile& base);
 
   private:
@@ -67,12 +68,12 @@ class RecipeDraft {
         bool from_flag = false;
     };
     struct Mistake {
-        int line;  ///< 0 for what has none
+        int line;  ///< 0 if it has none
         std::string text;
     };
     friend class TomlRecipe;
 
-    /// A key of a section; of a list section, of one of its entries.
+    /// A key of a section, or of one entry of a list section.
     struct Place {
         std::string section;
         std::size_t entry = 0;
@@ -92,7 +93,7 @@ class RecipeDraft {
     const Entry* entry(std::string_view section, std::string_view key, std::size_t number = 0) const;
     std::string where(std::string_view section, std::string_view key, std::size_t number = 0) const;
     std::string where_begins(const std::string& section, std::size_t number) const;
-    /// How many entries of a list section were found; of a plain section, whether it is used.
+    /// Returns the number of entries of a list section; of a plain section 1 if it is used, 0 if not.
     std::size_t count(const Section& section) const;
 
     void declare_host(const std::string& section, const std::string& name);
@@ -127,13 +128,13 @@ class RecipeDraft {
     void check_material(const Recipe& recipe);
 
     std::map<Place, Entry> entries_;
-    std::map<Part, std::string> sections_;  ///< those present in the file: where they begin
+    std::map<Part, std::string> sections_;  ///< sections in the file, with the places where they begin
     std::map<std::string, HostGiven<FieldPtr>> host_fields_;
     std::map<std::string, HostGiven<GradingPtr>> host_gradings_;
     std::vector<Mistake> mistakes_;
     bool body_required_ = true;
     MachineProfiles profiles_;
-    PrinterProfile machine_;  ///< what printer.profile names
+    PrinterProfile machine_;  ///< the machine of printer.profile
 };
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Checking names first, then every formula alone, then how gradings build on each other.
+// Checks names first, then every formula alone, then the dependencies between gradings.
 #include "recipe/recipe_formulas.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ bool is_identifier(std::string_view name) {
            std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
 }
 
-/// What formulas mean by a name already; empty when it is free.
+/// Returns the existing meaning of a name in formulas; empty when it is free.
 std::string taken_by(std::string_view name) {
     if (std::find(place_names.begin(), place_names.end(), name) != place_names.end()) return "a coordinate";
     if (name == depth_name) return "the depth below the surface";
@@ -39,14 +39,14 @@ std::string taken_by(std::string_view name) {
     return "";
 }
 
-/// One formula of the recipe and the names it may use beyond gradings.
+/// A formula of the recipe and the names that it may use in addition to gradings.
 struct Use {
     const GradedNumber* number;
     bool depth = true;
     bool cell = false;
 };
 
-/// All numbers of a foam that may be formulas.
+/// Returns all numbers of a foam that may be formulas.
 std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
     std::vector<const GradedNumber*> numbers{&foam.cell, &foam.beam, &foam.wall, &foam.window, &foam.modulus};
     for (const GradedTriple* triple : {&foam.stretch, &foam.turn}) {
@@ -55,14 +55,14 @@ std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
     return numbers;
 }
 
-/// Cells come first, and members, windows and stretches may follow them, but not where a modulus decides.
+/// Members, windows and stretch factors may depend on the cell size, except where a modulus determines it.
 bool may_use_cell(const FoamRecipe& foam, const GradedNumber& number) {
     if (&number == &foam.cell || &number == &foam.modulus) return false;
     const bool cell_is_solved = !foam.cell.is_formula() && foam.cell.number() == 0;
     return !cell_is_solved || (&number != &foam.beam && &number != &foam.wall);
 }
 
-/// Checks one recipe.
+/// Checks the names and formulas of one recipe.
 class FormulaCheck {
   public:
     explicit FormulaCheck(const Recipe& recipe) : recipe_(recipe) {}
@@ -90,15 +90,16 @@ class FormulaCheck {
             const std::string where = entry.where + ".name";
             const std::string taken = taken_by(entry.name);
             if (!is_identifier(entry.name)) {
-                refuse(where, fmt::format("\"{}\" is no name", entry.name.substr(0, 64)),
+                refuse(where, fmt::format("\"{}\" is not a valid name", entry.name.substr(0, 64)),
                        "up to 64 letters, digits and _, not beginning with a digit");
             } else if (!taken.empty()) {
-                refuse(where, fmt::format("`{}` is {} in formulas", entry.name, taken), "another name");
+                refuse(where, fmt::format("`{}` is reserved: it means {} in formulas", entry.name, taken),
+                       "another name");
             } else if (const auto [first, fresh] = seen.emplace(entry.name, entry.where); !fresh) {
                 refuse(where,
                        fmt::format("`{}` is the name of another [[{}]] ({})", entry.name, section,
                                    first->second),
-                       "a name of its own");
+                       "a unique name");
             }
         }
     }
@@ -150,7 +151,8 @@ class FormulaCheck {
         for (const GradingRecipe& grading : recipe_.gradings) known.push_back(grading.name);
         try {
             if (!use.depth && reads(text, depth_name)) {
-                return refuse(use.number->where, "uses the depth `d` below the surface that it makes itself",
+                return refuse(use.number->where,
+                              "uses the depth `d` below the surface, but defines that surface itself",
                               "x, y, z and gradings");
             }
             parse_formula(text, known);
@@ -164,7 +166,7 @@ class FormulaCheck {
         return std::find(names.begin(), names.end(), name) != names.end();
     }
 
-    /// The gradings and depths that a grading is made from.
+    /// Returns the gradings and depths that a grading depends on.
     static std::vector<std::string> needs(const GradingRecipe& grading) {
         std::vector<std::string> names;
         for (const GradedNumber* number : {&grading.formula, &grading.along}) {
@@ -181,10 +183,10 @@ class FormulaCheck {
         return nullptr;
     }
 
-    /// What is known of a grading whose needs have been followed.
+    /// Facts about a grading whose dependencies have been followed.
     struct Followed {
-        int levels = 0;      ///< of gradings below and including it
-        bool depth = false;  ///< whether the depth is among them
+        int levels = 0;      ///< levels of gradings, including this one
+        bool depth = false;  ///< whether it depends on the depth
     };
 
     void check_order() {
@@ -194,7 +196,7 @@ class FormulaCheck {
         }
     }
 
-    /// Follows a grading's needs down; refuses when they lead back to it or too deep.
+    /// Follows a grading's dependencies; reports cycles and chains that are too long.
     Followed follow(const GradingRecipe& from) {
         if (const auto known = followed_.find(from.name); known != followed_.end()) return known->second;
         const auto again = std::find(path_.begin(), path_.end(), from.name);
@@ -203,7 +205,7 @@ class FormulaCheck {
             for (auto name = again + 1; name != path_.end(); ++name)
                 circle += fmt::format(" uses `{}`, which", *name);
             refuse(from.where, fmt::format("{} uses `{}`", circle, from.name),
-                   "gradings that do not lead back to themselves");
+                   "gradings that do not depend on themselves");
             return {};
         }
         if (path_.size() >= deepest_grading) {
@@ -230,16 +232,17 @@ class FormulaCheck {
         return result;
     }
 
-    /// A body cannot be made from gradings that are measured from it.
+    /// Reports bodies that depend on gradings measured from the body's surface.
     void check_field_depths() {
         for (const FieldRecipe& field : recipe_.fields) {
             if (!field.formula.is_formula()) continue;
             for (const std::string& name : names_beyond_place(field.formula.formula())) {
                 if (!followed_[name].depth) continue;
-                refuse(field.formula.where,
-                       fmt::format("`{}` depends on the depth `d` below the surface that this formula makes",
-                                   name),
-                       "x, y, z and gradings without `d`");
+                refuse(
+                    field.formula.where,
+                    fmt::format("`{}` depends on the depth `d` below the surface, which this formula defines",
+                                name),
+                    "x, y, z and gradings without `d`");
             }
         }
     }

@@ -1,4 +1,4 @@
-// The list of kinds: the shapes stand here, the others where they are built.
+// The list of kinds: shapes are defined here, the others by their builders.
 #include "recipe/recipe_kinds.h"
 
 #include "recipe/build/build_fields.h"

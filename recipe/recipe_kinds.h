@@ -1,4 +1,4 @@
-// Kinds: sections whose other keys depend on one word, and which keys go with which word.
+// Kinds: sections in which one key (such as `kind`) selects which other keys apply, and these keys.
 #pragma once
 
 #include <string>
@@ -9,31 +9,31 @@
 
 namespace lamella {
 
-/// The word of [[field]] and [[grading]] for what the embedding program gives.
+/// The kind of a [[field]] or [[grading]] that the embedding program gives.
 inline constexpr std::string_view host_kind = "host";
 
-/// A word and the keys of its section that go with it. Keys that no word of the section names go with all.
+/// A kind and the keys of its section that apply to it. Keys that no kind of the section lists apply to all.
 struct Kind {
     std::string word;
-    std::vector<std::string> needs;  ///< "rows|file": one of them and not both
-    std::vector<std::string> takes;  ///< may be left out
+    std::vector<std::string> needs;  ///< required keys; "rows|file": exactly one of them
+    std::vector<std::string> takes;  ///< optional keys
 };
 
-/// The kinds of a section; none for sections whose keys stand alone.
+/// The kinds of a section. Sections without a selecting key have none.
 struct KindSection {
     std::string section;
-    std::string key;       ///< that holds the word: "kind", of [part] "shape"
-    std::string fallback;  ///< the word where the key is missing; empty when it must be given
+    std::string key;       ///< the selecting key: "kind", in [part] "shape"
+    std::string fallback;  ///< the kind when the key is missing; empty when the key is required
     std::vector<Kind> kinds;
 };
 
-/// All of them, in the order of the sections.
+/// Returns all kinds, in the order of the sections.
 const std::vector<KindSection>& kind_sections();
 
-/// The words of a section, for the settings table.
+/// Returns the names of a section's kinds, for the settings table.
 std::vector<std::string> kind_words(std::string_view section);
 
-/// The alternatives of a need: "rows|file" is rows and file.
+/// Returns the alternatives of a required key: "rows|file" gives rows and file.
 std::vector<std::string> alternatives(const std::string& need);
 
 }  // namespace lamella

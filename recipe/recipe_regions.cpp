@@ -1,4 +1,4 @@
-// Rules that join a region's keys with the fields, the foam and the skin.
+// Rules that relate a region's keys to the fields, the foam and the skin.
 #include "recipe/recipe_regions.h"
 
 #include <fmt/format.h>
@@ -28,11 +28,11 @@ std::string unknown_field(const Recipe& recipe, const RegionRecipe& region) {
                        known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
 }
 
-/// The limits that the foam or the skin sets for a number; nothing where it has no such number.
+/// Returns the limits of a number in the foam or skin; nothing when it has no such number.
 std::optional<Interval> limits_of(const Recipe& recipe, const std::string& key) {
     if (key == "skin.thickness") return Interval{recipe.skin->thickness_min, recipe.skin->thickness_max};
     const FoamRecipe& foam = *recipe.foam;
-    // Of a foam's modulus, cells and members the one that is not given follows from the others.
+    // Of a foam's modulus, cells and members, the one that is not given follows from the other two.
     if (key == "foam.modulus" && !is_given(foam.modulus, false)) return std::nullopt;
     if (key == "foam.modulus") return Interval{0, infinity};
     if (key == "foam.cell" && !is_given(foam.cell, false)) return std::nullopt;
@@ -59,8 +59,7 @@ void check_number(const Recipe& recipe, const RegionNumber& given, std::vector<s
     const std::string& where = given.number->where;
     if (!limits) {
         mistakes.push_back(
-            fmt::format("{}: the part's foam, kind {}, does not have it; accepted: a number "
-                        "that [foam] has",
+            fmt::format("{}: does not apply to foam.kind {}; accepted: a key that [foam] of this kind has",
                         where, recipe.foam->kind));
     } else if (!given.number->is_formula() && !limits->contains(given.number->number())) {
         mistakes.push_back(fmt::format("{}: {} lies outside {}_min and {}_max; accepted: {} to {}", where,
@@ -74,21 +73,23 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
     const std::vector<RegionNumber> numbers = numbers_of(region);
     const bool rules_supports = region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
     if (rules_supports && recipe.support == SupportKind::none) {
-        mistakes.push_back(fmt::format(
-            "{}.make: there are no supports to rule; accepted: a section [support] with it", region.where));
+        mistakes.push_back(
+            fmt::format("{}.make: blockers and enforcers need supports, and there are none; accepted: a "
+                        "section [support] as well",
+                        region.where));
     }
     if (region.make == RegionMake::foam) {
         if (!recipe.foam) {
             mistakes.push_back(
-                fmt::format("{}.make: foam changes the part's foam, and there is none; accepted: "
-                            "a section [foam] with it, or solid, empty, skin",
+                fmt::format("{}.make: \"foam\" changes the part's foam, and there is none; accepted: a "
+                            "section [foam] as well, or solid, empty, skin",
                             region.where));
             return;
         }
         if (numbers.empty()) {
             mistakes.push_back(
-                fmt::format("{}: changes no number of the foam; accepted: cell, beam, wall, window "
-                            "or modulus, one of them or more",
+                fmt::format("{}: sets no number of the foam; accepted: one or more of cell, beam, wall, "
+                            "window and modulus",
                             region.where));
         }
     }

@@ -1,4 +1,4 @@
-// The rules of a recipe's [[region]] entries.
+// Checks of a recipe's [[region]] entries.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace lamella {
 
-/// A number of a region that takes the place of another key's.
+/// A number of a region that replaces another key's.
 struct RegionNumber {
-    std::string key;  ///< of the number that it replaces: "foam.cell", "skin.thickness"
+    std::string key;  ///< the key that it replaces: "foam.cell", "skin.thickness"
     const GradedNumber* number;
 };
 
-/// The numbers that a region gives, those of other kinds of regions left out.
+/// Returns the numbers that a region sets, without those that its kind does not use.
 std::vector<RegionNumber> numbers_of(const RegionRecipe& region);
 
-/// Everything that is wrong with the regions, a message each: unknown fields, numbers that the foam does not
-/// have or that lie outside its limits, regions of foam where there is none.
+/// Returns a message for each mistake in the regions: unknown fields, numbers that the foam does not have or
+/// that are out of its limits, foam regions without a foam.
 std::vector<std::string> region_mistakes(const Recipe& recipe);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The rules between settings that are each fine on their own.
+// Rules that relate several settings, each of which is valid alone.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,13 +15,12 @@
 
 namespace lamella {
 
-/// Rules between what stretches a foam and its kind.
+/// Checks a foam's stretch and turn against its kind.
 void RecipeDraft::check_stretch(const FoamRecipe& foam) {
     const auto stretch = constant(foam.stretch);
     if (entry("foam", "turn") && stretch == dvec3(1)) {
         refuse(0,
-               fmt::format("{}: turns nothing where nothing is stretched; accepted: foam.stretch / --stretch "
-                           "with it",
+               fmt::format("{}: has no effect without a stretch; accepted: foam.stretch / --stretch as well",
                            where("foam", "turn")));
     }
     if (foam.kind == "k-nearest") {
@@ -36,18 +35,20 @@ void RecipeDraft::check_stretch(const FoamRecipe& foam) {
     }
     for (const auto& [key, given] : {std::pair("stretch", stretch), std::pair("turn", constant(foam.turn))}) {
         if (given) continue;
-        refuse(0, fmt::format("{}: kind {} has the same everywhere; accepted: three numbers, or formulas "
-                              "for kind k-nearest",
-                              where("foam", key), foam.kind));
+        refuse(
+            0,
+            fmt::format(
+                "{}: must be constant for kind {}; accepted: three numbers, or kind k-nearest with formulas",
+                where("foam", key), foam.kind));
     }
 }
 
-/// Rules between a number that may vary and its limits.
+/// Checks a graded number against its limits.
 void RecipeDraft::check_limits(const std::string& section, const std::string& key, const GradedNumber& number,
                                double least, double most) {
     const std::string low = key + "_min", high = key + "_max";
     if (least > most) {
-        refuse(0, fmt::format("{}: {} mm is more than {}, {} mm; accepted: the least first",
+        refuse(0, fmt::format("{}: {} mm is more than {}, {} mm; accepted: a minimum not above the maximum",
                               where(section, low), least, where(section, high), most));
     } else if (!number.is_formula() && (number.number() < least || number.number() > most)) {
         refuse(0,
@@ -56,7 +57,7 @@ void RecipeDraft::check_limits(const std::string& section, const std::string& ke
     }
 }
 
-/// Rules between the numbers of a foam.
+/// Checks the numbers of a foam against each other.
 void RecipeDraft::check_foam(const FoamRecipe& foam) {
     check_stretch(foam);
     if (entry("foam", "cell")) check_limits("foam", "cell", foam.cell, foam.cell_min, foam.cell_max);
@@ -71,51 +72,58 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
     }
 }
 
-/// A modulus takes the place of the cells or of the members.
+/// Checks that a modulus replaces either the cells or the members.
 void RecipeDraft::check_modulus(const Recipe& recipe) {
     const FoamRecipe& foam = *recipe.foam;
     if (!entry("foam", "modulus")) {
         if (!entry("foam", "law") || recipe.material) return;
-        return refuse(0,
-                      fmt::format("{}: nothing follows it; accepted: [material] with it, or foam.modulus / "
-                                  "--modulus",
-                                  where("foam", "law")));
+        return refuse(0, fmt::format("{}: has no effect without a material; accepted: [material] as well, or "
+                                     "foam.modulus / --modulus",
+                                     where("foam", "law")));
     }
     const std::string member = member_of(foam);
     const bool closed = entry("foam", "wall") && member == "beam";
     const bool has_cell = entry("foam", "cell") != nullptr, has_member = entry("foam", member) != nullptr;
     if (has_cell && has_member) {
-        refuse(0, fmt::format("{}: cells and members decide how stiff the foam is; accepted: {}",
-                              where("foam", "modulus"),
-                              foam.kind == "closed" ? "without foam.cell"
-                                                    : "foam.cell or foam." + member + ", one of them"));
+        refuse(
+            0,
+            fmt::format(
+                "{}: conflicts with the given cells and members, which determine the modulus; accepted: {}",
+                where("foam", "modulus"),
+                foam.kind == "closed" ? "foam.modulus without foam.cell"
+                                      : "foam.modulus with foam.cell or foam." + member + ", not both"));
     } else if (!has_cell && !has_member) {
-        refuse(0, fmt::format("{}: it decides cells or members, and neither is given; accepted: foam.{} / "
-                              "--{} with it{}",
+        refuse(0, fmt::format("{}: determines cells or members from the other one, and neither is given; "
+                              "accepted: foam.{} / --{} as well{}",
                               where("foam", "modulus"), member, member,
                               foam.kind == "closed" ? "" : ", or foam.cell / --cell"));
     } else if (foam.kind == "closed" && (has_cell || !closed)) {
-        refuse(0, fmt::format("{}: of closed cells it decides how large they are; accepted: foam.beam and "
-                              "foam.wall with it, and no foam.cell",
+        refuse(0, fmt::format("{}: determines the size of closed cells from their beams and walls; accepted: "
+                              "foam.beam and foam.wall as well, and no foam.cell",
                               where("foam", "modulus")));
     }
     if (constant(foam.stretch) != dvec3(1)) {
-        refuse(0, fmt::format("{}: no law is known of stretched cells; accepted: foam.modulus without it",
-                              where("foam", "stretch")));
+        refuse(
+            0,
+            fmt::format(
+                "{}: there is no stiffness law for stretched cells; accepted: foam.modulus without a stretch",
+                where("foam", "stretch")));
     }
     if (recipe.material && has_modulus(*recipe.material)) return;
-    refuse(0, fmt::format("{}: what of? accepted: material.name / --material or material.young / --young "
-                          "with it",
-                          where("foam", "modulus")));
+    refuse(
+        0,
+        fmt::format(
+            "{}: needs a material; accepted: material.name / --material or material.young / --young as well",
+            where("foam", "modulus")));
 }
 
-/// Rules between the keys of a material.
+/// Checks the keys of a material against each other.
 void RecipeDraft::check_material(const Recipe& recipe) {
     const MaterialRecipe& material = *recipe.material;
     const auto refuse_idle = [&](const char* key, const char* wanted) {
         if (!entry("material", key)) return;
-        refuse(0,
-               fmt::format("{}: nothing follows it; accepted: {} with it", where("material", key), wanted));
+        refuse(0, fmt::format("{0}: has no effect without {1}; accepted: {1} as well", where("material", key),
+                              wanted));
     };
     if (material.name.empty()) refuse_idle("table", "material.name / --material");
     if (!recipe.foam) refuse_idle("tests", "[foam]");
@@ -127,11 +135,12 @@ void RecipeDraft::check_frame(const Recipe& recipe) {
     const bool follows =
         recipe.foam && std::find(with_faces.begin(), with_faces.end(), recipe.foam->kind) != with_faces.end();
     if (!follows) {
-        refuse(0, fmt::format("{}: a frame follows the faces of a foam's cells, and {}; accepted: foam.kind "
-                              "{} with it",
-                              where("frame", "beam"),
-                              recipe.foam ? "kind " + recipe.foam->kind + " has none" : "there is no foam",
-                              fmt::join(with_faces, ", ")));
+        refuse(0,
+               fmt::format(
+                   "{}: a frame needs a foam whose cells have faces, and {}; accepted: foam.kind = one of {}",
+                   where("frame", "beam"),
+                   recipe.foam ? "kind " + recipe.foam->kind + " has none" : "there is no foam",
+                   fmt::join(with_faces, ", ")));
     }
     check_limits("frame", "beam", frame.beam, frame.beam_min, frame.beam_max);
 }
@@ -139,46 +148,50 @@ void RecipeDraft::check_frame(const Recipe& recipe) {
 void RecipeDraft::check_output(const OutputRecipe& output) {
     if (output.beams.empty()) {
         if (output.beams_box.empty()) return;
-        return refuse(0, fmt::format("{}: there is no file for the beams in it; accepted: output.beams / "
-                                     "--output-beams with it",
+        return refuse(0, fmt::format("{}: has no effect without a file for the beams; accepted: output.beams "
+                                     "/ --output-beams as well",
                                      where("output", "beams_box")));
     }
     if (!output.beams.ends_with(".3mf")) {
-        refuse(0, fmt::format("{}: \"{}\" is no 3MF file's name; accepted: a path that ends in .3mf",
+        refuse(0, fmt::format("{}: \"{}\" does not end in .3mf; accepted: the path of a 3MF file",
                               where("output", "beams"), output.beams));
     }
     if (!output.beams_box.empty() && box_of(output.beams_box).empty()) {
-        refuse(0, fmt::format("{}: a lower corner lies above the upper one; accepted: the lower corner first",
+        refuse(0, fmt::format("{}: a coordinate of the first corner is above that of the second; accepted: "
+                              "the lower corner first",
                               where("output", "beams_box")));
     }
 }
 
-/// Rules between the sizes of a scaffold, whether a recipe gives them or the printer's profile.
+/// Checks the sizes of a scaffold, from the recipe or the printer's profile.
 void RecipeDraft::check_support(const PrinterProfile& printer) {
     const SupportProfile& s = printer.support;
     const auto at_most = [&](const char* key, double size, const char* other, double most, const char* why) {
         if (size <= most) return;
-        refuse(0, fmt::format("{}: {} mm {} support.{}, {} mm; accepted: at most that", where("support", key),
-                              size, why, other, most));
+        refuse(0, fmt::format("{0}: {1} mm {2} support.{3}, {4} mm; accepted: at most {4} mm",
+                              where("support", key), size, why, other, most));
     };
     at_most("tip", s.tip, "pillar", s.pillar, "is wider than");
     at_most("pillar", s.pillar, "foot", s.foot, "is wider than");
     at_most("gap", s.gap, "connector", s.connector, "leaves nothing of");
     if (s.connector >= s.longest_connector) {
-        refuse(0, fmt::format("{}: {} mm is not less than support.longest_connector, {} mm; accepted: less",
-                              where("support", "connector"), s.connector, s.longest_connector));
+        refuse(
+            0,
+            fmt::format(
+                "{0}: {1} mm is not less than support.longest_connector, {2} mm; accepted: less than {2} mm",
+                where("support", "connector"), s.connector, s.longest_connector));
     }
     at_most("bar_width", s.bar_width, "bridge", s.bridge, "is more than");
     const double wall = s.wall > 0 ? s.wall : printer.filament.line_width;
     if (!s.round_pillars && wall >= s.pillar) {
         refuse(0,
-               fmt::format("{}: {} mm{} leaves no cross of support.pillar, {} mm; accepted: less than "
-                           "that, or support.round_pillars = true",
+               fmt::format("{0}: {1} mm{2} is too thick for crosses with arms of support.pillar, {3} mm; "
+                           "accepted: less than {3} mm, or support.round_pillars = true",
                            where("support", "wall"), wall, s.wall > 0 ? "" : " (a line's width)", s.pillar));
     }
 }
 
-/// The scripts of a G-code file, whether a recipe has them or the printer's profile.
+/// Checks the scripts of a G-code file, from the recipe or the printer's profile.
 void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     for (const auto& [key, script] :
          {std::pair("start_script", &gcode.start_script), std::pair("layer_script", &gcode.layer_script),
@@ -188,49 +201,58 @@ void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     }
 }
 
-/// A skin with windows or holes lies inside.
+/// Checks that a skin with windows or holes lies inside the surface.
 void RecipeDraft::check_cut_skin(const Recipe& recipe) {
     const SkinRecipe& skin = *recipe.skin;
     if (skin.side == SkinSide::inside) return;
     if (skin.pattern == "closed" && recipe.holes.empty() && skin.drains == 0) return;
-    refuse(0, fmt::format("{}: a skin with windows, holes or drains lies inside the body; accepted: inside",
-                          where("skin", "side")));
+    refuse(
+        0,
+        fmt::format(
+            "{}: a skin with windows, holes or drains must lie inside the body's surface; accepted: inside",
+            where("skin", "side")));
 }
 
-/// Rules between drains, their keys and the foam.
+/// Checks drains against their keys and the foam.
 void RecipeDraft::check_drains(const Recipe& recipe) {
     if (recipe.skin->drains == 0) {
         for (const char* key : {"drain_radius", "drain_pitch"}) {
             if (!entry("skin", key)) continue;
-            refuse(0, fmt::format("{}: there are no drains; accepted: skin.drains / --drains with it",
-                                  where("skin", key)));
+            refuse(0,
+                   fmt::format("{}: has no effect without drains; accepted: skin.drains / --drains as well",
+                               where("skin", key)));
         }
     } else if (recipe.foam && recipe.foam->kind == "closed" && !recipe.foam->window.is_formula() &&
                recipe.foam->window.number() == 0) {
-        refuse(0, fmt::format("{}: each cell of a closed foam is a cavity of its own, too many to drain; "
-                              "accepted: a foam of open cells, foam.window / --window above 0, or no drains",
+        refuse(0, fmt::format("{}: each cell of a closed foam is a separate cavity, too many to drain; "
+                              "accepted: an open-cell foam, foam.window / --window above 0, or no drains",
                               where("skin", "drains")));
     }
 }
 
-/// Rules between cavities, the shield and what they go together with.
+/// Checks cavities and the shield against the settings that they depend on.
 void RecipeDraft::check_enclosures(const Recipe& recipe) {
     if (recipe.cavity && (recipe.foam || recipe.skin)) {
-        refuse(0, fmt::format("{}: a part with {} is hollow already; accepted: cavities in a solid part",
-                              where("cavity", "wall"), recipe.foam ? "foam" : "a skin"));
+        refuse(
+            0,
+            fmt::format(
+                "{}: a part with {} cannot have cavities; accepted: a solid part, without [foam] and [skin]",
+                where("cavity", "wall"), recipe.foam ? "foam" : "a skin"));
     }
     if (recipe.shield && cuts_sheets(recipe.printer)) {
-        refuse(0, fmt::format("{}: a shield is not cut out of sheets; accepted: another kind of printer",
-                              where("shield", "gap")));
+        refuse(0,
+               fmt::format(
+                   "{}: a printer that cuts sheets cannot make a shield; accepted: another kind of printer",
+                   where("shield", "gap")));
     }
 }
 
-/// Rules between the sizes of the part's shape, or of a field's.
+/// Checks the sizes of the part's shape, or of a field's.
 template <typename Sizes>
 void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Sizes& sizes) {
     if (shape == "capsule" && sizes.height < 2 * sizes.radius) {
         refuse(0, fmt::format(
-                      "{}: {} mm is less than the two round ends of radius {} mm; accepted: {} mm or more",
+                      "{}: {} mm is too short for two round ends of radius {} mm; accepted: {} mm or more",
                       where(of.section, "height", of.entry), sizes.height, sizes.radius, 2 * sizes.radius));
     }
     if (shape == "torus" && sizes.tube >= sizes.radius) {
@@ -240,7 +262,7 @@ void RecipeDraft::check_shape(const Part& of, const std::string& shape, const Si
     }
 }
 
-/// Rules between numbers that are each fine on their own.
+/// Checks numbers that are valid alone against each other.
 void RecipeDraft::check_numbers(const Recipe& recipe) {
     const PartRecipe& part = recipe.part;
     if (recipe.foam) check_foam(*recipe.foam);
@@ -252,23 +274,24 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     check_scripts(recipe.printer.gcode);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {
-        refuse(0, fmt::format("{}: supports are not cut out of sheets; accepted: none, or another "
-                              "kind of printer, such as svg without kerf, "
-                              "laser, ties, numbers, next_outline and sheet",
-                              where("support", "kind")));
+        refuse(0, fmt::format(
+                      "{}: a printer that cuts sheets cannot make supports; accepted: none, or another kind "
+                      "of printer, such as svg without kerf, laser, ties, numbers, next_outline and sheet",
+                      where("support", "kind")));
     }
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
         check_drains(recipe);
         check_cut_skin(recipe);
     } else if (!recipe.holes.empty()) {
-        refuse(0, fmt::format("{}: there is no skin to drill; accepted: [skin] with a thickness above 0",
+        refuse(0, fmt::format("{}: holes are drilled through a skin, and there is none; accepted: [skin] "
+                              "with a thickness above 0",
                               recipe.holes.front().where));
     }
     if (const Entry* layers = entry("process", "elephant_foot_layers");
         layers && recipe.process->elephant_foot == 0) {
-        refuse(0, fmt::format("{}: no layer is drawn in; accepted: process.elephant_foot / --elephant-foot "
-                              "above 0 with it",
+        refuse(0, fmt::format("{}: has no effect while process.elephant_foot is 0; accepted: "
+                              "process.elephant_foot / --elephant-foot above 0",
                               layers->where));
     }
     check_shape({"part", 0}, choice_names(part.shape)[static_cast<std::size_t>(part.shape)], part);

@@ -1,4 +1,4 @@
-// Reading a recipe file: TOML into a RecipeDraft, with a line for every mistake.
+// Reads TOML into a RecipeDraft; every mistake is reported with its line.
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
@@ -33,7 +33,7 @@ std::string read_whole(const std::string& path, const char* kind) {
     text.resize(static_cast<std::size_t>(file.gcount()));
     if (text.size() > largest_file) {
         throw InputError(
-            fmt::format("{}: has more than {} bytes, which no {} needs", path, largest_file, kind));
+            fmt::format("{}: has more than {} bytes, the limit for a {}", path, largest_file, kind));
     }
     return text;
 }
@@ -93,7 +93,7 @@ std::optional<Value> graded_triple(const toml::node& node) {
     return triple;
 }
 
-/// Appends the numbers of an array, also of arrays in it; whether there was nothing else.
+/// Appends the numbers of an array and of nested arrays. Returns true if it contains nothing else.
 bool flatten(const toml::node& node, std::vector<double>& out, int depth = 0) {
     if (const auto one = number(node)) {
         out.push_back(*one);
@@ -109,7 +109,7 @@ std::optional<Value> rows(const toml::node& node, const RowShape& shape) {
     const auto* array = node.as_array();
     if (!array) return std::nullopt;
     NumberRows rows;
-    if (shape.rows == 1) {  // the only row needs no brackets of its own
+    if (shape.rows == 1) {  // a single row needs no inner brackets
         if (!flatten(node, rows.emplace_back())) return std::nullopt;
         return rows;
     }
@@ -119,7 +119,7 @@ std::optional<Value> rows(const toml::node& node, const RowShape& shape) {
     return rows;
 }
 
-/// Lines with line feeds between them, whatever ends them in the recipe.
+/// Joins lines by line feeds, whatever line ending the recipe uses.
 std::optional<Value> lines(const toml::node& node) {
     std::string text;
     if (const auto* whole = node.as_string()) {
@@ -139,7 +139,7 @@ std::optional<Value> lines(const toml::node& node) {
     return text;
 }
 
-/// The node as a value of the setting's type; nothing when it has another type.
+/// Returns the node as a value of the setting's type; nothing when its type differs.
 std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
     switch (setting.type) {
         case ValueType::boolean:
@@ -183,7 +183,7 @@ toml::table parse(std::string_view text, const std::string& path) {
     }
 }
 
-/// Keys are the user's text: cut to a length that a message can bear.
+/// Keys are user input: truncated for messages.
 std::string shown(std::string_view key) {
     std::string text;
     for (const char c : key.substr(0, 64))
@@ -193,7 +193,7 @@ std::string shown(std::string_view key) {
 
 }  // namespace
 
-/// Walks a parsed recipe and hands what it finds to a draft.
+/// Walks a parsed recipe and passes assignments to a draft.
 class TomlRecipe {
   public:
     TomlRecipe(RecipeDraft& draft, const std::string& path) : draft_(draft), path_(path) {}
@@ -240,7 +240,7 @@ class TomlRecipe {
     }
 
   private:
-    /// What is wrong with a key that stands where a profile has its sections.
+    /// Describes the mistake of a key that stands outside the sections of a profile.
     static std::string misplaced_in_profile(const std::string& name) {
         for (const char* section : profile_sections) {
             if (find_setting(section, name))
@@ -249,11 +249,11 @@ class TomlRecipe {
         std::vector<std::string> known{"description", "based_on"};
         known.insert(known.end(), profile_sections.begin(), profile_sections.end());
         const std::string near = nearest(name, known);
-        return "does not belong into a machine profile" +
+        return "is not a key of a machine profile" +
                (near.empty() ? "" : fmt::format(", did you mean `{}`?", near));
     }
 
-    /// A line of text above the sections of a profile.
+    /// Reads a text key above the sections of a profile.
     void read_text(int line, const std::string& key, const toml::node& node, std::string& text) {
         const auto* given = node.as_string();
         const bool fine = given && !given->get().empty() && given->get().size() <= 1024 &&
@@ -276,7 +276,7 @@ class TomlRecipe {
         draft_.refuse(line, fmt::format("{}: {}; accepted: {}", at(line, what), wrong, right));
     }
 
-    /// ", it belongs to [foam]" when another section has the key.
+    /// Returns ", it belongs to [foam]" when another section has the key.
     static std::string belongs(const std::string& key) {
         for (const Setting& setting : settings()) {
             if (setting.key == key) {
@@ -286,7 +286,7 @@ class TomlRecipe {
         return "";
     }
 
-    /// ", it is `height` of [layers]" when the key is written like an option of the command.
+    /// Returns ", it is `height` of [layers]" when the key is written like an option of the command.
     static std::string is_option(const std::string& key) {
         std::string flag = "--" + key;
         std::ranges::replace(flag, '_', '-');
@@ -324,7 +324,7 @@ class TomlRecipe {
         }
     }
 
-    /// The keys of a section, or of one entry of a list section.
+    /// Reads the keys of a section, or of one entry of a list section.
     void read_table(const std::string& section, std::size_t number, int line, const toml::table& table) {
         draft_.sections_[{section, number}] = at(line, section);
         for (const auto& [key, child] : table) {
@@ -338,11 +338,12 @@ class TomlRecipe {
         const Setting* setting = find_setting(section, key);
         if (!setting) return refuse_key(section, number, key, line);
         if (in_profile_ && setting->name() == "printer.profile") {
-            return refuse(line, setting->name(), "a recipe has it, a profile does not",
+            return refuse(line, setting->name(), "belongs in a recipe, not in a profile",
                           "based_on, above the sections");
         }
         if (in_profile_ && setting->name() == "support.kind") {
-            return refuse(line, setting->name(), "recipes ask for supports, profiles shape them",
+            return refuse(line, setting->name(),
+                          "belongs in a recipe: a profile only sets dimensions of supports",
                           "the other keys of [support]");
         }
         const std::string where = at(line, setting->name());
@@ -366,11 +367,11 @@ class TomlRecipe {
                                  : near.empty()  ? belongs(key)
                                                  : fmt::format(", did you mean `{}`?", near);
         refuse(line, section + "." + shown(key), "unknown key" + hint, listing);
-        // The key that was meant is not missing as well: one mistake, one message.
+        // The intended key is not also reported as missing: one mistake, one message.
         if (!near.empty()) draft_.entries_.try_emplace({section, number, near});
     }
 
-    /// Paths in a recipe start at the recipe's folder.
+    /// Resolves a path relative to the recipe's folder.
     Value located(const Setting& setting, const Value& value) const {
         const bool is_file =
             setting.name() == "printer.profile" && names_profile_file(std::get<std::string>(value));

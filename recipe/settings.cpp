@@ -1,4 +1,4 @@
-// Reading, checking and describing values by the settings table.
+// Parses, checks and describes values by the settings table.
 #include "recipe/settings.h"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ std::optional<std::string> text_objection(const std::string& text, std::size_t l
 
 /// Lines are printable ASCII: machines take no other bytes.
 std::optional<std::string> lines_objection(const std::string& text) {
-    if (text.find_first_not_of('\n') == std::string::npos) return "there is no line";
+    if (text.find_first_not_of('\n') == std::string::npos) return "it has no line";
     if (text.size() > longest_script) return fmt::format("it has more than {} bytes", longest_script);
     int line = 1;
     for (const char c : text) {
@@ -61,7 +61,7 @@ std::optional<std::string> lines_objection(const std::string& text) {
     return std::nullopt;
 }
 
-/// Formulas may be parted into lines.
+/// Formulas may span several lines.
 std::optional<std::string> formula_objection(std::string text) {
     const auto white = [](char c) { return c == '\n' || c == '\r' || c == '\t'; };
     std::replace_if(text.begin(), text.end(), white, ' ');
@@ -79,11 +79,12 @@ std::optional<std::string> rows_objection(const Setting& setting, const NumberRo
     if (rows.empty()) return "it is empty";
     if (rows.size() > max_rows) return fmt::format("it has more than {} rows", max_rows);
     if (shape.rows != 0 && rows.size() != shape.rows) {
-        return fmt::format("{} were found where {} belong", rows.size(), shape.rows);
+        return fmt::format("the number of rows is {} instead of {}", rows.size(), shape.rows);
     }
     for (const auto& row : rows) {
         if (row.size() != shape.columns) {
-            return fmt::format("{} numbers were found where {} belong together", row.size(), shape.columns);
+            return fmt::format("the number of values in a row is {} instead of {}", row.size(),
+                               shape.columns);
         }
         for (const double v : row) {
             if (auto wrong = range_objection(setting, v)) return wrong;
@@ -107,7 +108,7 @@ std::optional<T> entire(std::string_view text) {
     return number;
 }
 
-/// A number where the text is one, otherwise a formula.
+/// Returns a number if the text is one, otherwise a formula.
 GradedNumber parse_graded(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(' ');
     const std::size_t end = text.find_last_not_of(' ');
@@ -117,7 +118,7 @@ GradedNumber parse_graded(std::string_view text) {
     return {std::string(text), ""};
 }
 
-/// Three with commas between them; commas within brackets belong to a formula.
+/// Parses three separated by commas; commas within brackets belong to a formula.
 std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
     GradedTriple triple;
     std::size_t count = 0, begin = 0;
@@ -133,7 +134,7 @@ std::optional<GradedTriple> parse_graded_triple(std::string_view text) {
     return triple;
 }
 
-/// Rows with semicolons between them.
+/// Parses rows separated by semicolons.
 std::optional<NumberRows> parse_rows(std::string_view text, std::size_t columns) {
     NumberRows rows;
     while (rows.size() <= max_rows) {
@@ -357,7 +358,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 
 namespace {
 
-/// Text in a cell of a Markdown table.
+/// Escapes text for a cell of a Markdown table.
 std::string table_cell(const std::string& text) {
     std::string cell;
     for (const char c : text) {

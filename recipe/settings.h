@@ -1,4 +1,4 @@
-// The settings table: every key of a recipe and every recipe flag of the command, described once.
+// The settings table: every recipe key and every recipe flag of the command, described once.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace lamella {
 
-/// A setting's value as it stands in a recipe or on the command line. Choices and paths are text.
+/// A setting's value from a recipe or the command line. Choices and paths are text.
 using Value =
     std::variant<bool, std::int64_t, double, std::string, dvec3, GradedNumber, GradedTriple, NumberRows>;
 
@@ -24,21 +24,22 @@ enum class ValueType : unsigned char {
     integer,
     number,
     text,
-    lines,  ///< one or more lines of text: in a recipe a text of several lines or a list of texts
-    path,   ///< of a file: in a recipe it starts at the recipe's folder; an input's bytes count
+    lines,  ///< one or more lines of text: in a recipe a multi-line text or a list of texts
+    path,   ///< path of a file, relative to the recipe's folder; of an input, the bytes count for the
+            ///< identity
     choice,
     triple,
     graded,         ///< a number, or a formula over place, depth and gradings
     graded_triple,  ///< three of them
-    formula,        ///< a formula only
+    formula,        ///< a formula, not a number
     rows            ///< rows of numbers; see RowShape
 };
 
-/// How many numbers a row holds and how many rows there are, for settings that are rows.
+/// The shape of settings that are rows of numbers.
 struct RowShape {
     std::size_t columns = 0;
     std::size_t rows = 0;   ///< 0: one or more
-    const char* form = "";  ///< "points [[x, y, z], ...]", for people
+    const char* form = "";  ///< description for messages: "points [[x, y, z], ...]"
 };
 
 /// The numbers that a setting accepts; for triples and rows, each of them.
@@ -48,19 +49,19 @@ struct Limits {
 };
 
 /// One row of the table. TOML reading, command-line options, help, the key listing and the job's identity are
-/// all made from it.
+/// generated from it.
 struct Setting {
     std::string section;
     std::string key;
-    std::string flag;  ///< long option of the command, with its dashes; empty in list sections
+    std::string flag;  ///< long option of the command, with dashes; empty in list sections
     ValueType type;
-    std::string unit;  ///< "mm", "px" and so on; empty where there is none
+    std::string unit;  ///< "mm", "px" and so on; empty for none
     Limits limits;
     std::vector<std::string> choices;  ///< accepted words of a choice
     RowShape shape;
-    std::string fallback;  ///< what holds when the setting is absent, for people
+    std::string fallback;  ///< the default, as text for people
     std::string help;      ///< one sentence
-    /// The second argument counts the entries of a list section, which grows as needed; other sections
+    /// The second argument is the index of an entry of a list section, which grows as needed; other sections
     /// ignore it.
     void (*store)(Recipe&, std::size_t, const Value&);
     Value (*load)(const Recipe&, std::size_t);
@@ -68,14 +69,24 @@ struct Setting {
     std::string name() const { return section + "." + key; }
 };
 
-/// All settings, ordered by section.
+/// Returns all settings, ordered by section.
+/// ```
+///     const Setting* cell = find_setting("foam", "cell");
+///     std::string wrong;
+///     if (const auto value = parse_value(*cell, "2.5 + 0.1*z", wrong)) {
+///         Recipe recipe;
+///         cell->store(recipe, 0, *value);
+///     } else {
+///         throw InputError(cell->flag + ": " + wrong + "; accepted: " + accepted(*cell));
+///     }
+/// ```
 std::span<const Setting> settings();
 
 /// A section of the recipe, in the table's order.
 struct Section {
     std::string name;
     std::string help;
-    /// How many entries a list section ([[name]], as often as wanted) has; null for plain sections.
+    /// Returns the number of entries of a list section ([[name]], repeatable); null for plain sections.
     std::size_t (*entries)(const Recipe&) = nullptr;
     bool decides_layers = true;  ///< whether its keys are part of the job's identity
 
@@ -88,38 +99,38 @@ std::span<const Section> sections();
 /// The sections that a machine's profile may have.
 inline constexpr std::array<const char*, 3> profile_sections{"printer", "support", "check"};
 
-/// The section of that name, null when there is none.
+/// Returns the section of that name; null when there is none.
 const Section* find_section(std::string_view name);
 
-/// "[part], [foam], ...": all sections, for messages.
+/// Returns "[part], [foam], ...": all sections, for messages.
 std::string section_titles();
 
-/// The row of a key, null when there is none.
+/// Returns the setting of a key; null when there is none.
 const Setting* find_setting(std::string_view section, std::string_view key);
 
-/// "a number from 0.05 to 1000 mm": what a setting accepts, for messages and help.
+/// Returns what a setting accepts, for messages and help: "a number from 0.05 to 1000 mm".
 std::string accepted(const Setting& setting);
 
-/// What is wrong with a value of the setting's type ("3000 is too large"); nothing when it is fine.
+/// Returns why a value of the setting's type is not accepted ("3000 is too large"); nothing when it is.
 std::optional<std::string> objection(const Setting& setting, const Value& value);
 
-/// Reads a value from the text of a flag; `wrong` receives what is wrong with it when nothing is returned.
+/// Parses a value from the text of a flag. Returns nothing on a mistake, and its description in `wrong`.
 std::optional<Value> parse_value(const Setting& setting, const std::string& text, std::string& wrong);
 
-/// The value as a flag would be given it; numbers in their shortest exact form. parse_value reads it back.
+/// Returns a value as text for a flag, with numbers in their shortest exact form. parse_value reads it back.
 std::string format_value(const Value& value);
 
-/// Exactly `count` numbers with commas between them; nothing when the text is anything else. The numbers may
-/// be infinite or NaN.
+/// Parses exactly `count` numbers separated by commas; returns nothing for any other text. The numbers may be
+/// infinite or NaN.
 std::optional<std::vector<double>> parse_numbers(std::string_view text, std::size_t count);
 
-/// The candidate that a misspelt word most likely means; empty when none is near.
+/// Returns the candidate nearest to a misspelt word; empty when none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Returns the reference of all keys, or of one section's: a paragraph a section, two lines a key with its
-/// meaning, range, default and flag. Throws InputError where there is no such section.
+/// Returns the reference of all keys, or of one section's: a paragraph for each section, two lines for each
+/// key with its meaning, range, default and flag. Throws InputError where there is no such section.
 std::string settings_reference(std::string_view only_section = {});
-/// Returns the same as a Markdown page, a table a section.
+/// Returns the reference as a Markdown page, a table for each section.
 std::string settings_markdown();
 
 }  // namespace lamella

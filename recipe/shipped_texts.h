@@ -1,13 +1,13 @@
-// Tables that ship with the program, as the text of their files; made when the program is built.
+// Built-in tables, as the text of their files; the source is generated at build time.
 #pragma once
 
 #include <string_view>
 
 namespace lamella {
 
-/// materials/materials.toml.
+/// Returns the text of materials/materials.toml.
 std::string_view shipped_materials();
-/// materials/foam_laws.csv.
+/// Returns the text of materials/foam_laws.csv.
 std::string_view shipped_foam_laws();
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// `lamella check`: whether a part can be made by a machine's process, and where it cannot.
+// `lamella check`: checks a part against the limits of a machine's process.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +25,7 @@ struct CheckCommand : JobOptions {
     bool json = false;
 };
 
-/// Of one part, which the check is of.
+/// A recipe with a single part, to which the check applies.
 Recipe recipe_of(const CheckCommand& options) {
     Recipe recipe = options.recipe.read();
     recipe.plate.copies = 1;
@@ -48,17 +48,17 @@ CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, con
     return checking.outcomes().front();
 }
 
-/// `ranks`: the processes that share the layers; null where there is this one alone.
+/// Checks the layers; `ranks`: the processes that share them, null for a single process.
 std::string run(const CheckCommand& options, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = recipe_of(options);
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
-    // Files that cannot be made are told of before anything is looked at.
+    // Output files are opened first, so that errors appear before the long work.
     if (!options.page.empty() && options.page == options.output)
         throw InputError("--report: " + options.page +
-                         " is the file of --output, too; accepted: another one for each");
+                         " is also the file of --output; accepted: a different file for each");
     TextOutput table(options.output);
     std::optional<TextOutput> page;
     if (!options.page.empty()) page.emplace(options.page);
@@ -72,7 +72,7 @@ std::string run(const CheckCommand& options, Ranks* ranks) {
     return outcome.report.passed() ? "" : failure_text(outcome);
 }
 
-/// What a process does that is not the first of several.
+/// The work of ranks other than 0.
 void run_worker(const CheckCommand& given, Ranks& ranks) {
     CheckCommand options = given;
     options.quiet = true;
@@ -91,25 +91,22 @@ void run_worker(const CheckCommand& given, Ranks& ranks) {
 void add_check_command(CLI::App& root) {
     auto options = std::make_shared<CheckCommand>();
     CLI::App& command = *root.add_subcommand(
-        "check", "See whether a part can be printed: too thin, loose, in the air, closed off, too large");
+        "check",
+        "Check whether a part can be printed: thin walls, loose pieces, overhangs, closed voids, size");
     options->recipe.add_to(command);
-    command.add_option("-o,--output", options->output, "File for the table; default: standard output")
+    command.add_option("-o,--output", options->output, "File for the report; default: standard output")
         ->type_name("FILE");
-    command.add_flag("--json", options->json, "All that was found, as JSON");
-    command
-        .add_option("--report", options->page,
-                    "HTML file with a picture of every fault that is told of, for any browser")
+    command.add_flag("--json", options->json, "Write the whole report as JSON");
+    command.add_option("--report", options->page, "HTML file with a picture of every reported fault")
         ->type_name("FILE");
     add_survey_options(command, *options);
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(
         command,
-        "  lamella check model.stl --printer prusa-mk4 --layer-height 0.2\n"
-        "  lamella check insole.toml --report insole.html\n"
-        "  lamella check figure.stl --support bridges --printer marlin --check-bridges warn\n"
-        "  mpirun -n 4 lamella check insole.toml\n"
-        "What is asked for depends on the machine's process; `lamella keys` lists it under [check].\n"
-        "Exit code 1 when something fails; warnings alone are 0.");
+        "  lamella check model.stl --printer prusa-mk4 --layer-height 0.2\n  lamella check insole.toml "
+        "--report insole.html\n  lamella check figure.stl --support bridges --printer marlin --check-bridges "
+        "warn\n  mpirun -n 4 lamella check insole.toml\nLimits depend on the machine's process; `lamella "
+        "keys check` lists them.\nExit code 1 when something fails; warnings alone are 0.");
     command.callback([options] {
         run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
                      [&](Ranks& ranks) { run_worker(*options, ranks); });

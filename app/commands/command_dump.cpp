@@ -1,4 +1,4 @@
-// `lamella dump`: the foam itself, seeds or beams in a box, as lines of numbers.
+// `lamella dump`: prints the foam's seeds or beams in a box as lines of numbers.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -29,8 +29,9 @@ struct DumpOptions {
 Box parse_box(const std::string& text) {
     const auto numbers = parse_numbers(text, 6);
     const auto refuse = [&](const std::string& wrong) {
-        throw InputError("--box: " + wrong +
-                         "; accepted: x0,y0,z0,x1,y1,z1 in mm, finite, each lower corner below the upper");
+        throw InputError(
+            "--box: " + wrong +
+            "; accepted: six finite numbers x0,y0,z0,x1,y1,z1 in mm, with x0 < x1, y0 < y1 and z0 < z1");
     };
     if (!numbers) refuse("\"" + text.substr(0, 96) + "\" is not six numbers");
     for (const double v : *numbers) {
@@ -38,7 +39,7 @@ Box parse_box(const std::string& text) {
     }
     const auto& n = *numbers;
     const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-    if (box.empty()) refuse("a lower corner lies above the upper one");
+    if (box.empty()) refuse("a coordinate of the first corner is above that of the second");
     return box;
 }
 
@@ -57,9 +58,10 @@ void write_beams(const BuiltFoam& foam, const Box& box, TextOutput& out) {
 
 void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& options,
                    const std::string& name) {
-    if (options.what != "beams") throw InputError("--format: 3mf holds beams; accepted: dump beams, or csv");
+    if (options.what != "beams")
+        throw InputError("--format: 3mf files hold beams only; accepted: `dump beams`, or csv");
     if (options.output.empty() || options.output == "-") {
-        throw InputError("--output: missing; accepted: the file that 3mf is written to");
+        throw InputError("--output: missing; accepted: the path of the 3MF file to write");
     }
     const BeamLatticeReport report = write_beam_lattice(options.output, foam.beams_touching(box), name);
     std::fputs((lattice_text(options.output, report) + "\n").c_str(), stderr);
@@ -69,11 +71,14 @@ void run(const DumpOptions& options) {
     const Recipe recipe = options.recipe.read(false);
     note_unused(options.recipe, recipe);
     if (!recipe.foam)
-        throw InputError("foam: there is none; accepted: --cell and --beam, or a recipe with [foam]");
+        throw InputError(
+            "foam: the recipe has no foam; accepted: --cell and --beam, or a recipe with [foam]");
     const bool has_body =
         !recipe.part.mesh.empty() || !recipe.part.field.empty() || recipe.part.shape != Shape::none;
     if (options.box.empty() && !has_body)
-        throw InputError("--box: missing; accepted: x0,y0,z0,x1,y1,z1 in mm, or a part");
+        throw InputError(
+            "--box: missing, since there is no part; accepted: x0,y0,z0,x1,y1,z1 in mm, or a recipe with a "
+            "part");
     std::optional<Box> box;
     if (!options.box.empty()) box = parse_box(options.box);
     BuiltFoam foam;
@@ -100,7 +105,8 @@ void run(const DumpOptions& options) {
 
 void add_dump_command(CLI::App& root) {
     auto options = std::make_shared<DumpOptions>();
-    CLI::App& command = *root.add_subcommand("dump", "Write the foam's seeds or beams that touch a box");
+    CLI::App& command =
+        *root.add_subcommand("dump", "Write the foam's seeds in a box or the beams that touch it");
     command.add_option("WHAT", options->what, "seeds (x,y,z) or beams (x0,y0,z0,r0,x1,y1,z1,r1), mm")
         ->required()
         ->check(CLI::IsMember({"seeds", "beams"}))
@@ -110,11 +116,11 @@ void add_dump_command(CLI::App& root) {
         ->type_name("x0,y0,z0,x1,y1,z1");
     command
         .add_option("--format", options->format,
-                    "csv: numbers that read back exactly, a line each; 3mf: beams as a beam lattice")
+                    "csv: one line each, with numbers that read back exactly; 3mf: beams as a beam lattice")
         ->check(CLI::IsMember({"csv", "3mf"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
-    command.add_flag("--header", options->header, "Names of the columns in the first line");
+    command.add_flag("--header", options->header, "Write the names of the columns in the first line");
     finish_command(command,
                    "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
                    "  lamella dump beams insole.toml --format 3mf -o foam.3mf\n"

@@ -1,4 +1,4 @@
-// `lamella extract`: the masks of a printer's job as a folder of PNG files.
+// `lamella extract`: writes the masks of a print job as a folder of PNG files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -43,13 +43,13 @@ std::vector<std::byte> encode(const MaskImage& mask, const JobFacts& facts) {
     return encode_png({mask.width, mask.height, facts.pixel_x.value_or(0), facts.pixel_y.value_or(0)}, runs);
 }
 
-/// By the greys, mm^2; 0 where the size of a pixel is not known.
+/// Returns the area by grey values, mm^2; 0 when the pixel size is unknown.
 double covered_area(const MaskImage& mask, const JobFacts& facts) {
     const double pixels = std::accumulate(mask.pixels.begin(), mask.pixels.end(), 0.0) / 255;
     return pixels * facts.pixel_x.value_or(0) * facts.pixel_y.value_or(0);
 }
 
-/// A job.json as that of a stack, with what the file told of itself.
+/// Makes a job.json like that of a PNG stack, with the facts of the file.
 Json describe(const ExtractOptions& options, const JobFacts& facts, LayerRange range) {
     Json json{{"format", "lamella-layers"},
               {"version", 1},
@@ -115,19 +115,19 @@ void run(const ExtractOptions& options) {
 void add_extract_command(CLI::App& root) {
     auto options = std::make_shared<ExtractOptions>();
     CLI::App& command =
-        *root.add_subcommand("extract", "Write the masks of a printer's job as PNG files with a job.json");
+        *root.add_subcommand("extract", "Write the masks of a print job as PNG files with a job.json");
     command
         .add_option("JOB", options->job,
                     "SL1, GOO or NanoDLP file, Ember tar.gz, or folder of masks with a job.json")
         ->type_name("")
         ->required();
-    command.add_option("-o,--output", options->output, "Folder to make")->type_name("DIR")->required();
+    command.add_option("-o,--output", options->output, "Folder to write")->type_name("DIR")->required();
     command
         .add_option("--layers", options->layers,
                     "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
-    command.add_flag("--resume", options->resume, "Continue a folder that was begun and interrupted");
-    command.add_flag("--force", options->force, "Replace a folder of layers that exists");
+    command.add_flag("--resume", options->resume, "Continue an interrupted folder");
+    command.add_flag("--force", options->force, "Replace an existing folder of layers");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(command,
                    "  lamella extract insole.goo -o insole/\n"

@@ -29,7 +29,7 @@ constexpr auto common_options =
                                      "--printer-nozzle", "--printer-infill-density",
                                      "--printer-walls"});
 
-/// The section that a command is about: its help shows all keys of it.
+/// Returns the section whose keys a command's help shows in full.
 std::string own_section(const CLI::App& command) {
     if (command.get_name() == "supports") return "[support]";
     return command.get_name() == "check" ? "[check]" : "";
@@ -41,7 +41,7 @@ bool is_common(const CLI::Option& option) {
     });
 }
 
-/// Hides the recipe options that few jobs need. Returns the sections that have some, with their number.
+/// Hides rarely needed recipe options. Returns the sections with hidden options, with their number.
 std::vector<std::pair<std::string, int>> hide_uncommon(CLI::App& command) {
     std::vector<std::pair<std::string, int>> hidden;
     for (CLI::Option* option : command.get_options()) {
@@ -56,12 +56,12 @@ std::vector<std::pair<std::string, int>> hide_uncommon(CLI::App& command) {
         }
         if (hidden.empty() || hidden.back().first != section) hidden.emplace_back(section, 0);
         ++hidden.back().second;
-        option->group("");  // which hides it
+        option->group("");  // hides it
     }
     return hidden;
 }
 
-/// Takes what CLI11 says of a flag and its negation, --name{true},--no-name{false}, to --name,--no-name.
+/// Rewrites CLI11's text of a flag and its negation, --name{true},--no-name{false}, as --name,--no-name.
 std::string without_values(std::string text) {
     for (const std::string_view value : {"{true}", "{false}"}) {
         for (std::size_t at = text.find(value); at != std::string::npos; at = text.find(value, at))

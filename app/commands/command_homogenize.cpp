@@ -1,4 +1,4 @@
-// `lamella homogenize`: how stiff the foam of a recipe is.
+// `lamella homogenize`: computes the stiffness of a recipe's foam.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +37,7 @@ struct HomogenizeCommand {
     bool quiet = false;
 };
 
-/// From beams that hardly print to those that leave little void.
+/// From beams that are barely printable to those that leave little void.
 const std::vector<double> default_ratios{0.03, 0.04, 0.055, 0.075, 0.1, 0.14, 0.19, 0.26};
 
 std::vector<double> ratios_of(const std::string& text) {
@@ -47,7 +47,8 @@ std::vector<double> ratios_of(const std::string& text) {
     if (!ratios || !std::ranges::is_sorted(*ratios, std::ranges::less_equal{}) || ratios->front() < 1e-3 ||
         ratios->back() > 1)
         throw InputError("--ratios: \"" + text.substr(0, 64) +
-                         "\"; accepted: rising numbers from 0.001 to 1, with commas between them");
+                         "\" is not a list of ascending ratios; accepted: ascending numbers from 0.001 to 1, "
+                         "separated by commas");
     return *ratios;
 }
 
@@ -58,15 +59,15 @@ void draw(const HomogenizeCommand& command, const StiffnessPlot& plot) {
     out.close();
 }
 
-/// What a command comes to: the solves for one result, or for each point of a law.
+/// The plan of a command: the solves for one result, or for each point of a law.
 struct Homogenizing {
     Recipe recipe;
     StiffnessOptions options;
-    std::vector<double> ratios;  ///< of a law's points
+    std::vector<double> ratios;  ///< ratios of members to cells, one for each point of a law
     std::vector<StiffnessSolve> solves;
 };
 
-/// What cannot be made is found out before anything is computed.
+/// Makes the plan. Checks everything before the first solve. Throws InputError.
 Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel) {
     Homogenizing plan{command.recipe.read(false), command.options, {}, {}};
     const Recipe& recipe = plan.recipe;
@@ -78,7 +79,7 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
     options.cancel = &cancel;
     if (recipe.material) {
         options.material = base_material(*recipe.material).elastic;
-        if (!(options.material.young > 0)) options.material.young = 1;  // results are shares of it
+        if (!(options.material.young > 0)) options.material.young = 1;  // results are relative to it
     }
     if (options.samples == 0) options.samples = command.table ? samples_of_a_law : 1;
     check_uniform(*recipe.foam);
@@ -94,7 +95,7 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
     return plan;
 }
 
-/// Writes a law, each point as soon as it is known.
+/// Writes a law, each point as soon as it is computed.
 void write_table(const HomogenizeCommand& command, const Homogenizing& plan, DistributedSolves& solves,
                  TextOutput& out) {
     const std::string name = law_name(*plan.recipe.foam);
@@ -132,7 +133,7 @@ void write_stiffness(const HomogenizeCommand& command, const Homogenizing& plan,
                            : stiffness_text(foam, material, found));
 }
 
-/// `ranks`: the processes that share the solves; null where there is this one alone.
+/// `ranks`: the processes that share the solves; null for a single process.
 void run(const HomogenizeCommand& command, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
@@ -144,7 +145,7 @@ void run(const HomogenizeCommand& command, Ranks* ranks) {
     out.close();
 }
 
-/// What a process does that is not the first of several.
+/// The work of ranks other than 0.
 void run_worker(const HomogenizeCommand& command, Ranks& ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
@@ -157,50 +158,47 @@ void run_worker(const HomogenizeCommand& command, Ranks& ranks) {
 void add_homogenize_command(CLI::App& root) {
     auto options = std::make_shared<HomogenizeCommand>();
     options->options.samples = 0;
-    CLI::App& command =
-        *root.add_subcommand("homogenize", "Compute how stiff the foam of a recipe is, to all sides");
+    CLI::App& command = *root.add_subcommand(
+        "homogenize", "Compute the elastic stiffness of a recipe's foam by homogenisation");
     options->recipe.add_to(command);
     command
         .add_option("--rve", options->options.elements,
-                    "Elements along a side of the sample, best a multiple of 16; 0: four a beam's radius, "
-                    "as far as a million solid ones suffice")
+                    "Elements along a side of the sample, preferably a multiple of 16; 0: four per beam "
+                    "radius, up to a million solid elements")
         ->type_name("N")
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--samples", options->options.samples,
-                    "Samples of a random foam, of 64 cells or more each: their mean and how far single ones "
-                    "are from it; default 1, for a table 4")
+                    "Number of samples of a random foam, of 64 cells or more each; the result is their mean "
+                    "and deviation; default: 1, for a table 4")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
-    command.add_flag("--table", options->table,
-                     "The foam's law as a file for foam.law: its stiffness with members of many sizes");
+    command.add_flag(
+        "--table", options->table,
+        "Write the foam's law as a file for foam.law: its stiffness over a range of member sizes");
     command
         .add_option("--ratios", options->ratios,
-                    "Radii of beams (thicknesses of walls) over cells in the table; default 0.03 to 0.26")
+                    "Ratios of beam radius (wall thickness) to cell size in the table; default: 0.03 to 0.26")
         ->type_name("A,B,...");
     command
-        .add_option(
-            "--plot", options->plot,
-            "Drawing (SVG) of the modulus over the density, beside bounds and the foam's law, and of the "
-            "modulus to all sides")
+        .add_option("--plot", options->plot,
+                    "Chart (SVG) of the modulus over the density, with bounds and the foam's law, and of the "
+                    "modulus in all directions")
         ->type_name("FILE");
-    command.add_option("--threads", options->options.threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options->options.threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command.add_option("-o,--output", options->output, "File to write; default: standard output")
         ->type_name("FILE");
-    command.add_flag("--json", options->json, "All of it for programs");
-    command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error but faults");
-    finish_command(
-        command,
-        "  lamella homogenize --cell 2 --beam 0.2 --young 2300 --poisson 0.35\n"
-        "  lamella homogenize insole.toml --samples 4 --json -o stiffness.json\n"
-        "  lamella homogenize gyroid.toml --rve 128 --plot gyroid.svg\n"
-        "  lamella homogenize mine.toml --table -o mine.csv\n"
-        "  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\n"
-        "A sample is one period of the foam's, a cube; a random foam is made to repeat for it. Sizes do\n"
-        "not matter, their ratio does: cells and beams twice as large are as stiff.\n"
-        "mpirun shares out whole samples, of a table those of all ratios: a single one keeps one process "
-        "busy.");
+    command.add_flag("--json", options->json, "Write the whole result as JSON");
+    command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error but errors");
+    finish_command(command,
+                   "  lamella homogenize --cell 2 --beam 0.2 --young 2300 --poisson 0.35\n  lamella "
+                   "homogenize insole.toml --samples 4 --json -o stiffness.json\n  lamella homogenize "
+                   "gyroid.toml --rve 128 --plot gyroid.svg\n  lamella homogenize mine.toml --table -o "
+                   "mine.csv\n  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\nA sample is "
+                   "one period of the foam, a cube; a random foam is made periodic for it. Only the ratio "
+                   "of\nsizes matters: cells and beams twice as large are equally stiff.\nmpirun distributes "
+                   "whole samples, for a table those of all ratios: a single sample uses one process.");
     command.callback([options] {
         const auto lead = [&](Ranks* ranks) { return run(*options, ranks), std::string(); };
         run_on_ranks(lead, [&](Ranks& ranks) { run_worker(*options, ranks); });

@@ -1,4 +1,4 @@
-// `lamella info`: what a recipe will make, before it is made, and what a finished job holds.
+// `lamella info`: describes the job of a recipe before it is made, or a finished job file.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ Json mesh_json(const MeshReport& mesh) {
             {"notes", mesh.notes}};
 }
 
-/// The number, or the formula that gives it.
+/// Returns a number, or the formula that gives it.
 Json graded_json(const GradedNumber& number) {
     return number.is_formula() ? Json(number.formula()) : Json(number.number());
 }
@@ -171,7 +171,7 @@ std::string mesh_text(const Json& mesh) {
     return text;
 }
 
-/// "cells of 2 mm" or "cells of `1 + d` mm".
+/// Returns "cells of 2 mm" or "cells of `1 + d` mm".
 std::string graded_text(const Json& number) {
     return number.is_string() ? "`" + number.get<std::string>() + "`"
                               : fmt::format("{}", number.get<double>());
@@ -277,7 +277,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
     return text + memory_text(info["memory"]) + "identity  " + info["identity"].get<std::string>() + "\n";
 }
 
-/// SettingSpec and areas of a finished job.
+/// Facts and areas of a finished job.
 void run_job(const InfoOptions& options, const JobFile& job) {
     const AreaSummary areas = measure_areas(job, options.threads, isatty(STDERR_FILENO) == 0);
     TextOutput out("");
@@ -317,15 +317,16 @@ void add_info_command(CLI::App& root) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App& command =
         *root.add_subcommand("info",
-                             "Say what a recipe will make: size, layers, foam, mesh, memory; or what a "
-                             "finished job (SL1, GOO, NanoDLP, Ember, folder of masks) holds");
+                             "Describe what a recipe will make: size, layers, foam, mesh, memory; or the "
+                             "contents of a finished job (SL1, GOO, NanoDLP, Ember, folder of masks)");
     options->recipe.add_to(command);
     command.get_option("INPUT")->description(
         "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
         "masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
-    command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
-    command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")
+    command.add_flag("--islands", options->islands,
+                     "Survey all layers for pieces that are not connected to the part");
+    command.add_option("--threads", options->threads, "Threads for the memory estimate; 0: one per core")
         ->check(CLI::Range(0, 1024));
     finish_command(command,
                    "  lamella info insole.toml\n"

@@ -1,4 +1,4 @@
-// `lamella join`: shards of a job, made on several machines, into its outputs.
+// `lamella join`: joins shards of a job, made on several machines, into its outputs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void run(const JoinCommand& options) {
     const Recipe recipe = options.recipe.read();
     const std::vector<Output> outputs = read_outputs(options.output, recipe, options.recipe.profiles());
     if (!options.layers.empty())
-        throw InputError("--layers: all layers are joined; accepted: join without it");
+        throw InputError("--layers: join always uses all layers; accepted: join without --layers");
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
     const auto shards =
@@ -68,18 +68,18 @@ void add_join_command(CLI::App& root, const std::vector<std::string>& arguments)
     CLI::App& command = *root.add_subcommand(
         "join", "Join shards of a job, made by `slice --shard` on several machines, into its outputs");
     options->recipe.add_to(command);
-    command.add_option("--shards", options->shards, "All of them, in any order")
+    command.add_option("--shards", options->shards, "All shards of the job, in any order")
         ->type_name("FILE")
         ->required();
     command
         .add_option("-o,--output", options->output,
-                    "As of `slice`, and with the same machines as the shards were made for")
+                    "Outputs as for `slice`, for the same machines as the shards")
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
-    command.add_flag("--force", options->force, "Replace an output that exists");
+    command.add_flag("--force", options->force, "Replace an existing output");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(command,
                    "  lamella slice insole.toml -o insole.sl1 --layers 0:400 --shard a.shard    # here\n"

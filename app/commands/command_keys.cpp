@@ -1,4 +1,4 @@
-// `lamella keys`: the reference of everything a recipe can say.
+// `lamella keys`: prints the reference of all recipe keys.
 #include <memory>
 #include <string>
 
@@ -18,7 +18,7 @@ void add_keys_command(CLI::App& root) {
         *root.add_subcommand("keys", "List the keys of a recipe, with flag, range and default");
     const auto options = std::make_shared<Options>();
     command.add_option("SECTION", options->section, "One section of the recipe, such as foam")->type_name("");
-    command.add_flag("--markdown", options->markdown, "As a Markdown page");
+    command.add_flag("--markdown", options->markdown, "Write a Markdown page");
     finish_command(command, "  lamella keys\n  lamella keys foam");
     command.callback([options] {
         TextOutput out("");

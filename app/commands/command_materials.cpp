@@ -1,4 +1,4 @@
-// `lamella materials`: the base materials that a recipe can name.
+// `lamella materials`: lists the base materials that a recipe can name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,14 +47,13 @@ void run(const MaterialsOptions& options) {
 
 void add_materials_command(CLI::App& root) {
     auto options = std::make_shared<MaterialsOptions>();
-    CLI::App& command = *root.add_subcommand("materials", "List the materials that foams can be made of");
-    command.add_option("--table", options->table, "List those of a file instead")->type_name("FILE");
-    command.add_flag("--toml", options->toml, "As a file to start one's own from");
-    finish_command(
-        command,
-        "  lamella materials\n"
-        "  lamella materials --toml > mine.toml\n"
-        "A - stands for what is not known. Where nu is not, a third is assumed: it hardly matters.");
+    CLI::App& command = *root.add_subcommand("materials", "List the base materials of foams");
+    command.add_option("--table", options->table, "List the materials of this file instead")
+        ->type_name("FILE");
+    command.add_flag("--toml", options->toml, "Write the materials as a file to edit");
+    finish_command(command,
+                   "  lamella materials\n  lamella materials --toml > mine.toml\nA - marks unknown values. "
+                   "If nu is unknown, 1/3 is assumed, which hardly matters.");
     command.callback([options] { run(*options); });
 }
 

@@ -1,4 +1,4 @@
-// `lamella preview`: a picture of the part, whole or cut open.
+// `lamella preview`: renders a picture of the part, whole or cut open.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -30,15 +30,16 @@ struct PreviewCommand {
     bool quiet = false;
 };
 
-/// Writes under a name of its own first, so that the picture appears complete. The ending tells
-/// the format and therefore stays last.
+/// Writes to a temporary name first, so that the picture appears complete. The format follows the ending,
+/// which therefore stays last.
 void save(const Picture& image, const std::string& path) {
     const std::filesystem::path final_path(path);
     const std::filesystem::path unfinished =
         final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
     if (!is_image_name(path)) {
-        throw InputError("--output: " + path +
-                         " names no image format; accepted: a file ending in .png, .jpg, .tif, ...");
+        throw InputError(
+            "--output: " + path +
+            " does not end in a known image format; accepted: a file ending in .png, .jpg, .tif, ...");
     }
     try {
         write_image(unfinished.string(), {image.width, image.height, 3, image.rgb});
@@ -49,14 +50,14 @@ void save(const Picture& image, const std::string& path) {
     }
     std::error_code error;
     std::filesystem::rename(unfinished, final_path, error);
-    if (error) throw FaultError(path + ": cannot be given its name: " + error.message());
+    if (error) throw FaultError(path + ": the finished file cannot be renamed: " + error.message());
 }
 
 void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
     if (!built.modulus) {
         throw InputError(
-            "--paint modulus: how stiff the foam gets is not known; accepted: [material] with the foam, and "
-            "foam.law where none ships");
+            "--paint modulus: the foam's modulus is unknown; accepted: [material] as well, and foam.law if "
+            "there is no built-in law");
     }
     options.picture.paint = modulus_paint(*built.foam->modulus, *built.modulus);
     if (!options.quiet) std::fputs((modulus_legend(*built.modulus) + "\n").c_str(), stderr);
@@ -86,7 +87,7 @@ void run(PreviewCommand& options) {
 void add_preview_command(CLI::App& root) {
     auto options = std::make_shared<PreviewCommand>();
     CLI::App& command =
-        *root.add_subcommand("preview", "Make a shaded picture of the part, whole or cut open");
+        *root.add_subcommand("preview", "Render a shaded picture of the part, whole or cut open");
     options->recipe.add_to(command);
     command.add_option("-o,--output", options->output, "Picture file; default: the part's name and .png")
         ->type_name("FILE");
@@ -94,25 +95,29 @@ void add_preview_command(CLI::App& root) {
         ->check(CLI::Range(16, 8192))
         ->type_name("N");
     command
-        .add_option("--cut", options->cut, "Axis along which the nearer part is cut away: x, y, z, or none")
+        .add_option("--cut", options->cut,
+                    "Axis along which the side towards the eye is cut away: x, y, z, or none")
         ->check(CLI::IsMember({"x", "y", "z", "none"}))
         ->type_name("WORD");
     command
         .add_option("--paint", options->paint,
-                    "modulus: colours for how stiff the foam gets, and for where it is not as asked")
+                    "modulus: colours for the foam's modulus and its deviation from the requested one")
         ->check(CLI::IsMember({"none", "modulus"}))
         ->type_name("WORD");
-    command.add_option("--cut-at", options->picture.cut_at, "Where it is cut, as a share of the part")
+    command
+        .add_option("--cut-at", options->picture.cut_at,
+                    "Position of the cut, as a share of the part's size along the axis")
         ->check(CLI::Range(0.0, 1.0))
         ->type_name("X");
-    command.add_option("--azimuth", options->picture.azimuth, "Degrees that the eye walks round the part")
+    command
+        .add_option("--azimuth", options->picture.azimuth, "Direction of the eye around the part, degrees")
         ->check(CLI::Range(-360.0, 360.0))
         ->type_name("DEG");
     command
-        .add_option("--elevation", options->picture.elevation, "Degrees that the eye stands over the horizon")
+        .add_option("--elevation", options->picture.elevation, "Height of the eye above the horizon, degrees")
         ->check(CLI::Range(-89.0, 89.0))
         ->type_name("DEG");
-    command.add_option("--threads", options->picture.threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options->picture.threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error");
     finish_command(

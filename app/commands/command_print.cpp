@@ -21,7 +21,7 @@ namespace {
 
 struct PrintOptions : JobOptions {
     LinkSettings link;
-    std::string firmware;  ///< marlin or grbl; empty: as the recipe's printer, marlin for a ready file
+    std::string firmware;  ///< marlin or grbl; empty: that of the recipe's printer, marlin for a ready file
     std::vector<double> park;
     std::optional<double> z;
     bool dry_run = false;
@@ -36,14 +36,15 @@ bool is_gcode_file(const std::string& input) {
     return false;
 }
 
-/// Which of the two kinds of sender. Throws InputError where the recipe writes for another one.
+/// Returns true if lines are for grbl, false if they are for Marlin. Throws InputError when the recipe's
+/// printer uses the other one.
 bool is_grbl(const PrintOptions& options, const std::optional<Recipe>& recipe) {
     if (!recipe) return options.firmware == "grbl";
     const bool grbl = recipe->printer.gcode.flavour == Flavour::grbl;
     if (!options.firmware.empty() && grbl != (options.firmware == "grbl")) {
-        throw InputError("--firmware " + options.firmware + " does not go with the printer's flavour; " +
-                         (grbl ? "a laser under grbl takes no lines for Marlin"
-                               : "pass --printer-flavour grbl to cut layers with a laser"));
+        throw InputError("--firmware " + options.firmware + " conflicts with the printer's flavour; " +
+                         (grbl ? "a laser under grbl does not accept Marlin G-code; accepted: --firmware grbl"
+                               : "accepted: --printer-flavour grbl, to cut layers with a laser"));
     }
     return grbl;
 }
@@ -52,7 +53,7 @@ void say(const PrintOptions& options, const std::string& text) {
     if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);
 }
 
-/// Sends layers as they are computed, or a ready file.
+/// Prints layers as they are computed, or a ready file.
 void produce(const PrintOptions& options, const std::optional<Recipe>& recipe,
              const std::optional<PreparedJob>& prepared, std::unique_ptr<GcodeOutput> output,
              const CancelToken& cancel) {
@@ -114,7 +115,9 @@ void run(PrintOptions options) {
     const InterruptGuard guard(cancel);
     options.link.cancel = &cancel;
     if (options.link.port.empty() && !options.dry_run)
-        throw InputError("--port: name the printer's port, such as /dev/ttyUSB0; `lamella ports` lists them");
+        throw InputError(
+            "--port: missing; accepted: the printer's serial port, such as /dev/ttyUSB0; `lamella ports` "
+            "lists them");
     const bool file = is_gcode_file(options.recipe.input());
     std::string name = options.recipe.input();
     std::optional<Recipe> recipe;
@@ -123,8 +126,8 @@ void run(PrintOptions options) {
         recipe = options.recipe.read();
         if (!makes_beads(recipe->printer)) {
             throw InputError("the recipe's printer \"" + recipe->printer.name +
-                             "\" takes no G-code (its kind is " + recipe->printer.backend +
-                             "); name one that does, such as --printer marlin");
+                             "\" does not use G-code (its kind is " + recipe->printer.backend +
+                             "); accepted: a printer that does, such as --printer marlin");
         }
         name = recipe->part.name;
         const FilamentProfile& bed = recipe->printer.filament;
@@ -158,47 +161,57 @@ void add_link_options(CLI::App& command, PrintOptions& options) {
     command.add_option("--port", link.port, "Serial port of the printer")
         ->type_name("DEVICE")
         ->group("Printer");
-    command.add_option("--baud", link.baud, "Its speed; default: 250000")
+    command.add_option("--baud", link.baud, "Speed of the serial line, baud; default: 250000")
         ->check(CLI::Range(1200, 4000000))
         ->group("Printer");
     command
         .add_option("--firmware", options.firmware,
-                    "marlin or grbl; default: as the recipe says, marlin for a ready file")
+                    "marlin or grbl; default: that of the recipe's printer, marlin for a ready file")
         ->check(CLI::IsMember({"marlin", "grbl"}))
         ->group("Printer");
-    command.add_option("--send-window", link.sender.window, "Bytes that may be unanswered; default: 127")
+    command
+        .add_option("--send-window", link.sender.window,
+                    "Bytes that may be sent ahead of the answers; default: 127")
         ->check(CLI::Range(64, 65536))
         ->group("Printer");
-    command.add_flag("--ping-pong", link.sender.ping_pong, "One line at a time")->group("Printer");
+    command
+        .add_flag("--ping-pong", link.sender.ping_pong,
+                  "Send one line at a time, each after the answer to the last")
+        ->group("Printer");
     command
         .add_flag("--within-slots", link.sender.within_slots,
-                  "No more lines than the printer has slots for, where it tells (ADVANCED_OK)")
+                  "Send no more lines than the printer has free slots, if it reports them (ADVANCED_OK)")
         ->group("Printer");
     command
-        .add_option("--greeting", link.sender.greeting, "Seconds to wait for a board that resets; default: 3")
+        .add_option("--greeting", link.sender.greeting,
+                    "Seconds to wait for a board that resets when the port is opened; default: 3")
         ->check(CLI::Range(0.0, 60.0))
         ->group("Printer");
-    command.add_flag("--reset", link.reset_board, "Reset the board by DTR first")->group("Printer");
+    command.add_flag("--reset", link.reset_board, "First reset the board through the DTR line")
+        ->group("Printer");
     command.add_option("--reconnect", link.reconnect_for, "Seconds to wait for a lost port; default: 60")
         ->check(CLI::Range(0.0, 86400.0))
         ->group("Printer");
     command
         .add_option("--park", options.park,
-                    "Where the nozzle waits, X and Y in mm; default: the bed's rear left corner, 0,0 for a "
-                    "ready file")
+                    "Position where the nozzle waits, X and Y in mm; default: the bed's rear left corner, "
+                    "0,0 for a ready file")
         ->expected(2)
         ->delimiter(',')
         ->group("Printer");
-    command.add_option("--log", link.log, "File for every line with its time and the bytes then unanswered")
+    command
+        .add_option("--log", link.log,
+                    "File for a log of every line with its time and the number of unanswered bytes")
         ->type_name("FILE")
         ->group("Printer");
     command
-        .add_option("--journal", link.journal, "File that lets a print go on; default: NAME.print.journal")
+        .add_option("--journal", link.journal,
+                    "File with the state that --resume needs; default: NAME.print.journal")
         ->type_name("FILE")
         ->group("Printer");
     command
         .add_option("--resume-z", options.z,
-                    "Height of the nozzle when a print is resumed, mm; default: journaled")
+                    "Height of the nozzle when a print is resumed, mm; default: from the journal")
         ->check(CLI::Range(0.0, 10000.0))
         ->group("Printer");
 }
@@ -213,10 +226,9 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
     options->recipe.add_to(command);
     add_link_options(command, *options);
     add_job_options(command, *options);
-    command.add_flag("--resume", options->resume, "Go on with a print that was stopped");
-    command.add_flag("--dry-run", options->dry_run,
-                     "Send everything to a machine that is only imagined, and report");
-    command.add_flag("--force", options->force, "Forget a print that was stopped");
+    command.add_flag("--resume", options->resume, "Continue a stopped print");
+    command.add_flag("--dry-run", options->dry_run, "Send everything to a simulated machine, and report");
+    command.add_flag("--force", options->force, "Discard the journal of a stopped print");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(
         command,

@@ -1,4 +1,4 @@
-// `lamella printers`: the back-ends and the machine profiles, or one profile as TOML.
+// `lamella printers`: lists back-ends and machine profiles, or prints one profile as TOML.
 #include <memory>
 
 #include "app/commands/commands.h"
@@ -38,7 +38,8 @@ void add_printers_command(CLI::App& root) {
     auto options = std::make_shared<PrintersOptions>();
     CLI::App& command = *root.add_subcommand("printers", "List back-ends and machine profiles");
     command
-        .add_option("NAME", options->name, "Profile to write as TOML, with all its values; default: list all")
+        .add_option("NAME", options->name,
+                    "Write this profile as TOML, with all its values; default: list all profiles")
         ->type_name("");
     add_profile_folder_option(command, options->folder);
     finish_command(command,

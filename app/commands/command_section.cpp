@@ -1,4 +1,4 @@
-// `lamella section`: one section of the part at any height.
+// `lamella section`: writes one section of the part at any height.
 #include <fmt/format.h>
 
 #include <memory>
@@ -22,7 +22,7 @@ struct SectionOptions {
     std::string output;
 };
 
-/// The format asked for, or else the one that the file's name ends in.
+/// Returns the requested format, or else that of the file's ending.
 std::string chosen_format(const SectionOptions& options) {
     if (!options.format.empty()) return options.format;
     const std::string_view path = options.output;
@@ -55,7 +55,8 @@ void run(const SectionOptions& options) {
     const std::string format = chosen_format(options);
     TextOutput out(options.output);
     if (format == "png" && out.to_terminal()) {
-        throw InputError("--format: a terminal cannot show png; accepted: -o FILE, a pipe, or svg or json");
+        throw InputError(
+            "--format: png is not written to a terminal; accepted: -o FILE, a pipe, or svg or json");
     }
     out.write(section(options, format));
     out.close();
@@ -74,7 +75,8 @@ void add_section_command(CLI::App& root) {
         ->required()
         ->type_name("MM");
     command
-        .add_option("--format", options->format, "svg, png or json; default: by the file's name, else svg")
+        .add_option("--format", options->format,
+                    "svg, png or json; default: from the ending of the file, else svg")
         ->check(CLI::IsMember({"svg", "png", "json"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");

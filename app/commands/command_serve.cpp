@@ -1,4 +1,4 @@
-// `lamella serve`: sections for other programs, through a pipe.
+// `lamella serve`: answers other programs through a pipe.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t longest_request = std::size_t{64} << 20;
 
-/// The next length on standard input, 4 bytes, the lowest first; nothing where it ends between requests.
+/// Reads the next length from standard input, 4 bytes, little-endian; returns nothing when the input ends
+/// between requests.
 std::optional<std::size_t> read_length() {
     std::array<unsigned char, 4> bytes{};
     const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), stdin);
@@ -31,8 +32,8 @@ std::optional<std::string> read_request() {
     if (!length) return std::nullopt;
     if (*length > longest_request) {
         throw InputError(
-            fmt::format("a request of {} bytes; accepted: up to {}, each behind its length in 4 bytes, "
-                        "the lowest first",
+            fmt::format("a request of {} bytes is too large; accepted: up to {} bytes, each request preceded "
+                        "by its length as 4 bytes, little-endian",
                         *length, longest_request));
     }
     std::string text(*length, '\0');
@@ -64,15 +65,15 @@ void run() {
 
 void add_serve_command(CLI::App& root) {
     CLI::App& command =
-        *root.add_subcommand("serve", "Answer another program's requests for sections, through a pipe");
+        *root.add_subcommand("serve", "Answer requests of another program for sections, through a pipe");
     auto stdio = std::make_shared<bool>(false);
-    command.add_flag("--stdio", *stdio, "Requests on standard input, replies on standard output")->required();
-    finish_command(
-        command,
-        "  lamella serve --stdio\n"
-        "A request is its length (4 bytes, the lowest first) and so many bytes of JSON; a reply the "
-        "same, with\nas many bytes of numbers behind it as its `bytes` says. The README lists the "
-        "methods.");
+    command
+        .add_flag("--stdio", *stdio, "Read requests from standard input, write replies to standard output")
+        ->required();
+    finish_command(command,
+                   "  lamella serve --stdio\nA request is its length (4 bytes, little-endian) followed by "
+                   "that many bytes of JSON. A reply has the\nsame form, followed by `bytes` bytes of "
+                   "numbers. docs/embedding/server.md describes the methods.");
     command.callback([] { run(); });
 }
 

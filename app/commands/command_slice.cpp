@@ -48,14 +48,14 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// What a run made and what is to be said of it.
+/// The results of a run that its summary reports.
 struct Written {
     std::optional<BeamLatticeReport> beams;
     std::vector<std::string> notes;
-    std::vector<CheckOutcome> checks;  ///< by output; empty where none was asked for
+    std::vector<CheckOutcome> checks;  ///< one for each output; empty when none was requested
 };
 
-/// Of a part's volume (mm^3), g; 0 where the material's density is not known.
+/// Returns the mass of a part's volume (mm^3), g; 0 when the material's density is unknown.
 double mass_of(const Recipe& recipe, double volume) {
     constexpr double mm3_per_cm3 = 1000;
     return recipe.material ? base_material(*recipe.material).density * volume / mm3_per_cm3 : 0;
@@ -124,13 +124,13 @@ void summarise(const SliceOptions& options, const std::vector<Output>& outputs, 
         std::fputs(("\n" + check_text(checked)).c_str(), stderr);
 }
 
-/// What a check of the machines fails for; empty when nothing. What to do about it is the user's to say.
+/// Returns the failures of the checks; empty for none. The user decides what to do about them.
 std::string failures_text(const std::vector<CheckOutcome>& checks) {
     std::string text;
     for (const CheckOutcome& checked : checks) {
         if (!checked.report.passed()) text += failure_text(checked) + "\n";
     }
-    return text.empty() ? text : text + "all layers have been written all the same";
+    return text.empty() ? text : text + "all layers have been written nevertheless";
 }
 
 std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
@@ -141,39 +141,40 @@ std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe
     const auto is_outside = [](const Output& output) { return static_cast<bool>(output.open); };
     if (!plugins.empty() && std::ranges::none_of(outputs, is_outside)) {
         throw InputError(fmt::format(
-            "--plugin {}: no output is for it; accepted: -o PATH@{}{}", options.plugins.front(),
+            "--plugin {}: no output uses this plugin; accepted: -o PATH@{}{}", options.plugins.front(),
             plugins.front().name,
             plugins.front().ending.empty() ? "" : ", or a path that ends in " + plugins.front().ending));
     }
     return outputs;
 }
 
-/// Standard output takes the layers and nothing else.
+/// Throws InputError for options that conflict with layers on standard output.
 void check_standard_output(const SliceOptions& options) {
     if (options.json) {
         throw InputError(
-            "--json: its summary goes to standard output, which -o - fills with the layers; name a "
-            "file with -o, or leave --json out");
+            "--json: conflicts with -o -, because the summary and the layers would both go to standard "
+            "output; accepted: -o FILE, or no --json");
     }
-    if (options.resume)
-        throw InputError("--resume: standard output cannot be continued; name a file with -o");
+    if (options.resume) throw InputError("--resume: standard output cannot be continued; accepted: -o FILE");
 }
 
-/// What cannot be shared among processes.
+/// Throws InputError for options that shards or several processes do not support.
 void check_sharing(const SliceOptions& options, const Ranks* ranks) {
     if (!options.shard.empty() && options.check)
         throw InputError(
-            "--check: it looks at all layers, of which a shard has some; accepted: one of the two");
+            "--check: needs all layers, and --shard has only some; accepted: --check or --shard, not both");
     if (ranks == nullptr) return;
     if (!options.shard.empty())
-        throw InputError("--shard: mpirun joins by itself what its processes make; accepted: one of the two");
+        throw InputError(
+            "--shard: under mpirun the processes' layers are joined already; accepted: mpirun or --shard, "
+            "not both");
     if (!options.plugins.empty())
         throw InputError(
-            "--plugin: what a plugin makes of a layer stays in its process; accepted: one process, or "
-            "lamella's own printers");
+            "--plugin: layers rendered by a plugin cannot be sent to another process; accepted: one process, "
+            "or lamella's own printers");
 }
 
-/// Where the layers go: the outputs, or a shard of what they would get.
+/// Makes the back-end of the outputs, or of a shard for them.
 std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vector<Output>& outputs,
                                    const Job& job) {
     if (options.shard.empty()) return make_outputs(outputs, options.force);
@@ -181,7 +182,7 @@ std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vecto
                              settings_of(outputs), options.force);
 }
 
-/// The outputs with the checks beside them that were asked for.
+/// Adds the requested checks to the outputs.
 std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& checking,
                                      const SliceOptions& options, const Recipe& recipe,
                                      const std::vector<Output>& outputs, const Job& job) {
@@ -190,7 +191,7 @@ std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& 
     return checking.beside(std::move(to), outputs, recipe.part.name, job, parts);
 }
 
-/// `ranks`: the processes that share the layers; null where there is this one alone.
+/// Slices; `ranks`: the processes that share the layers, null for a single process.
 std::string run(const SliceOptions& options, Ranks* ranks) {
     check_sharing(options, ranks);
     const bool to_pipe = std::find(options.output.begin(), options.output.end(), "-") != options.output.end();
@@ -202,12 +203,13 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     const std::vector<Output> outputs = outputs_of(options, recipe);
     if (options.check && !options.layers.empty()) {
         throw InputError(
-            "--check: it looks at all layers, which --layers leaves out; accepted: one of the two");
+            "--check: needs all layers, and --layers leaves some out; accepted: --check or --layers, not "
+            "both");
     }
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const BuiltJob& built = prepared.built;
     StreamOptions stream = prepared.stream;
-    // Of several runs for ranges of layers, the first writes the beams.
+    // Of several runs over ranges of layers, only the first writes the beams.
     const bool with_beams = !recipe.output.beams.empty() && stream.range.first == 0;
     if (with_beams) check_beam_output(recipe, built, options.force || options.resume);
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
@@ -234,7 +236,7 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     return failures_text(checks);
 }
 
-/// What a process does that is not the first of several. What is wrong, the first one finds out as well.
+/// The work of ranks other than 0. Rank 0 finds the same mistakes and reports them.
 void run_worker(const SliceOptions& given, Ranks& ranks) {
     SliceOptions options = given;
     options.quiet = true;
@@ -259,33 +261,30 @@ void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments
     options->recipe.add_to(command);
     command
         .add_option("-o,--output", options->output,
-                    "File or folder to make, \"-\" for standard output; default: the part's name. Several, "
-                    "each with -o, are made in one "
-                    "run; the ending chooses the format, @PROFILE another machine")
+                    "File or folder to make, \"-\" for standard output; default: the part's name. Repeat -o "
+                    "to write several in one run; the ending selects the format, @PROFILE another machine")
         ->type_name("PATH[@PROFILE]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
-        .add_option(
-            "--plugin", options->plugins,
-            "A shared library with a printer of its own, for an output that ends as its files do or has "
-            "@ and its name; several, each with --plugin")
+        .add_option("--plugin", options->plugins,
+                    "Shared library with an additional printer, used by outputs with its file ending or with "
+                    "@ and its name; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
-        .add_option(
-            "--shard", options->shard,
-            "Pack the layers of --layers into this file instead, for `lamella join` to make the outputs of")
+        .add_option("--shard", options->shard,
+                    "Pack the layers of --layers into this file, from which `lamella join` makes the outputs")
         ->type_name("FILE");
     add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Continue an unfinished output of the same job");
-    command.add_flag("--force", options->force, "Replace an output that exists");
+    command.add_flag("--force", options->force, "Replace an existing output");
     command.add_flag("--check", options->check,
-                     "See on the way whether the part can be printed, as `lamella check` does; exit code 1 "
-                     "when it cannot, with all layers written");
+                     "Also check whether the part can be printed, like `lamella check`; all layers are "
+                     "written, and the exit code is 1 if it cannot");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
-    command.add_flag("--json", options->json, "A summary of the run on standard output");
+    command.add_flag("--json", options->json, "Write a summary of the run as JSON to standard output");
     finish_command(
         command,
         "  lamella slice insole.toml -o insole/\n"

@@ -1,4 +1,4 @@
-// `lamella supports`: what holds a part while it is printed, as figures or as every piece.
+// `lamella supports`: describes the supports of a part, as statistics or piece by piece.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ struct SupportsCommand : JobOptions {
 
 constexpr const char* reasons[] = {"overhang", "island", "span", "stability"};
 
-/// Material of the supports, mm^3: their runs, a fifth of a millimetre apart, on every layer.
+/// Returns the material of the supports, mm^3: their runs, 0.2 mm apart, on every layer.
 double support_volume(const Job& job) {
     constexpr double pitch = 0.2;
     if (!job.supports) return 0;
@@ -79,7 +79,7 @@ Json pieces_json(const SupportPlan& plan) {
             {"connectors", std::move(connectors)}};
 }
 
-/// Lengths of the scaffold's pieces, mm.
+/// Returns the lengths of the scaffold's pieces, mm.
 struct Lengths {
     double bridges = 0, pillars = 0, connectors = 0;
 };
@@ -136,7 +136,7 @@ void run(const SupportsCommand& options) {
     if (recipe.support == SupportKind::none) recipe.support = SupportKind::bridges;
     if (!options.quiet) note_unused(options.recipe, recipe);
     BuiltJob built = build_job(recipe);
-    recipe.shield.reset();  // which is of no concern here
+    recipe.shield.reset();  // not needed here
     const BuiltSupports supports = *finish_with_progress(recipe, built, options, cancel).supports;
     TextOutput out(options.output);
     out.write(options.json ? as_json(supports, built.job) : as_text(supports, built.job));
@@ -153,17 +153,17 @@ void run(const SupportsCommand& options) {
 
 void add_supports_command(CLI::App& root) {
     auto options = std::make_shared<SupportsCommand>();
-    CLI::App& command = *root.add_subcommand(
-        "supports", "Plan what holds the part while it is printed: points, bridges, pillars, material");
+    CLI::App& command =
+        *root.add_subcommand("supports", "Plan the supports of the part: points, bridges, pillars, material");
     options->recipe.add_to(command);
-    command.add_flag("--json", options->json, "Every piece, as JSON");
+    command.add_flag("--json", options->json, "Write every piece as JSON");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
     command
         .add_option("--plans", options->plans,
-                    "Folder where plans are kept for later runs of the same job, \"\" for none; default: "
+                    "Folder in which plans are kept for later runs of the same job, \"\" for none; default: "
                     "lamella/plans in the user's cache")
         ->type_name("DIR");
-    command.add_option("--threads", options->threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options->threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(command,

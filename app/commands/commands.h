@@ -7,11 +7,11 @@
 
 namespace lamella {
 
-/// `arguments` is the command line as typed, for the advice on how to go on after an interruption.
+/// `arguments` is the command line as typed, for the command to resume after an interruption.
 void add_slice_command(CLI::App& root, const std::vector<std::string>& arguments);
-/// The same for `arguments`.
+/// `arguments` as in add_slice_command.
 void add_join_command(CLI::App& root, const std::vector<std::string>& arguments);
-/// The same for `arguments`.
+/// `arguments` as in add_slice_command.
 void add_print_command(CLI::App& root, const std::vector<std::string>& arguments);
 void add_ports_command(CLI::App& root);
 void add_preview_command(CLI::App& root);

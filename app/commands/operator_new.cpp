@@ -1,4 +1,4 @@
-// The command's own operator new: large blocks from pages of their own, the rest from the C library's heap.
+// The command's operator new: large blocks from LargeBlocks, the rest from the C library's heap.
 #include <cstdlib>
 #include <new>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-// Addresses only; a process has 2^47.
+// Address space only; a process has 2^47 bytes of it.
 constexpr std::size_t room = std::size_t{1} << 40;
 
 // Never destroyed: blocks are freed until the process ends.

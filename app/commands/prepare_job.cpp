@@ -1,4 +1,4 @@
-// Surveys, supports and plates before the first layer.
+// Runs surveys, builds supports and arranges plates before the first layer.
 #include "app/commands/prepare_job.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ std::string shell_quoted(const std::string& argument) {
     return text + "'";
 }
 
-/// The recipes of what stands beside the part, with its machine, layers and supports.
+/// Reads the recipes of the other inputs on the plate, with the first one's machine, layer height and
+/// supports.
 std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) {
     std::vector<Recipe> recipes;
     for (const std::string& input : options.beside) {
@@ -40,7 +41,7 @@ std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) 
     return recipes;
 }
 
-/// Makes the job one of all parts and their copies.
+/// Replaces the job by one with all parts and their copies.
 void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
                 const JobOptions& options, const CancelToken& cancel) {
     std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
@@ -108,7 +109,7 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     if (built.dowels && !options.quiet)
         std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
-    // Surveys take time: what is wrong should be known before them.
+    // Surveys take time: report mistakes before them.
     parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
@@ -128,24 +129,25 @@ void add_job_options(CLI::App& command, JobOptions& options) {
                     "Layers A up to, not including, B, counted from 0; default: all")
         ->type_name("A:B");
     command
-        .add_option(
-            "--beside", options.beside,
-            "Another recipe or model on the same plate; with several, --beside stands before each. It "
-            "is cut and supported as the first one says")
+        .add_option("--beside", options.beside,
+                    "Another recipe or model on the same plate, with the machine, layer height and supports "
+                    "of the first; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--look-ahead", options.look_ahead, "Layers in flight at most; 0: two a thread")
+    command
+        .add_option("--look-ahead", options.look_ahead,
+                    "Maximum number of layers in flight; 0: two per thread")
         ->check(CLI::Range(0, 4096));
     add_survey_options(command, options);
 }
 
 void add_survey_options(CLI::App& command, JobOptions& options) {
-    command.add_option("--threads", options.threads, "Threads to use; 0: one a core")
+    command.add_option("--threads", options.threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--plans", options.plans,
-                    "Folder where plans of supports are kept for later runs of the same job, \"\" for none; "
+                    "Folder in which support plans are kept for later runs of the same job, \"\" for none; "
                     "default: lamella/plans in the user's cache")
         ->type_name("DIR");
 }

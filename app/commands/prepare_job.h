@@ -1,4 +1,4 @@
-// What every command that computes layers does before them: the job's options, its surveys and supports.
+// Preparation shared by all commands that compute layers: options, surveys, supports and plates.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,33 +16,33 @@ struct JobOptions {
     RecipeOptions recipe;
     std::string layers;  ///< A:B
     std::string plans = default_plan_folder();
-    std::vector<std::string> beside;  ///< other inputs on the same plate
+    std::vector<std::string> beside;  ///< other inputs printed on the same plate
     int threads = 0;
     int look_ahead = 0;
     bool resume = false;
     bool quiet = false;
 };
 
-/// Adds those options to a subcommand that look ahead of all layers: threads and plans.
+/// Adds the options of surveys to a subcommand: threads and plans.
 void add_survey_options(CLI::App& command, JobOptions& options);
-/// Adds all of them.
+/// Adds all options of JobOptions.
 void add_job_options(CLI::App& command, JobOptions& options);
 
 struct PreparedJob {
     BuiltJob built;
-    StreamOptions stream;  ///< without its on_progress
+    StreamOptions stream;  ///< without on_progress
 };
 
-/// Builds the job of a recipe with all that stands beside it, and says on standard error what a user should
-/// know of it. Throws InputError for what cannot be made, Interrupted when cancelled.
+/// Builds the job of a recipe together with the inputs on the same plate, and prints warnings on standard
+/// error. Throws InputError when something cannot be made, Interrupted when cancelled.
 PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel);
 
-/// Finishes a built job, with the progress of its surveys and what they led to on standard error unless
-/// quiet.
+/// Finishes a built job (see finish_job); reports the progress of its surveys and their results on standard
+/// error unless quiet.
 SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
                                        const CancelToken& cancel);
 
-/// The command line that continues this run.
+/// Returns the command line that continues this run.
 std::string resuming(const std::vector<std::string>& arguments);
 
 }  // namespace lamella

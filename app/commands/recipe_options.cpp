@@ -1,4 +1,4 @@
-// One option a row of the settings table, with its recipe key in the help.
+// One option for each row of the settings table, with its recipe key in the help.
 #include "app/commands/recipe_options.h"
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ MachineProfiles RecipeOptions::profiles() const { return machine_profiles(profil
 void add_profile_folder_option(CLI::App& command, std::string& folder) {
     command
         .add_option("--printers", folder,
-                    "Folder of machine profiles (.toml) besides the built-in ones and those in "
+                    "Folder of machine profiles (.toml), in addition to the built-in ones and those in "
                     "~/.config/lamella/printers")
         ->type_name("DIR");
 }

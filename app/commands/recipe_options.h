@@ -1,4 +1,5 @@
-// RecipeOptions: the command-line options that the settings table makes, and the recipe they lead to.
+// RecipeOptions: the command-line options generated from the settings table, and the recipe that they
+// describe.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,21 +11,21 @@
 
 namespace lamella {
 
-/// The input (a recipe or a model) and one option for each setting. Lives as long as the command line is
-/// parsed.
+/// The input (a recipe or a model) and one option for each setting. Must outlive the parsing of the command
+/// line.
 class RecipeOptions {
   public:
-    /// Adds the options to a subcommand, in one group for each section.
+    /// Adds the options to a subcommand, a group for each section.
     void add_to(CLI::App& command);
 
-    /// Recipe file first, flags over it. Throws InputError with all mistakes at once. Without `needs_body`
-    /// the part may be missing.
+    /// Returns the recipe: flags have precedence over the recipe file. Throws InputError with all mistakes at
+    /// once. Without `needs_body` the part may be missing.
     Recipe read(bool needs_body = true) const;
 
-    /// The machines that the recipe can name.
+    /// Returns the machines that the recipe can name.
     MachineProfiles profiles() const;
 
-    /// The input as given; empty when there is none.
+    /// Returns the input as given; empty when there is none.
     const std::string& input() const { return input_; }
 
   private:
@@ -37,10 +38,10 @@ class RecipeOptions {
 /// Adds --printers to a subcommand.
 void add_profile_folder_option(CLI::App& command, std::string& folder);
 
-/// Says in a line on standard error which entries of the recipe nothing uses, if there are any.
+/// Prints a line on standard error that lists the recipe's unused entries, if there are any.
 void note_unused(const RecipeOptions& options, const Recipe& recipe);
 
-/// Makes --version and the examples of a subcommand's help.
+/// Adds --version and examples to the help of a subcommand.
 void finish_command(CLI::App& command, const std::string& examples);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Parsing the command line, and running what it asks for.
+// Parses the command line and runs its subcommand.
 #include "app/commands/run_command.h"
 
 #include "app/commands/command_help.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int bad_input = 2;
 
-/// The deepest subcommand that was named: its help is the one asked for.
+/// Returns the deepest subcommand named, whose help is printed.
 CLI::App& chosen(CLI::App& root) {
     const auto named = root.get_subcommands();
     return named.empty() ? root : chosen(*named.front());
@@ -50,7 +50,8 @@ int parse_and_run(CLI::App& root, const std::vector<std::string>& arguments) {
 int run_command(const std::vector<std::string>& arguments) {
     try {
         CLI::App root(
-            "Streaming procedural layers for 3D printing: meshes, shapes and foam into printable layers.",
+            "Streaming procedural layers for 3D printing: turns meshes, shapes and foam into printable "
+            "layers.",
             "lamella");
         root.require_subcommand(1);
         root.set_help_all_flag("--help-all", "Print the help with all options, and exit");

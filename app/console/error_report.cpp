@@ -1,4 +1,4 @@
-// One message a fault, whatever threw it.
+// One message for each error, whatever its exception type.
 #include "app/console/error_report.h"
 
 #include <cstdio>

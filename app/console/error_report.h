@@ -1,14 +1,14 @@
-// Where exceptions become messages on standard error, and exit codes.
+// Turns exceptions into messages on standard error and exit codes.
 #pragma once
 
 #include <string>
 
 namespace lamella {
 
-/// Says a message on standard error, each of its lines with the program's name before it. Returns the code.
+/// Prints a message on standard error, each line prefixed with the program's name. Returns `code`.
 int report_error(const std::string& message, int code);
 
-/// Says what the exception that is being handled is about. Returns the exit code it stands for.
+/// Prints the message of the exception being handled. Returns its exit code.
 int report_exception();
 
 }  // namespace lamella

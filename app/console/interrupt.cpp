@@ -1,4 +1,4 @@
-// The signal handler and the one pointer that a handler can reach.
+// The signal handler and the single pointer that it can reach.
 #include "app/console/interrupt.h"
 
 #include <csignal>

@@ -5,8 +5,8 @@
 
 namespace lamella {
 
-/// While it lives, the first SIGINT or SIGTERM sets the token; a second one ends the process at once. One at
-/// a time.
+/// While it lives, the first SIGINT or SIGTERM sets the token; a second one ends the process at once. Only
+/// one may exist at a time.
 class InterruptGuard {
   public:
     explicit InterruptGuard(CancelToken& token);

@@ -1,4 +1,4 @@
-// Best fit over extents of pages in one range of addresses.
+// Best-fit allocation of page extents in one address range.
 #include "app/console/large_blocks.h"
 
 #include <sys/mman.h>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t page_bytes = 4096;
 constexpr std::size_t growth_bytes = std::size_t{1} << 20;
-// The memory of a hole of this size is given back: a mesh has been read, not a layer finished.
+// Holes of this size return their memory to the system: they are left by reading a mesh, not by finishing a
+// layer.
 constexpr std::size_t given_back_bytes = std::size_t{16} << 20;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t step) { return (bytes + step - 1) / step * step; }
@@ -28,13 +29,13 @@ LargeBlocks::~LargeBlocks() {
     if (base_ != nullptr) munmap(base_, room_);
 }
 
-// The first of the smallest that are large enough.
+// Returns the lowest of the smallest holes that are large enough.
 LargeBlocks::Extents::iterator LargeBlocks::best_hole(std::size_t bytes) {
     const auto best = sizes_.lower_bound({bytes, 0});
     return best == sizes_.end() ? holes_.end() : holes_.find(best->second);
 }
 
-// Makes the last hole, or a new one, as long as `bytes`.
+// Extends the last hole, or adds a new one, to `bytes`. Returns false when there is no space or memory.
 bool LargeBlocks::grow(std::size_t bytes) {
     const auto last = holes_.empty() ? holes_.end() : std::prev(holes_.end());
     const bool ends_in_hole = last != holes_.end() && last->first + last->second.bytes == reach_;
@@ -75,7 +76,7 @@ void* LargeBlocks::allocate(std::size_t bytes) {
     return base_ + used_.insert(holes_.extract(hole)).position->first;
 }
 
-// Leaves the rest of a hole as one of its own.
+// Shortens a hole to `bytes`; the rest becomes a hole of its own.
 void LargeBlocks::shorten(Extents::iterator hole, std::size_t bytes) {
     const std::size_t offset = hole->first + bytes, rest = hole->second.bytes - bytes;
     const auto size = sizes_.emplace(rest, offset).first;
@@ -94,7 +95,7 @@ void LargeBlocks::resize(Extents::iterator hole, std::size_t bytes) noexcept {
     sizes_.insert(std::move(size));
 }
 
-// Moves nodes between the maps, so that it needs no memory of its own.
+// Moves nodes between the maps, so that freeing never allocates.
 void LargeBlocks::free(void* block) noexcept {
     const std::lock_guard lock(mutex_);
     const auto offset = static_cast<std::size_t>(static_cast<std::byte*>(block) - base_);
@@ -107,8 +108,7 @@ void LargeBlocks::free(void* block) noexcept {
     if (bytes >= given_back_bytes) madvise(base_ + hole->first, bytes, MADV_DONTNEED);
 }
 
-// A hole and the next one become one where they touch. Returns the hole in which the next one lies, or that
-// one.
+// Merges a hole with the next one if they are adjacent. Returns the merged hole, or else the next one.
 LargeBlocks::Extents::iterator LargeBlocks::join_next(Extents::iterator hole) noexcept {
     const auto next = std::next(hole);
     if (next == holes_.end() || hole->first + hole->second.bytes != next->first) return next;

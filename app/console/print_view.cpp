@@ -1,4 +1,4 @@
-// Drawing the line and reading the keys.
+// Draws the status line and reads the keys.
 #include "app/console/print_view.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::string starved_text(const SenderStatistics& statistics) {
                                                  static_cast<double>(statistics.advanced));
 }
 
-/// Keys one by one, without an echo, while it lives; signals stay.
+/// While it lives, the terminal delivers keys one by one without echo; signals still work.
 class KeyMode {
   public:
     KeyMode() {
@@ -47,7 +47,7 @@ class KeyMode {
     termios before_{};
 };
 
-/// As much of a line as fits the terminal: a longer one would break, and the next be drawn below it.
+/// Truncates a line to the terminal's width: a longer one would wrap, and the next be drawn below it.
 std::string fitting(const std::string& text) {
     winsize size{};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return text;
@@ -137,7 +137,7 @@ void PrintView::work() {
     while (!ended_.wait_for(lock, redraw_interval, [&] { return ending_; })) {
         if (mode) read_keys();
         const LinkStatus status = link_->status();
-        // Whoever presses Ctrl-C twice is to find the terminal as it was.
+        // A second Ctrl-C ends the process at once: the terminal must be restored before.
         if (status.stopping) mode.reset();
         tell_trouble(status);
         if (!quiet_) show(status);
@@ -161,7 +161,7 @@ void PrintView::write_line(const std::string& text) {
     line_open_ = false;
 }
 
-/// What needs a person, be it quiet or not.
+/// Prints what needs the user's attention, even when quiet.
 void PrintView::tell_trouble(const LinkStatus& status) {
     if (const std::string text = wait_text(status); text != told_wait_) {
         told_wait_ = text;

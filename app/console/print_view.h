@@ -1,4 +1,4 @@
-// PrintView: how a print over a serial line stands, on standard error, and the keys that pause it.
+// PrintView: the state of a print over a serial line, on standard error, and the keys that control it.
 #pragma once
 
 #include <condition_variable>
@@ -11,9 +11,9 @@
 
 namespace lamella {
 
-/// Redraws a line on a terminal, writes one now and then elsewhere, on a thread of its own. While it lives
-/// and standard input is a terminal, p pauses, r resumes, s stops and x halts the print, and 1 to 9 press a
-/// button of what the printer asks.
+/// Redraws a line on a terminal, or writes one at intervals otherwise, on its own thread. While it lives and
+/// standard input is a terminal, p pauses, r resumes, s stops and x halts the print, and 1 to 9 press a
+/// button of a prompt from the printer.
 class PrintView {
   public:
     /// `last_layer` is the number of layers, 0 when it is not known.
@@ -22,9 +22,9 @@ class PrintView {
     PrintView(const PrintView&) = delete;
     PrintView& operator=(const PrintView&) = delete;
 
-    /// Says something of its own above the line.
+    /// Prints a message above the line.
     void show_message(const std::string& text);
-    /// Ends the line, and gives the keys back to the terminal.
+    /// Ends the line, and restores the terminal's keyboard mode.
     void close();
 
   private:
@@ -50,13 +50,13 @@ class PrintView {
     std::thread thread_;
 };
 
-/// "layer 12/80  4711 lines  Z 2.4  nozzle 209.8/210  bed 60.1/60  8 layers ready  3 % starved".
+/// Returns "layer 12/80  4711 lines  Z 2.4  nozzle 209.8/210  bed 60.1/60  8 layers ready  3 % starved".
 std::string status_text(const LinkStatus& status, int last_layer);
 
-/// What the printer waits for and which keys answer it; empty while it waits for no one.
+/// Returns what the printer waits for and which keys answer it; empty while it does not wait.
 std::string wait_text(const LinkStatus& status);
 
-/// What a print came to: lines/s, longest gap, resends, timeouts, starvation.
+/// Returns the statistics of a print: lines/s, longest gap, resends, timeouts, starvation.
 std::string summary_text(const LinkStatus& status);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Drawing the bar and pacing the lines.
+// Draws the bar and paces the lines.
 #include "app/console/progress.h"
 
 #include <fmt/format.h>

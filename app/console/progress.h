@@ -1,4 +1,4 @@
-// ProgressDisplay: how far a run has come, as a bar on a terminal and as lines now and then elsewhere.
+// ProgressDisplay: the progress of a run, as a bar on a terminal and as lines at intervals otherwise.
 #pragma once
 
 #include <chrono>
@@ -11,18 +11,18 @@ namespace lamella {
 /// Writes to standard error. Call from one thread.
 class ProgressDisplay {
   public:
-    /// Shows nothing when quiet; `what` is being done, for the front of every line.
+    /// Shows nothing when quiet; `what` names the work at the front of every line.
     explicit ProgressDisplay(bool quiet, std::string what = "");
     ~ProgressDisplay() { finish(); }
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void show(const Progress& progress);
-    /// The same for work that is no layers: how much of all is done, 0 to 1.
+    /// Shows the progress of other work than layers: the finished share, 0 to 1.
     void show(double share);
     /// Ends the bar's line.
     void finish();
-    /// Time from construction to the first layer; 0 before it.
+    /// Returns the time from construction to the first layer; 0 before it.
     double first_layer_seconds() const { return first_layer_; }
     double seconds() const;
 
@@ -39,7 +39,7 @@ class ProgressDisplay {
     double last_shown_ = 0;
 };
 
-/// "45 %  90/200 layers  12.5 layers/s  0:09 left".
+/// Returns "45 %  90/200 layers  12.5 layers/s  0:09 left".
 std::string progress_text(const Progress& progress, double seconds);
 
 }  // namespace lamella

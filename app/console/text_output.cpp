@@ -1,4 +1,4 @@
-// Buffered writing with every error seen, and the rename that completes a file.
+// Buffered writing that checks every error, and the rename that completes a file.
 #include "app/console/text_output.h"
 
 #include <unistd.h>
@@ -14,7 +14,7 @@ TextOutput::TextOutput(const std::string& path) : path_(path == "-" ? "" : path)
     std::error_code ignored;
     if (std::filesystem::is_directory(path_, ignored))
         throw InputError(path_ + ": is a folder; a file name is needed");
-    // Devices and pipes have no final name to be given.
+    // Devices and pipes cannot be renamed: they are written in place.
     const bool in_place =
         std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored);
     if (!in_place) temporary_ = path_ + ".part";
@@ -50,7 +50,8 @@ void TextOutput::close() {
     std::FILE* file = file_;
     file_ = nullptr;
     if (std::fclose(file) != 0) fail("written");
-    if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("given its name");
+    if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0)
+        fail("renamed from its temporary name");
 }
 
 bool TextOutput::to_terminal() const { return isatty(fileno(file_)) != 0; }

@@ -1,4 +1,4 @@
-// TextOutput: where a command's result goes, a file that appears when it is complete or standard output.
+// TextOutput: the destination of a command's result: a file that appears when complete, or standard output.
 #pragma once
 
 #include <cstdio>
@@ -9,15 +9,15 @@
 
 namespace lamella {
 
-/// Whoever read our output has closed the pipe: nothing is wrong, and nothing is left to do.
+/// Thrown when the reader of our output has closed the pipe: not an error, but there is nothing left to do.
 class ReaderGone : public Error {
   public:
     ReaderGone() : Error("the reader of the output is gone") {}
     int exit_code() const override { return 0; }
 };
 
-/// A buffered sink. Files are written as PATH.part and renamed by close(), so a file under its final name is
-/// whole; without close() the unfinished file is removed.
+/// A buffered sink. Files are written as PATH.part and renamed by close(), so a file with its final name is
+/// complete. Without close() the unfinished file is removed.
 class TextOutput {
   public:
     /// Opens the file, or standard output when the path is empty or "-". Throws FaultError when that fails.
@@ -28,7 +28,7 @@ class TextOutput {
 
     /// Throws ReaderGone on a closed pipe, FaultError when the disk is full.
     void write(std::string_view bytes);
-    /// Hands over what was written so far.
+    /// Flushes the buffer.
     void flush();
     void close();
     bool to_terminal() const;

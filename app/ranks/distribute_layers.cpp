@@ -1,4 +1,4 @@
-// The first rank says turn by turn who renders what; the others send their layers.
+// Rank 0 announces turn by turn which rank renders which layers; the others send theirs.
 #include "app/ranks/distribute_layers.h"
 
 #include <algorithm>
@@ -13,20 +13,20 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t blocks_ahead = 2;  ///< that wait to be taken
+constexpr std::size_t blocks_ahead = 2;  ///< blocks sent but not yet received
 
-/// MPI has tags up to 32767; layers that are on the way at once are far nearer to each other.
+/// MPI guarantees tags up to 32767 only; layers in transit at the same time are much closer to each other.
 int tag_of(int layer) { return first_layer_tag + layer % 32000; }
 
-/// What rank 0 tells all.
+/// The announcement of rank 0 to all others.
 struct Beginning {
-    int first = 0;         ///< layer that is still missing
+    int first = 0;         ///< first missing layer
     std::string identity;  ///< the job's
 
     void serialize(Archive& parcel) { parcel(first, identity); }
 };
 
-/// Outputs that tell all ranks where to begin once they know it.
+/// A back-end that announces the first layer to all ranks and writes layers of any rank.
 class Announcing : public Backend {
   public:
     Announcing(Ranks& ranks, std::unique_ptr<Backend> outputs, const CancelToken* cancel)
@@ -86,7 +86,7 @@ void render_blocks(Ranks& ranks, const Job& job, std::unique_ptr<Backend> render
         const auto beginning = unpacked<Beginning>(*told);
         if (beginning.identity != job.identity)
             throw InputError(
-                "its job is another than that of rank 0; accepted: the same recipe and files for all");
+                "its job differs from that of rank 0; accepted: the same recipe and files for all ranks");
         const auto send = [&](int layer, std::string bytes) {
             wait_for([&] { return ranks.outstanding() < blocks_ahead * layers_in_a_block; }, options.cancel);
             ranks.send(0, tag_of(layer), std::move(bytes));

@@ -1,4 +1,5 @@
-// One job's layers over several processes: blocks are rendered anywhere, and written in order by the first.
+// Distributes a job's layers over several processes: any rank renders blocks of layers, rank 0 writes them in
+// order.
 #pragma once
 
 #include <memory>
@@ -8,16 +9,16 @@
 
 namespace lamella {
 
-/// The process of rank 0 streams layers to its outputs. It renders some of them itself, as many as it has
-/// time for, and gets the others from the ranks that it has given them to. What is written is what one
-/// process would write, whoever renders what. Throws what stream_layers throws, and FaultError where another
-/// rank failed.
+/// Streams layers to the outputs of rank 0. It renders some of them itself, as many as it has time for, and
+/// receives the others from the ranks to which it assigned them. The output equals that of a single process,
+/// whichever rank renders which layer. Throws what stream_layers throws, and FaultError when another rank
+/// failed.
 StreamReport spread_layers(Ranks& ranks, const Job& job, std::unique_ptr<Backend>& outputs,
                            const StreamOptions& options);
 
-/// What the other processes do: their blocks are rendered by a back-end of their own that makes of a layer
-/// what that of rank 0 does, and sent, not further ahead than memory allows. What fails is told to rank 0,
-/// also that the job is not the same there.
+/// The work of the other ranks: each renders its blocks with its own back-end, which renders layers exactly
+/// as that of rank 0 does, and sends them, no further ahead than memory allows. Failures are reported to rank
+/// 0; a job that differs from rank 0's is one.
 void render_blocks(Ranks& ranks, const Job& job, std::unique_ptr<Backend> renderer,
                    const StreamOptions& options);
 

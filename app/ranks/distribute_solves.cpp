@@ -1,4 +1,4 @@
-// Solves as tasks, and their results as parcels.
+// Solves are tasks; results are sent as archives.
 #include "app/ranks/distribute_solves.h"
 
 #include "engine/base/archive.h"

@@ -1,4 +1,4 @@
-// A rank asks, is told a number, and sends what came of it.
+// A rank asks, gets a task's number, and sends the result.
 #include "app/ranks/distribute_tasks.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace lamella {
 namespace {
 
-/// What rank 0 answers.
+/// The reply of rank 0 to a request.
 struct Order {
     void serialize(Archive& parcel) { parcel(task, count, identity); }
-    std::uint64_t task = 0, count = 0;  ///< equal where none is left
+    std::uint64_t task = 0, count = 0;  ///< equal when no task is left
     std::string identity;
 };
 
-/// What it is sent.
+/// The message to rank 0 with a result.
 struct Result {
     void serialize(Archive& parcel) { parcel(task, bytes); }
     std::uint64_t task = 0;
@@ -54,7 +54,8 @@ void DistributedTasks::collect() {
     for (int rank = 1; rank < ranks_->size(); ++rank) {
         while (auto bytes = ranks_->receive(rank, result_tag)) {
             Result result = unpacked<Result>(std::move(*bytes));
-            if (result.task >= results_.size()) throw FaultError("a rank has done what nobody asked for");
+            if (result.task >= results_.size())
+                throw FaultError("a rank has sent the result of an unknown task");
             results_[result.task] = std::move(result.bytes);
         }
     }
@@ -85,7 +86,7 @@ void help_with_tasks(Ranks& ranks, const std::string& identity, const DoTask& ta
         const Order order = unpacked<Order>(*told);
         if (order.identity != identity)
             throw InputError(
-                "it was given other work than rank 0; accepted: the same recipe and files for all");
+                "its work differs from that of rank 0; accepted: the same recipe and files for all ranks");
         if (order.task == order.count) return;
         ranks.send(0, result_tag, packed(Result{order.task, task(order.task)}));
     }

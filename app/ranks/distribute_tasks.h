@@ -1,4 +1,4 @@
-// Work in pieces that do not need each other, over several processes: whoever is free does the next one.
+// Distributes independent tasks over several processes: a free rank does the next task.
 #pragma once
 
 #include <atomic>
@@ -13,26 +13,26 @@
 
 namespace lamella {
 
-/// Does a task, and returns what came of it as bytes. Every rank does the same of the same task.
+/// Does a task, and returns its result as bytes. Must give the same result on every rank.
 using DoTask = std::function<std::string(std::size_t task)>;
 
-/// The tasks as rank 0 has them done, or a process on its own.
+/// The tasks, as seen by rank 0 or a single process.
 class DistributedTasks {
   public:
-    /// `ranks`: null for this process alone. `identity` tells this work from other work: ranks that have been
-    /// given another refuse to help. Tasks are numbered from 0.
+    /// `ranks`: null for a single process. `identity` distinguishes this work from other work: ranks with
+    /// another identity refuse to help. Tasks are numbered from 0.
     DistributedTasks(Ranks* ranks, std::size_t count, std::string identity, DoTask task,
                      const CancelToken* cancel);
 
-    /// What came of a task. Until that is known tasks are done here, those with low numbers first. Throws
-    /// what a task throws, Interrupted when cancelled, and what another rank has failed with.
+    /// Returns the result of a task. Until it is available, does tasks here, those with low numbers first.
+    /// Throws what a task throws, Interrupted when cancelled, and failures of other ranks.
     const std::string& result(std::size_t task);
-    /// Whether the result is there. What others have done counts once it has been collected.
+    /// Returns true if the result is available. Results of other ranks count after they have been collected.
     bool is_done(std::size_t task) const { return results_[task].has_value(); }
-    /// Takes in what others have done; long tasks call it now and then. Throws what another rank has failed
-    /// with.
+    /// Receives results of other ranks; long tasks should call it now and then. Throws failures of other
+    /// ranks.
     void collect();
-    /// After the last result: waits until the others know that nothing is left.
+    /// To be called after the last result: waits until the other ranks know that no task is left.
     void finish();
 
   private:
@@ -43,13 +43,13 @@ class DistributedTasks {
     DoTask task_;
     const CancelToken* cancel_;
     std::vector<std::optional<std::string>> results_;
-    std::atomic<std::size_t> next_{0};  ///< task that nobody has begun
-    std::atomic<int> sent_home_{0};     ///< ranks that know that nothing is left
-    std::jthread desk_;                 ///< where ranks ask, also while a task is done here
+    std::atomic<std::size_t> next_{0};  ///< next task that no rank has begun
+    std::atomic<int> sent_home_{0};     ///< ranks that know that no task is left
+    std::jthread desk_;                 ///< answers other ranks, also while this process does a task
 };
 
-/// What the other ranks do: tasks as they are given them, until none is left. Throws what a task throws, and
-/// InputError where rank 0 is at other work.
+/// The work of the other ranks: does tasks as rank 0 assigns them, until none is left. Throws what a task
+/// throws, and InputError when rank 0 does other work.
 void help_with_tasks(Ranks& ranks, const std::string& identity, const DoTask& task,
                      const CancelToken* cancel);
 

@@ -1,4 +1,4 @@
-// Shares follow what rendering and writing have taken so far.
+// Shares follow from the average times of rendering and writing.
 #include "app/ranks/layer_schedule.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::vector<Turn>::const_iterator LayerSchedule::behind(int layer) const {
     return std::ranges::upper_bound(turns_, layer, {}, &Turn::first);
 }
 
-/// Parts of layers are made up for by later turns. A turn has a layer at least.
+/// Fractions of layers are carried over to later turns. A turn has at least one layer.
 int LayerSchedule::share() {
     const double wanted = std::max(times_.fair_share(ranks_).value_or(layers_in_a_block), 0.0) + owed_;
     const int own = static_cast<int>(wanted);

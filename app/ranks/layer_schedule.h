@@ -1,4 +1,4 @@
-// Which rank renders which layers: turn by turn, as the first rank plans them.
+// LayerSchedule: assigns layers to ranks, turn by turn, as planned by rank 0.
 #pragma once
 
 #include <chrono>
@@ -12,17 +12,17 @@
 
 namespace lamella {
 
-/// What a rank other than 0 renders in one turn.
+/// Layers that a rank other than 0 renders in one turn.
 inline constexpr int layers_in_a_block = 8;
 
-/// Successive layers: some of rank 0, which has to write all of them besides, then a block of each other
+/// A range of layers: first some of rank 0, which also has to write all layers, then one block for each other
 /// rank.
 struct Turn {
     int first = 0;
-    int own = layers_in_a_block;  ///< layers of rank 0
+    int own = layers_in_a_block;  ///< number of layers of rank 0
 
     int end(int ranks) const { return block_of(ranks).first; }
-    /// The layers of a rank other than 0.
+    /// Returns the layers of a rank other than 0.
     LayerRange block_of(int rank) const {
         const int begin = first + own + layers_in_a_block * (rank - 1);
         return {begin, begin + layers_in_a_block};
@@ -34,18 +34,18 @@ struct Turn {
     void serialize(Archive& parcel) { parcel(first, own); }
 };
 
-/// How long something takes with a layer, on the average so far. For deciding who does it, never for what
-/// comes of it. Thread-safe.
+/// The average time that an operation takes for a layer. Only for deciding who does it, never for its result.
+/// Thread-safe.
 class LayerTime {
   public:
-    /// Does it with one layer.
+    /// Runs and measures the operation for one layer.
     template <typename Work>
     auto measure(const Work& work) {
         const Counting counting{*this};
         return work();
     }
     void add(double seconds);
-    /// Seconds; empty before the first layer.
+    /// Returns seconds; empty before the first layer.
     std::optional<double> average() const;
 
   private:
@@ -60,30 +60,31 @@ class LayerTime {
     int layers_ = 0;
 };
 
-/// What rank 0 spends its time on.
+/// The times that rank 0 spends on layers.
 struct WorkTimes {
     LayerTime rendering, writing;
 
-    /// So many layers of its own that rank 0 is done with them, and with writing all of a turn, when each
-    /// other rank is with a block, if all are as quick as it is. May be negative. Empty before it has done
-    /// any.
+    /// Returns the number of layers that rank 0 should render itself in a turn so that it finishes them, and
+    /// the writing of the whole turn, when each other rank finishes its block, assuming equal speed. May be
+    /// negative. Empty before rank 0 has rendered and written a layer.
     std::optional<double> fair_share(int ranks) const;
 };
 
-/// The turns of a run. Two are planned ahead of the layer that rank 0 is at, so that nobody waits for a plan.
-/// Thread-safe. Takes eight bytes for each turn.
+/// The turns of a run. Two are planned ahead of the current layer of rank 0, so that no rank waits for a
+/// plan. Thread-safe. Takes eight bytes for each turn.
 class LayerSchedule {
   public:
-    /// tell: called with each turn in order, once it is planned. The times must outlive this.
+    /// `tell` is called with each turn in order, once it is planned. `times` must outlive this.
     LayerSchedule(int ranks, LayerRange layers, const WorkTimes& times, std::function<void(Turn)> tell);
 
-    /// The rank that renders a layer; asked for by rank 0 as it gets there.
+    /// Returns the rank that renders a layer; called by rank 0 when it reaches the layer, which advances the
+    /// plan.
     int owner_of(int layer);
 
   private:
     void plan_until(int layer);
     int next() const { return turns_.empty() ? layers_.first : turns_.back().end(ranks_); }
-    /// The first turn that begins behind a layer.
+    /// Returns the first turn that begins after a layer.
     std::vector<Turn>::const_iterator behind(int layer) const;
     int share();
 
@@ -93,7 +94,7 @@ class LayerSchedule {
     std::function<void(Turn)> tell_;
     std::mutex planning_;
     std::vector<Turn> turns_;
-    double owed_ = 0;  // of a layer
+    double owed_ = 0;  // fraction of a layer carried over to the next turn
 };
 
 }  // namespace lamella

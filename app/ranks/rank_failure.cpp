@@ -1,4 +1,4 @@
-// The exit code and the words, as a message.
+// Failures are messages with an exit code and a text.
 #include "app/ranks/rank_failure.h"
 
 #include "engine/base/archive.h"

@@ -1,4 +1,4 @@
-// What fails on one of several ranks is told to the first, which ends the run.
+// Reports failures of other ranks to rank 0, which ends the run.
 #pragma once
 
 #include <functional>
@@ -7,12 +7,12 @@
 
 namespace lamella {
 
-/// Does a rank's part of the work. What it throws is told to rank 0, but for Interrupted, which is thrown on:
-/// all ranks are stopped at once.
+/// Does a rank's part of the work. Sends exceptions to rank 0, except Interrupted, which it rethrows: an
+/// interruption stops all ranks at once.
 void tell_failures(Ranks& ranks, const std::function<void()>& work);
 
-/// On rank 0: throws what another rank has told, if one has, with the rank before its words. An Error of the
-/// same exit code; FaultError for what is none.
+/// On rank 0: throws the failure that another rank has reported, if any, with the rank before its message.
+/// InputError and ConstraintError keep their types; all others become FaultError.
 void throw_failure(Ranks& ranks);
 
 }  // namespace lamella

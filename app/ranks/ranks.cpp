@@ -1,4 +1,4 @@
-// Whether mpirun started us is said by its environment; its library is loaded only then.
+// The environment tells whether mpirun started this process; the MPI module is loaded only then.
 #include "app/ranks/ranks.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {
 
-/// How many processes the launcher says that there are: Open MPI, MPICH and Intel MPI, or PMIx.
+/// Returns the number of processes that the launcher states: Open MPI, MPICH and Intel MPI, or PMIx.
 int launched() {
     for (const char* name : std::array{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
         const char* size = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing sets it
@@ -25,8 +25,8 @@ std::unique_ptr<Ranks> started_ranks() {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): a loader knows no types
     const auto make = reinterpret_cast<MakeRanksFunction>(
         module_function("liblamella_mpi.so", "lamella_make_ranks", ModuleScope::shared,
-                        "was started by mpirun, but has no MPI",
-                        "accepted: a lamella that was built where MPI is installed, or one process"));
+                        "was started by mpirun, but is built without MPI",
+                        "accepted: a lamella built with MPI, or a single process"));
     return std::unique_ptr<Ranks>(make());
 }
 

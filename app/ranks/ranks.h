@@ -1,4 +1,4 @@
-// Ranks: the processes of one run that share its layers, on one machine or several.
+// Ranks: the processes of one run that share its work, on one machine or several.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace lamella {
 
-/// What processes started together can do. Thread-safe.
+/// Communication between processes started together. Thread-safe.
 class Ranks {
   public:
     Ranks() = default;
@@ -15,35 +15,34 @@ class Ranks {
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;
 
-    virtual int rank() const = 0;  ///< this process, from 0
+    virtual int rank() const = 0;  ///< of this process, from 0
     virtual int size() const = 0;
-    /// Sends bytes with a RankTag; they are on their way when this returns, and arrive in the order of
-    /// sending.
+    /// Sends bytes with a RankTag without waiting for their arrival; messages arrive in the order of sending.
     virtual void send(int to, int tag, std::string bytes) = 0;
-    /// What has come from a rank with a tag, if anything has.
+    /// Returns the next message from a rank with a tag, if one has arrived.
     virtual std::optional<std::string> receive(int from, int tag) = 0;
-    /// How many messages of this process have not been taken yet.
+    /// Returns the number of messages sent by this process that have not been received yet.
     virtual std::size_t outstanding() = 0;
-    /// Ends all processes, this one included, with an exit code.
+    /// Ends all processes, including this one, with an exit code.
     [[noreturn]] virtual void abort(int code) = 0;
 };
 
-/// Tags of messages, by what they say.
+/// Tags of messages, by their content.
 enum RankTag : int {
-    begin_tag = 1,  ///< layers are to be made, from which on, and of which job
-    failure_tag,    ///< a rank has failed, and why
-    ask_tag,        ///< a rank is free for a task
-    task_tag,       ///< what it is to do
-    result_tag,     ///< what came of it
-    turn_tag,       ///< who makes which of the next layers
+    begin_tag = 1,  ///< start of layers: the first layer and the job
+    failure_tag,    ///< a rank has failed, with the reason
+    ask_tag,        ///< a free rank asks for a task
+    task_tag,       ///< its next task
+    result_tag,     ///< the result of a task
+    turn_tag,       ///< assignment of the next layers
     first_layer_tag = 16
 };
 
-/// The ranks that mpirun started this process with; null when it runs alone. Throws FaultError where they
-/// cannot be reached, as when this program was built without MPI.
+/// Returns the ranks with which mpirun started this process; null when it runs alone. Throws FaultError when
+/// they cannot be reached, for example because this program was built without MPI.
 std::unique_ptr<Ranks> started_ranks();
 
-/// What the module for MPI exports, by the name lamella_make_ranks.
+/// The function that the MPI module exports as lamella_make_ranks.
 using MakeRanksFunction = Ranks* (*)();
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The first rank leads.
+// Rank 0 leads, the others work for it.
 #include "app/ranks/run_on_ranks.h"
 
 #include "app/console/error_report.h"
@@ -16,7 +16,7 @@ void run_on_ranks(const LeadRanks& lead, const HelpRank& run_worker) {
         try {
             tell_failures(*ranks, [&] { run_worker(*ranks); });
         } catch (const Interrupted&) {
-            return;  // as the first rank will say
+            return;  // rank 0 reports the interruption
         }
     } else {
         try {

@@ -1,4 +1,4 @@
-// A command whose work several processes share: which of them does what, and how all of them end.
+// Runs a command whose work several processes share, and ends all of them.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,16 @@
 
 namespace lamella {
 
-/// What the process does that speaks to the user: the first of several, or the only one (null). Returns which
-/// constraints the result violates, in words; none where it is as it should be.
+/// The work of rank 0, or of a single process (null), which alone writes messages. Returns the violated
+/// constraints in words; empty for none.
 using LeadRanks = std::function<std::string(Ranks* others)>;
 
-/// What each of the other processes does, without a word: what fails is told to the first.
+/// The work of each other process, which writes no messages: its failures are reported to rank 0.
 using HelpRank = std::function<void(Ranks& ranks)>;
 
-/// Runs a command on its own, or as the rank that mpirun has made this process. Throws ConstraintError for
-/// what is violated once all ranks have done their work. What else the leading process throws is said by it
-/// and ends all processes with its exit code, since the others wait for it and would for ever.
+/// Runs a command alone, or as this process's rank under mpirun. Throws ConstraintError for violated
+/// constraints after all ranks have finished. Rank 0 prints any other exception of its own and ends all
+/// processes with its exit code, because the others would wait for it for ever.
 void run_on_ranks(const LeadRanks& lead, const HelpRank& run_worker);
 
 }  // namespace lamella

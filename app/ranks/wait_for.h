@@ -8,7 +8,7 @@
 
 namespace lamella {
 
-/// Asks until there is an answer, now and then, so that no processor is kept busy by waiting. Throws
+/// Polls at short intervals until there is an answer, so that waiting uses no processor time. Throws
 /// Interrupted when cancelled.
 template <typename Ask>
 auto wait_for(const Ask& ask, const CancelToken* cancel) {

@@ -1,4 +1,4 @@
-// The machine's limits, the job's layers, and what changes verdicts.
+// Combines the machine's limits, the job's layers, and settings that change verdicts.
 #include "app/reports/check_limits.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ Severity& verdict_of(PrintLimits& limits, Check check) {
     return limits.verdicts[static_cast<std::size_t>(check)];
 }
 
-/// Parts side by side are no fault of any of them.
+/// Turns off connectivity checks for several parts: they need not be connected to each other.
 void allow_several(CheckPlan& plan, int parts) {
     if (parts < 2) return;
     bool asked = false;
@@ -30,7 +30,7 @@ void allow_several(CheckPlan& plan, int parts) {
     }
 }
 
-/// Faults that the output mends by itself, or that its back-end refuses anyhow.
+/// Notes faults that the output repairs itself.
 void note_ties(CheckPlan& plan, const PrinterProfile& printer) {
     if (plan.process != Process::cutting || printer.cutting.ties != Ties::join) return;
     if (plan.options.limits.verdict(Check::sheets) == Severity::off) return;
@@ -42,10 +42,11 @@ void note_sheets(CheckPlan& plan, const PrinterProfile& printer) {
     plan.notes.push_back("Whether each layer fits a sheet is seen when the layers are laid out.");
 }
 
-/// Puts the rows on lines of the masks, where some lie nearly as far apart as is wanted: what is found of
-/// them serves both. Further apart they would miss walls that a row more has to cross (check_pitch).
+/// Aligns the check's rows with lines of the masks if a multiple of their spacing is near the wanted pitch,
+/// so that runs are computed once for both. A larger pitch would miss walls that must be crossed by a certain
+/// number of rows (check_pitch).
 void lie_on_masks(PrintCheckOptions& options, const PrinterProfile& printer, const Job& job) {
-    constexpr double min_share = 0.875;  // of the pitch wanted: rows that lie closer take longer
+    constexpr double min_share = 0.875;  // as a share of the wanted pitch: denser rows take longer
     if (find_backend(printer.backend).content != LayerContent::pixels) return;
     std::optional<RowBand> lines = mask_lines(printer.image, job.bounds);
     if (!lines) return;

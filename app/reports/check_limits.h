@@ -1,4 +1,4 @@
-// From a recipe and its job to what a print check holds the layers against.
+// Derives the limits of a print check from a machine and a job.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace lamella {
 
-/// What a check of one machine looks for.
+/// The plan of a print check for one machine.
 struct CheckPlan {
-    Process process = Process::from_backend;  ///< never that: the machine's own
+    Process process = Process::from_backend;  ///< never from_backend in a plan: the resolved process
     PrintCheckOptions options;
-    std::vector<std::string> notes;  ///< what a user should know of the limits, a sentence each
+    std::vector<std::string> notes;  ///< remarks on the limits for the user, a sentence each
 };
 
-/// Plans the check of a job for a machine: the process's limits, what the job's layers may stand out by, the
-/// machine's room, the pitch. `parts`: how many stand on the plate; of several none is asked to be joined to
-/// the others. Throws InputError when the machine's back-end is unknown.
+/// Plans the check of a job for a machine: limits of the process, printable overhang, build volume, and
+/// pitch. `parts`: number of parts on the plate; if there are several, connectivity is not checked. Throws
+/// InputError when the machine's back-end is unknown.
 CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Back-ends that check, among those that write.
+// Combines checking back-ends with writing ones.
 #include "app/reports/check_outputs.h"
 
 #include "printers/common/several_outputs.h"
@@ -6,7 +6,7 @@
 namespace lamella {
 namespace {
 
-/// A check whose report is asked for when the back-ends are gone.
+/// A back-end for a check whose report is read after the back-ends are destroyed.
 class SharedCheck : public Backend {
   public:
     explicit SharedCheck(std::shared_ptr<PrintCheck> check) : check_(std::move(check)) {}

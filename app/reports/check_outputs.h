@@ -1,4 +1,4 @@
-// Checks as back-ends: alone, or beside the outputs of a run, on the same layers.
+// Print checks as back-ends: alone, or on the layers of a run in parallel with its outputs.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,20 @@
 
 namespace lamella {
 
-/// A check for each of some machines. Outlives the back-ends that it gives out.
+/// The checks of several machines. Must outlive the back-ends that it returns.
 class OutputChecks {
   public:
-    /// A back-end that checks the layers of `part` for a machine. `parts`: see plan_check. Throws InputError
-    /// where the limits make no sense for the job.
+    /// Returns a back-end that checks the layers of `part` for a machine. `parts` as in plan_check. Throws
+    /// InputError when the limits do not suit the job.
     std::unique_ptr<Backend> check_of(const PrinterProfile& machine, const std::string& part, const Job& job,
                                       int parts);
 
-    /// The back-end with a check for the machine of each output beside it, which see every layer, also those
-    /// that a continued output has already.
+    /// Returns `outputs` combined with a check for the machine of each output. The checks see every layer,
+    /// including those that a resumed output already has.
     std::unique_ptr<Backend> beside(std::unique_ptr<Backend> outputs, const std::vector<Output>& machines,
                                     const std::string& part, const Job& job, int parts);
 
-    /// After the layers have gone through, in the order of asking; empty without checks.
+    /// Returns the outcomes after the last layer, in the order of the calls above; empty without checks.
     std::vector<CheckOutcome> outcomes() const;
 
   private:

@@ -1,4 +1,4 @@
-// The page is well-formed XML as well, all of its text escaped.
+// Writes the page, which is also well-formed XML; all text is escaped.
 #include "app/reports/check_page.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace lamella {
 namespace {
 
-constexpr std::size_t max_cards = 10;  // of a check
+constexpr std::size_t max_cards = 10;  // cards per check
 constexpr std::size_t max_side_views = 3;
 constexpr int overview_pixels = 400;
 constexpr int section_pixels = 400;
@@ -75,7 +75,7 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
-/// The first letter of a sentence is a large one.
+/// Capitalises the first letter of a sentence.
 std::string sentence(std::string text) {
     if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
         text.front() = static_cast<char>(text.front() - 'a' + 'A');
@@ -102,7 +102,7 @@ std::string word(const CheckResult& result) {
     return fmt::format("<span class=\"word {0}\">{0}</span>", outcome_word(result));
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is at most this.
+/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most this.
 double round_length(double most) {
     double power = 1;
     while (power > most) power /= 10;
@@ -122,7 +122,7 @@ std::string scale_bar(const SectionPicture& section) {
         y - 18, std::max(pixels, 60.0) + 12, y, pixels, y - 6, label);
 }
 
-/// A ring about what is too small to be seen at once.
+/// Draws a ring around faults that are too small to be noticed.
 std::string ring(const SectionPicture& section, const Fault& fault) {
     const dvec3 size = fault.box.size();
     if (!fault.box.empty() && std::max(size.x, size.y) > 24 * section.pixel) return "";
@@ -132,7 +132,7 @@ std::string ring(const SectionPicture& section, const Fault& fault) {
         at.x, at.y);
 }
 
-/// The whole layer, small, with a frame round what the other picture shows of it.
+/// Draws the whole layer, small, with a frame around the area of the other picture.
 std::string layer_map(const Fault& fault, const Job& job, const Rect& frame, double right) {
     const Rect whole = job.bounds.rect();
     const double margin = 0.06 * std::max(whole.size().x, whole.size().y);

@@ -1,4 +1,4 @@
-// What a print check found, as a page for a browser or a printer.
+// The result of a print check as an HTML page.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace lamella {
 
-/// One HTML file that needs no other and no script: the verdict, a picture of the part, the table, and a card
-/// for each of the worst places with the section of its layer. Its bytes are decided by what is checked
-/// alone. Layers are cut once more for the pictures.
+/// Returns a self-contained HTML file without scripts: the verdict, a picture of the part, the table, and a
+/// card for each of the worst places with the section of its layer. Its bytes depend only on the checked job.
+/// Cuts layers again for the pictures.
 std::string check_page(const CheckOutcome& outcome, const Job& job);
 
 }  // namespace lamella

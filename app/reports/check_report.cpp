@@ -1,4 +1,4 @@
-// Tables, lists and JSON of a check's report.
+// Formats a check's report as tables, lists and JSON.
 #include "app/reports/check_report.h"
 
 #include <fmt/format.h>
@@ -57,10 +57,10 @@ std::string places(const CheckResult& result) {
     return text;
 }
 
-/// "mm", "mm2" or "mm3" behind a key.
+/// Appends "mm", "mm2" or "mm3" to a key.
 std::string keyed(const char* key, Check check) { return fmt::format("{}_{}", key, size_unit(check)); }
 
-/// All sizes that were asked for, whether or not a check of them was.
+/// Returns all limits, whether or not their checks were made.
 Json limits_mm_json(const PrintLimits& limits) {
     Json build_volume = Json::array();
     for (int k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ Json limits_mm3_json(const PrintLimits& limits) {
     return {{"large_part", limits.large_part}, {"cavity", limits.cavity}, {"cup", limits.cup}};
 }
 
-/// Where each run begins and ends, in the middle of its row.
+/// Returns the begin and end of each run, in the middle of its row.
 Json runs_json(const Fault& fault, const RowBand& band) {
     Json runs = Json::array();
     for (const PlacedRun& run : fault.runs) {

@@ -1,4 +1,4 @@
-// What a print check found, as text, as JSON and as a sentence.
+// The result of a print check as text, as JSON and as a sentence.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// What was checked, and what was found.
+/// A print check and its result.
 struct CheckOutcome {
     std::string part;     ///< its name
     std::string machine;  ///< the profile's name
@@ -17,24 +17,24 @@ struct CheckOutcome {
     CheckReport report;
 };
 
-/// A line for each check (limit, outcome, how much was found), then the worst places of those that found
-/// something, and notes.
+/// Returns a line for each check (limit, outcome, findings), then the worst places of those with findings,
+/// and notes.
 std::string check_text(const CheckOutcome& outcome);
 
-/// All of the report; sizes with their units in the keys.
+/// Returns the whole report; keys of sizes contain their units.
 nlohmann::ordered_json check_json(const CheckOutcome& outcome, const Job& job);
 
-/// "koala cannot be printed as it is on marlin: thickness (3 places), islands (1 place)": what the process
-/// fails for.
+/// Returns why the check fails: "koala cannot be printed as it is on marlin: thickness (3 places), islands (1
+/// place)".
 std::string failure_text(const CheckOutcome& outcome);
 
-/// "2 of 9 checks fail, 1 warns" or "all 9 checks pass".
+/// Returns "2 of 9 checks fail, 1 warns" or "all 9 checks pass".
 std::string verdict_text(const CheckReport& report);
 
-/// "3 places", "1 place".
+/// Returns "3 places" or "1 place".
 std::string places_text(std::size_t count);
 
-/// "sheets, cups": what was not looked for; empty when nothing was left out.
+/// Returns the checks that were not made, "sheets, cups"; empty when all were.
 std::string left_out(const CheckReport& report);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Colours laid over each other for sections; blocks of layers for views from the side.
+// Sections are painted in layers of colour; side views are rendered from blocks of layers.
 #include "app/reports/fault_picture.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ constexpr dvec3 below_colour{0.89, 0.91, 0.93};
 constexpr dvec3 part_colour{0.60, 0.65, 0.70};
 constexpr dvec3 support_colour{0.35, 0.56, 0.80};
 constexpr dvec3 fault_colour{0.85, 0.11, 0.11};
-constexpr double fault_opacity = 0.8;  // what lies below it shows through
+constexpr double fault_opacity = 0.8;  // colours below show through
 
-/// A picture under way: colours from 0 to 1.
+/// A picture being painted: colours from 0 to 1.
 class Canvas {
   public:
     Canvas(const Rect& shown, int width) : shown_(shown), empty_(shown, width) {
@@ -26,7 +26,7 @@ class Canvas {
                         paper);
     }
 
-    /// Lays a slice, or runs of another band, over what is there.
+    /// Paint a slice, or runs of another band, over the picture.
     void paint(const SliceField& slice, dvec3 colour) {
         RunCoverage shares = empty_;
         shares.add(slice);
@@ -50,7 +50,7 @@ class Canvas {
     }
 
   private:
-    /// Rows of pictures go down, those of coverage up.
+    /// Picture rows go down, coverage rows go up.
     void blend(const RunCoverage& shares, dvec3 colour, double opacity) {
         std::size_t pixel = 0;
         for (int row = shares.height(); row-- > 0;) {
@@ -66,8 +66,7 @@ class Canvas {
     std::vector<dvec3> colours_;
 };
 
-/// Some layers in a rectangle: what is printed, and the fault's runs in its layer, the last one, by
-/// themselves.
+/// Layers in a rectangle as solids: the print, and the fault's runs in its layer, the last one.
 struct Blocks {
     std::shared_ptr<const LayerBlock> printed, fault;
 };
@@ -121,7 +120,7 @@ Picture draw_fault(const Job& job, const Fault& fault, const RowBand& band, int 
 }
 
 Rect about_fault(const Fault& fault, const RowBand& band, const Job& job) {
-    constexpr double least = 6;  // mm that are shown at least, unless the part is smaller
+    constexpr double least = 6;  // mm, minimum size shown unless the part is smaller
     Rect rect;
     for (const PlacedRun& run : fault.runs) {
         for (const dvec2 corner : {on_band(band, run.begin, run.row), on_band(band, run.end, run.row + 1)}) {

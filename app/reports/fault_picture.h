@@ -1,4 +1,4 @@
-// Pictures of a fault: the section of its layer, with what is wrong in red.
+// Pictures of a fault: the section of its layer with the fault in red.
 #pragma once
 
 #include <span>
@@ -10,27 +10,28 @@
 
 namespace lamella {
 
-/// A part of a layer's plane as a picture, seen from above.
+/// A picture of a rectangle of a layer's plane, seen from above.
 struct SectionPicture {
     Picture picture;
     Rect shown;        ///< mm
     double pixel = 1;  ///< mm
 
-    /// A place of the plane in pixels from the picture's upper left corner.
+    /// Converts a point of the plane to pixels from the picture's upper left corner.
     dvec2 at(dvec2 p) const { return {(p.x - shown.lo.x) / pixel, (shown.hi.y - p.y) / pixel}; }
 };
 
-/// The section of a layer in a rectangle, `width` pixels wide: the part grey, supports blue, the layer below
-/// in a light grey, and the runs of a fault, which lie as `band` says, red above all of it.
+/// Draws the section of a layer in a rectangle, `width` pixels wide: the part grey, supports blue, the layer
+/// below light grey, and on top in red the runs of a fault, whose lines are those of `band`.
 SectionPicture draw_section(const Job& job, int layer, const Rect& shown, int width,
                             std::span<const PlacedRun> fault, const RowBand& band);
 
-/// What a picture of a fault shows, four wide to three high: the fault in its largest layer with some of what
-/// is about it.
+/// Returns the rectangle for a picture of a fault (aspect ratio 4:3): the fault in its largest layer with
+/// some surroundings.
 Rect about_fault(const Fault& fault, const RowBand& band, const Job& job);
 
-/// What is about a fault, as its layers are printed: cut off at the top of its largest layer and seen from
-/// the side, the fault red. As wide as `about_fault` says, and half as deep as that is long.
+/// Draws the surroundings of a fault as printed: cut off at the top of the fault's largest layer and seen
+/// from the side, the fault red. The width is that of about_fault's rectangle; layers are shown down to half
+/// its extent in y below the cut.
 Picture draw_fault(const Job& job, const Fault& fault, const RowBand& band, int width);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Surveys over the part, and the ratios of cells to their neighbours.
+// Surveys numbers over the part, and ratios of neighbouring cells.
 #include "app/reports/grading_report.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace lamella {
 
 namespace {
 
-/// Cells that differ more from those beside them are visibly out of shape.
+/// Neighbouring cells that differ by more are visibly distorted.
 constexpr double steep = 2;
 
 void find_steepest(const Grading& cell, const Field& body, GradingReport& report, int per_side = 24) {

@@ -1,4 +1,4 @@
-// What the numbers that vary in space ask for over a part, and where it cannot be had.
+// Reports on graded numbers over a part, and on values that cannot be made.
 #pragma once
 
 #include <string>
@@ -8,22 +8,24 @@
 
 namespace lamella {
 
-/// One graded number over the part's inside, by a lattice of points.
+/// Statistics of one graded number inside the part, sampled on a lattice of points.
 struct GradingReport {
     std::string key;   ///< "foam.cell"
-    std::string unit;  ///< of the numbers and limits; empty where there is none
-    Interval asked;    ///< empty where the number is nowhere defined
+    std::string unit;  ///< of the numbers and limits; empty for none
+    Interval asked;    ///< empty when the number is undefined everywhere
     Interval limits;
-    double clamped = 0;    ///< share of the volume that asks for less or more than the limits
-    double undefined = 0;  ///< share of the volume without a number, where the upper limit holds
-    double steepest = 1;   ///< of cells: the greatest ratio of two cells that lie one cell apart
+    double clamped = 0;    ///< share of the volume where the requested number is outside the limits
+    double undefined = 0;  ///< share of the volume where the number is undefined, so that the upper limit is
+                           ///< used
+    double steepest = 1;   ///< of cells: the greatest ratio of two cell sizes one cell apart
     dvec3 steepest_at{0};  ///< mm
 };
 
 /// Reports on the numbers that are formulas, in the order of the recipe's sections.
 std::vector<GradingReport> grading_reports(const BuiltJob& built);
 
-/// A sentence for each thing that is not as asked for: clamped, undefined, or steeper than cells can follow.
+/// Returns a sentence for each deviation from the request: clamped, undefined, or steeper than cells can
+/// follow.
 std::vector<std::string> warnings(const GradingReport& report);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Islands as JSON and as a sentence.
+// Formats islands as JSON and as a sentence.
 #include "app/reports/island_report.h"
 
 #include <fmt/format.h>

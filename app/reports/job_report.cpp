@@ -1,4 +1,4 @@
-// Measuring masks in blocks of layers, and telling what was found.
+// Measures masks in blocks of layers, and formats the report.
 #include "app/reports/job_report.h"
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ AreaSummary measure_areas(const JobFile& job, int threads, bool quiet) {
                 });
             });
         } catch (const InputError&) {
-            // Of several damaged layers the first is told, whichever thread was faster.
+            // Of several damaged layers the first is reported, whichever thread was faster.
             for (int layer = first; layer < last; ++layer) job.layer(layer);
             throw;
         }

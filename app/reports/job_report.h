@@ -1,4 +1,4 @@
-// What a finished job holds: its facts, and the areas of its masks.
+// Report on a finished job file: its facts, and the areas of its masks.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,8 +8,8 @@
 
 namespace lamella {
 
-/// Lit areas of all masks, mm^2, or pixels where the job does not tell their size. A grey pixel counts by its
-/// grey.
+/// Statistics of the lit areas of all masks, mm^2, or pixels when the job does not state their size. A grey
+/// pixel counts by its grey value.
 struct AreaSummary {
     double lowest = 0, highest = 0, mean = 0;
     int lowest_layer = 0, highest_layer = 0;
@@ -17,10 +17,10 @@ struct AreaSummary {
     bool in_pixels = false;
 };
 
-/// Decodes every mask, several at once (0 threads: one a core). Throws InputError for one that is damaged.
+/// Decodes every mask, several in parallel (0 threads: one per core). Throws InputError for a damaged mask.
 AreaSummary measure_areas(const JobFile& job, int threads, bool quiet);
 
-/// What the masks make, mm^3; negative where the job does not tell sizes.
+/// Returns the volume that the masks make, mm^3; negative when the job does not state sizes.
 double mask_volume(const JobFacts& facts, const AreaSummary& areas);
 
 nlohmann::ordered_json job_json(const std::string& path, const JobFacts& facts, const AreaSummary& areas);

@@ -1,4 +1,4 @@
-// Shares of pixels, interpolated within a layer and, at its borders, between layers.
+// Pixel coverage, interpolated within a layer and, at its borders, between layers.
 #include "app/reports/layer_block.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ LayerBlock::LayerBlock(const Box& box, std::vector<RunCoverage> layers)
       height_(box.size().z / static_cast<double>(layers_.size())),
       pixel_(layers_.front().pixel()) {}
 
-/// Bilinear between the middles of pixels; void beyond them.
+/// Interpolates bilinearly between pixel centres; void outside.
 double LayerBlock::share_in(int layer, dvec2 at) const {
     if (layer < 0 || layer >= static_cast<int>(layers_.size())) return 0;
     const RunCoverage& shares = layers_[static_cast<std::size_t>(layer)];
@@ -45,7 +45,7 @@ double LayerBlock::value(dvec3 p) const {
     return (0.5 - share(p)) * pixel_ / 2;  // halved, so that it changes by at most 1 per mm
 }
 
-/// Between the middles of pixels the share is linear.
+/// The share is linear between pixel centres.
 void LayerBlock::cut(Axis axis, double across, double z, std::vector<Interval>& intervals) const {
     const double lo = (axis == Axis::x ? box_.lo.x : box_.lo.y) - pixel_ / 2;
     const double hi = (axis == Axis::x ? box_.hi.x : box_.hi.y) + pixel_;

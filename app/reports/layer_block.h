@@ -1,4 +1,4 @@
-// A block of printed layers as a solid: what a picture from the side is drawn of.
+// LayerBlock: a block of printed layers as a solid, for pictures from the side.
 #pragma once
 
 #include <vector>
@@ -7,22 +7,22 @@
 
 namespace lamella {
 
-/// Layers on top of each other in a box, each as high as it is. What lies outside the box is void. The
-/// surface is where half of a pixel is covered, and values say which side of it a point is on; they are
-/// distances only nearer to it than a pixel. Cheap to ask, whatever the layers were made from.
+/// A stack of layers in a box; outside the box is void. The surface is where half of a pixel is covered.
+/// Values have the right sign everywhere, but approximate distances only within a pixel of the surface.
+/// Evaluation is cheap, whatever the layers were made from.
 class LayerBlock : public Field {
   public:
-    /// Layers from the lower side of the box up, their rectangles the box's.
+    /// Layers are ordered from the lower side of the box up; each covers the box's rectangle.
     LayerBlock(const Box& box, std::vector<RunCoverage> layers);
 
     double value(dvec3 p) const override;
     const SliceField& slice(SliceContext& context, double z) const override;
     Box bounds() const override { return box_; }
-    /// Appends where a line of a plane is solid, mm; see ClosedSlice.
+    /// Appends the solid intervals of a line in a plane, mm; see ClosedSlice.
     void cut(Axis axis, double across, double z, std::vector<Interval>& intervals) const;
 
   private:
-    /// Share of material about a point, 0 to 1.
+    /// Returns the interpolated share of material at a point, 0 to 1.
     double share(dvec3 p) const;
     double share_in(int layer, dvec2 at) const;
 

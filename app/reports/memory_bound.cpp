@@ -1,4 +1,4 @@
-// The reckoning of memory: foam statistics, plate area, look-ahead.
+// Estimates memory from foam statistics, plate area and look-ahead.
 #include "app/reports/memory_bound.h"
 
 #include <tbb/info.h>
@@ -17,20 +17,20 @@ constexpr double beams_per_seed =
     13.54;  // edges per cell of a Poisson-Voronoi foam, each shared by three cells
 constexpr double beam_length_per_cell =
     0.54;  // mean edge length over the mean cell diameter, Poisson-Voronoi
-constexpr double bytes_per_beam = 2 * sizeof(Beam);  // the beam and its place in the bands' index
-// Several units of the cell cache hold each beam, and seeds and blocks come on top: measured on foams of 0.5
-// to 3 mm.
+constexpr double bytes_per_beam = 2 * sizeof(Beam);  // the beam and its entry in the index of bands
+// Each beam is stored in several units of the cell cache, plus seeds and blocks: measured on foams of 0.5 to
+// 3 mm.
 constexpr double bytes_per_seed = 4.5 * (32 + 1.5 * beams_per_seed * sizeof(Beam));
 constexpr double reach_in_cells = 4;  // a unit of the cell cache and its neighbours, below and above
 constexpr std::int64_t bytes_per_triangle = 12 + 8 + 72;  // corners, index, corners again by height
-// Measured: while a mesh is read and mended, more of it is held, and most by the reader of 3MF packages.
+// Measured: more memory is held while a mesh is read and repaired, most by the reader of 3MF packages.
 constexpr double held_while_read = 2.5, held_while_read_3mf = 6;
 constexpr std::int64_t band_rows = 64;
 constexpr std::int64_t program_bytes = 13 << 20;  // measured: the resident size of slicing a plain box
-constexpr double picture_cells = 500;           // along the longest side of foam that a file has a picture of
+constexpr double picture_cells = 500;           // along the longest side of a foam drawn for a file's picture
 constexpr double bytes_per_picture_cell = 0.4;  // measured: a bit, the pyramid of densities, and slicing
 
-/// What drawing a picture of foam for the file takes.
+/// Returns the memory for drawing a file's picture of foam.
 std::int64_t picture_bytes(const Recipe& recipe, dvec3 size) {
     const auto embeds_picture = find_backend(recipe.printer.backend).embeds_picture;
     if (embeds_picture == nullptr || !embeds_picture(recipe.printer) || !recipe.foam) return 0;
@@ -64,8 +64,8 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
             seeds_per_mm * std::min(reach, size.z + 2 * foam.greatest_cell) * bytes_per_seed);
     }
     const ImageProfile& image = recipe.printer.image;
-    // The page at one byte in sixteen pixels is what deflate leaves of dense foam; rows hold a run of 8 bytes
-    // for every beam met and sub-row.
+    // A page takes one byte per sixteen pixels, as deflate achieves for dense foam; rows hold a run of 8
+    // bytes for every beam met and sub-row.
     const double across = std::min<double>(image.width, size.x / image.pixel_x),
                  down = std::min<double>(image.height, size.y / image.pixel_y);
     const auto page = static_cast<std::int64_t>(across * down / 16);

@@ -1,4 +1,4 @@
-// Five colours and what lies between them.
+// Interpolates between five colours.
 #include "app/reports/modulus_paint.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,8 @@ namespace lamella {
 
 namespace {
 
-/// Dark blue over green to yellow, evenly brighter, also for those who do not tell red from green.
+/// From dark blue over green to yellow with uniformly increasing lightness, readable with red-green colour
+/// blindness.
 constexpr std::array<dvec3, 5> scale{dvec3{0.058, 0.001, 0.089},
                                      {0.043, 0.084, 0.258},
                                      {0.015, 0.278, 0.262},

@@ -1,4 +1,4 @@
-// Colours for how stiff a foam gets, and for where it does not get as stiff as asked.
+// Colours for a foam's predicted modulus and its deviation from the request.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace lamella {
 
-/// A colour (linear light) at every point: dark blue to yellow from the least modulus that is predicted to
-/// the greatest, by its logarithm; red where the foam gets softer than asked, white where it gets stiffer.
+/// Returns a colour map (linear light): dark blue to yellow from the least predicted modulus to the greatest,
+/// on a logarithmic scale; red where the foam is softer than requested, white where it is stiffer.
 std::function<dvec3(dvec3)> modulus_paint(const BuiltModulus& modulus, const ModulusReport& report);
 
-/// What the colours mean, a line.
+/// Returns the legend of the colours, one line.
 std::string modulus_legend(const ModulusReport& report);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Exact along runs, some lines a pixel across them.
+// Exact along runs, sampled by several lines per pixel across them.
 #include "app/reports/run_coverage.h"
 
 #include <algorithm>

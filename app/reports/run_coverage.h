@@ -1,4 +1,4 @@
-// How far the pixels of a picture are covered by runs.
+// RunCoverage: the coverage of a picture's pixels by runs.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// A rectangle of a layer's plane in square pixels, each with the share of it that is covered, 0 to 1. Rows
-/// go along y, from the lower side up.
+/// A rectangle of a layer's plane in square pixels, each with its covered share, 0 to 1. Rows go along y,
+/// from the lower side up.
 class RunCoverage {
   public:
     /// `width`: pixels along x.
@@ -21,13 +21,13 @@ class RunCoverage {
     double pixel() const { return pixel_; }  ///< mm
     double at(int column, int row) const { return shares_[index(column, row)]; }
 
-    /// Adds what a slice covers.
+    /// Adds the coverage of a slice.
     void add(const SliceField& slice);
-    /// Adds what runs cover that lie as `band` says, each as high as its row.
+    /// Adds the coverage of runs on the lines of `band`, each as high as its row.
     void add(std::span<const PlacedRun> runs, const RowBand& band);
-    /// Takes away what another one of the same size covers.
+    /// Subtracts the coverage of another object of the same size.
     void subtract(const RunCoverage& other);
-    /// Each pixel becomes the mean of the three by three about it.
+    /// Replaces each pixel by the mean of its 3 x 3 neighbourhood.
     void blur();
 
   private:

@@ -1,4 +1,4 @@
-// Requests over the C interface, whose statuses and messages go into the replies.
+// Answers requests through the C interface; its statuses and messages go into the replies.
 #include "app/reports/section_server.h"
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ T sized() {
     return value;
 }
 
-/// A failure that the context knows more of.
+/// A failure whose details the context has.
 struct Failed {
     std::int32_t status;
 };
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError(what); }
 
-/// A member of a request, or `usual` where it is left out.
+/// Returns a member of a request, or `usual` when it is absent.
 template <typename T>
 T member(const Json& request, const char* key, const char* kind, std::optional<T> usual = {}) {
     const auto found = request.find(key);
@@ -42,12 +42,12 @@ T member(const Json& request, const char* key, const char* kind, std::optional<T
     try {
         const bool is_text = std::is_same_v<T, std::string>;
         if (found->is_string() != is_text || found->is_boolean() || found->is_null())
-            refuse(fmt::format("{}: {} is no {}", key, found->dump(), kind));
+            refuse(fmt::format("{}: {} is not a {}", key, found->dump(), kind));
         if (std::is_integral_v<T> && !found->is_number_integer())
-            refuse(fmt::format("{}: {} is no {}", key, found->dump(), kind));
+            refuse(fmt::format("{}: {} is not a {}", key, found->dump(), kind));
         return found->get<T>();
     } catch (const nlohmann::json::exception&) {
-        refuse(fmt::format("{}: is no {}", key, kind));
+        refuse(fmt::format("{}: is not a {}", key, kind));
     }
 }
 
@@ -71,7 +71,7 @@ lamella_raster raster_of(const Json& request) {
     return raster;
 }
 
-/// Numbers as they stand in a reply.
+/// Appends numbers in the byte format of replies.
 template <typename T, typename Number>
 void append(std::string& bytes, std::span<const Number> numbers) {
     for (const Number number : numbers) {
@@ -82,15 +82,15 @@ void append(std::string& bytes, std::span<const Number> numbers) {
     }
 }
 
-/// Lists of points, two numbers each.
+/// Polygons from lists of points, two numbers each.
 struct Polygons {
     explicit Polygons(const Json& lists) {
-        if (!lists.is_array()) refuse("polygons: is no list; accepted: a list of [x, y, x, y, ...] lists");
+        if (!lists.is_array()) refuse("polygons: is not a list; accepted: a list of [x, y, x, y, ...] lists");
         for (const Json& list : lists) {
             if (!list.is_array() || list.size() % 2 != 0)
-                refuse("polygons: one is no list of x and y; accepted: [x, y, x, y, ...]");
+                refuse("polygons: a polygon is not a list of x and y; accepted: [x, y, x, y, ...]");
             for (const Json& number : list) {
-                if (!number.is_number()) refuse("polygons: a coordinate is no number");
+                if (!number.is_number()) refuse("polygons: a coordinate is not a number");
                 points.push_back(number.get<double>());
             }
             first.push_back(points.size() / 2);
@@ -131,7 +131,7 @@ ServerReply SectionServer::answer(const std::string& text) {
     };
     try {
         const Json request = Json::parse(text);
-        if (!request.is_object()) refuse("a request is an object: {\"method\": ...}");
+        if (!request.is_object()) refuse("the request is not an object; accepted: {\"method\": ...}");
         if (request.contains("id")) id = request["id"];
         reply = answer(request);
         reply.head["ok"] = true;
@@ -141,7 +141,7 @@ ServerReply SectionServer::answer(const std::string& text) {
         fail(failed.status, error.message);
         if (error.line > 0) reply.head.update({{"path", error.path}, {"line", error.line}});
     } catch (const nlohmann::json::exception& error) {
-        fail(LAMELLA_BAD_INPUT, std::string("the request is no JSON: ") + error.what());
+        fail(LAMELLA_BAD_INPUT, std::string("the request is not valid JSON: ") + error.what());
     } catch (const Error& error) {
         fail(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
@@ -171,7 +171,7 @@ ServerReply SectionServer::answer(const Json& request) {
 
 ServerReply SectionServer::open(const Json& request) {
     if (static_cast<std::int64_t>(jobs_.size()) >= max_jobs)
-        refuse(fmt::format("{} jobs are open already; accepted: close one", max_jobs));
+        refuse(fmt::format("{} jobs are already open; accepted: close one first", max_jobs));
     lamella_recipe* recipe = nullptr;
     const auto path = member<std::string>(request, "recipe", "path", "");
     check(path.empty() ? lamella_recipe_create(context_, &recipe)
@@ -179,12 +179,12 @@ ServerReply SectionServer::open(const Json& request) {
     const std::unique_ptr<lamella_recipe, decltype(&lamella_recipe_destroy)> held(recipe,
                                                                                   lamella_recipe_destroy);
     check(lamella_recipe_add_printers(context_, recipe, nullptr));
-    const auto text = member<std::string>(request, "text", "a recipe's text", ""),
+    const auto text = member<std::string>(request, "text", "recipe's text", ""),
                name = member<std::string>(request, "name", "text", "request.toml");
     if (!text.empty())
         check(lamella_recipe_add_text(context_, recipe, text.data(), text.size(), name.c_str()));
     const Json set = request.value("set", Json::object());
-    if (!set.is_object()) refuse("set: is no object; accepted: {\"section.key\": value, ...}");
+    if (!set.is_object()) refuse("set: is not an object; accepted: {\"section.key\": value, ...}");
     for (const auto& [key, value] : set.items()) {
         const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
         check(lamella_recipe_set(context_, recipe, key.c_str(), word.c_str()));
@@ -208,7 +208,8 @@ ServerReply SectionServer::open(const Json& request) {
 lamella_job* SectionServer::job_of(const Json& request) const {
     const auto number = member<std::int64_t>(request, "job", "number of a job");
     const auto job = jobs_.find(number);
-    if (job == jobs_.end()) refuse(fmt::format("job: {} is not open; accepted: what `open` replied", number));
+    if (job == jobs_.end())
+        refuse(fmt::format("job: {} is not open; accepted: a job number from a reply to `open`", number));
     return job->second;
 }
 
@@ -222,7 +223,7 @@ ServerReply SectionServer::cut(const Json& request) {
     lamella_job* job = job_of(request);
     double z = 0;
     if (request.contains("layer")) {
-        if (request.contains("z")) refuse("layer: contradicts z; accepted: one of them");
+        if (request.contains("z")) refuse("layer: conflicts with z; accepted: layer or z, not both");
         check(lamella_job_layer_z(context_, job, member<std::int32_t>(request, "layer", "whole number"), &z));
     } else {
         z = member<double>(request, "z", "number, mm (or layer)");
@@ -239,7 +240,8 @@ ServerReply SectionServer::cut(const Json& request) {
         constexpr std::int64_t max_pixels = std::int64_t{1} << 31;
         if (raster.columns < 1 || raster.rows < 1 ||
             static_cast<std::int64_t>(raster.columns) * raster.rows > max_pixels)
-            refuse(fmt::format("columns, rows: accepted: 1 to {} pixels", max_pixels));
+            refuse(fmt::format(
+                "columns, rows: the number of pixels is out of range; accepted: 1 to {} pixels", max_pixels));
         reply.body.resize(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
         auto* pixels = reinterpret_cast<std::uint8_t*>(reply.body.data());  // NOLINT: bytes
         check(lamella_section_coverage(context_, section, what, &raster, pixels, 0));

@@ -1,4 +1,4 @@
-// SectionServer: the engine for programs that talk to it through a pipe, in frames of JSON and numbers.
+// SectionServer: the engine as a server on a pipe, with frames of JSON and numbers.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 
 namespace lamella {
 
-/// What is sent back: a line of JSON, and numbers behind it (little-endian).
+/// A reply: a line of JSON, followed by numbers (little-endian).
 struct ServerReply {
     nlohmann::ordered_json head;
     std::string body;
 };
 
-/// Answers requests, one at a time. A request is an object with a `method`; what else it has, and what the
-/// reply holds, is said in the README. A mistake in a request is told of in its reply: nothing is thrown.
+/// Answers requests, one at a time. A request is an object with a `method`; docs/embedding/server.md
+/// describes its other members and the replies. Mistakes in a request are reported in the reply; nothing is
+/// thrown.
 class SectionServer {
   public:
     SectionServer();
@@ -25,7 +26,7 @@ class SectionServer {
     SectionServer& operator=(const SectionServer&) = delete;
 
     ServerReply answer(const std::string& request);
-    /// Whether the last request was to end.
+    /// Returns true if the last request was to end.
     bool has_ended() const { return ended_; }
 
   private:

@@ -1,4 +1,4 @@
-// Writing one section: paths, polygons or pixels.
+// Writes one section as paths, polygons or pixels.
 #include "app/reports/section_writer.h"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ RowBand page_band(const Rect& page, const ImageProfile& image) {
     const dvec2 size = page.size();
     if (std::ceil(size.x / image.pixel_x) * std::ceil(size.y / image.pixel_y) > max_pixels) {
         throw InputError(
-            fmt::format("printer.pixel / --printer-pixel: {} x {} mm makes more than {} pixels of a page of "
-                        "{} x {} mm; accepted: larger pixels",
+            fmt::format("printer.pixel / --printer-pixel: with pixels of {} x {} mm a page has more than {} "
+                        "pixels at {} x {} mm; accepted: larger pixels",
                         image.pixel_x, image.pixel_y, max_pixels, size.x, size.y));
     }
     RowBand band;
@@ -40,7 +40,7 @@ RowBand page_band(const Rect& page, const ImageProfile& image) {
     return band;
 }
 
-/// All rows, a band of 64 at a time.
+/// Renders all rows in bands of 64.
 std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page, bool antialiased) {
     constexpr int rows_at_once = 64;
     std::vector<std::uint8_t> grey;
@@ -123,7 +123,7 @@ std::string section_png(const PlaneCut& cut, const PrinterProfile& printer) {
             grey[i] = std::max(grey[i], dimmed);
         }
     }
-    // Grey is coverage, not light: no gamma may touch it.
+    // Grey is coverage, not light: no gamma correction.
     const std::vector<std::byte> file =
         encode_image("section.png", {band.hi, band.count, 1, grey, image.pixel_x, image.pixel_y, true});
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text

@@ -1,4 +1,4 @@
-// One section of a part and its supports as SVG, PNG or JSON, in memory.
+// Writes one section of a part and its supports as SVG, PNG or JSON, in memory.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace lamella {
 
-/// What a plane cuts.
+/// The slices in one plane, and the page to draw.
 struct PlaneCut {
     const SliceField& part;
     const SliceField* supports = nullptr;  ///< null for none
@@ -18,16 +18,16 @@ struct PlaneCut {
     Rect page;                             ///< mm
 };
 
-/// The contours as one filled path, those of supports as another in blue, y up, lengths in mm. Contours lie
-/// within `tolerance` mm of the surface.
+/// Returns an SVG with the part's contours as one filled path and those of supports as another in blue, y up,
+/// lengths in mm. Contours lie within `tolerance` mm of the surface.
 std::string section_svg(const PlaneCut& cut, double tolerance);
 
-/// {"z", "area_mm2", "contours": [{"hole", "parent", "points": [[x, y], ...]}]}, mm; with supports also
-/// "support_area_mm2" and "support_contours".
+/// Returns {"z", "area_mm2", "contours": [{"hole", "parent", "points": [[x, y], ...]}]}, mm; with supports
+/// also "support_area_mm2" and "support_contours".
 std::string section_json(const PlaneCut& cut, double tolerance);
 
-/// Grey coverage at the profile's pixel size and antialiasing, first row at the largest y; supports in their
-/// grey. Throws InputError when the page has more than 2^28 pixels.
+/// Returns a PNG of the coverage as grey, at the profile's pixel size and antialiasing, first row at the
+/// largest y; supports in their grey. Throws InputError when the page has more than 2^28 pixels.
 std::string section_png(const PlaneCut& cut, const PrinterProfile& printer);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Lines on logarithmic axes; a surface of small quadrangles, the far ones first.
+// Draws lines on logarithmic axes, and a surface of small quadrilaterals sorted back to front.
 #include "app/reports/stiffness_plot.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double panel = 480, left = 78, top = 46, bottom = 56, right = 18;  // px
 
-/// The axes of the chart: decades of density and of modulus.
+/// The logarithmic axes of the chart: density and modulus.
 struct Axes {
     double min_density = -2;  ///< powers of ten
     double min_young, max_young;
@@ -67,7 +67,7 @@ std::string grid(const Axes& axes) {
     return text;
 }
 
-/// A curve of moduli over the densities from the least to 1.
+/// Draws a curve of moduli over densities from the minimum to 1.
 template <typename Young>
 std::string curve(const Axes& axes, const char* colour, const Young& young_of_density) {
     constexpr int steps = 60;
@@ -143,10 +143,11 @@ struct Facet {
     double depth, young, light;
 };
 
-/// Facets of the surface, seen from the front, the right and above; its greatest modulus is 1 wide.
+/// Returns the facets of the surface, seen from the front, the right and above; its greatest modulus is
+/// scaled to 1.
 std::vector<Facet> facets_of(const ElasticTensor& compliance, double most) {
     constexpr int rings = 36, around = 72;
-    const dvec3 towards = glm::normalize(dvec3(0.55, -0.75, 0.45));  // the eye
+    const dvec3 towards = glm::normalize(dvec3(0.55, -0.75, 0.45));  // direction of the eye
     const dvec3 across = glm::normalize(glm::cross(dvec3(0, 0, 1), towards)),
                 up = glm::cross(towards, across);
     const auto place = [&](int ring, int turn) {

@@ -1,4 +1,4 @@
-// A drawing of how stiff a foam is: by its density beside the bounds that hold for all, and to all sides.
+// A chart of a foam's stiffness: modulus over density with theoretical bounds, and its anisotropy.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@ namespace lamella {
 
 struct StiffnessPlot {
     std::string title;
-    std::vector<FoamLawPoint> law;  ///< by rising density, over the material's modulus; may be empty
+    std::vector<FoamLawPoint> law;  ///< by rising density, relative to the material's modulus; may be empty
     IsotropicMaterial material;     ///< MPa
-    /// Of a foam that was homogenised: density, modulus of the closest isotropic stiffness, stiffness.
+    /// A homogenised foam: density, modulus of the closest isotropic stiffness, stiffness.
     struct Sample {
         double density = 0;
         double young = 0;
@@ -22,9 +22,9 @@ struct StiffnessPlot {
     std::optional<Sample> sample;
 };
 
-/// The drawing as SVG: modulus over density on logarithmic axes with the bounds of Voigt and of Hashin and
-/// Shtrikman, and where there is a sample the surface whose distance from its middle is Young's modulus in
-/// that direction.
+/// Returns the chart as SVG: modulus over density on logarithmic axes with the Voigt and Hashin-Shtrikman
+/// bounds; with a sample, also the surface whose distance from its centre is Young's modulus in that
+/// direction.
 std::string stiffness_svg(const StiffnessPlot& plot);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A summary with bounds and tensor; all of it as JSON.
+// Formats a summary with bounds and tensor, or everything as JSON.
 #include "app/reports/stiffness_report.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What homogenisation found, for people and for programs.
+// The result of a homogenisation as text and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

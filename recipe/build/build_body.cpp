@@ -1,4 +1,4 @@
-// Shapes are placed at the origin, fields are found by their names, both scaled.
+// Makes the body: shapes at the origin, fields looked up by name; both are scaled.
 #include "recipe/build/build_body.h"
 
 #include "engine/base/error.h"

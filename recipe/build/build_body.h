@@ -1,4 +1,4 @@
-// From the recipe's part to its body: a mesh, a shape or a field.
+// Makes a recipe's body: a mesh, a shape or a field.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace lamella {
 
-/// The part's outside. A mesh fills in the report. Throws InputError when a file cannot be read or the body
-/// is empty.
+/// Makes the body of the part, without foam and skin. A mesh fills in the report. Throws InputError when a
+/// file cannot be read or the body is empty.
 FieldPtr build_body(const Recipe& recipe, Gradings& gradings, std::optional<MeshReport>& report);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// From a recipe's [cavity] to a hollow part, and from its [shield] to a wall about the print.
+// Hollows a part as the recipe's [cavity] says, and builds the wall around the print of its [shield].
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,22 +12,21 @@
 
 namespace lamella {
 
-/// What was made hollow.
+/// Cavities that were made.
 struct HollowReport {
     std::size_t count = 0;       ///< cavities
-    double volume = 0;           ///< of them all, mm^3
-    std::size_t left_solid = 0;  ///< cavities that were too small
-    double part_volume = 0;      ///< before, as surveyed, mm^3
+    double volume = 0;           ///< total, mm^3
+    std::size_t left_solid = 0;  ///< cavities left out because they were too small
+    double part_volume = 0;      ///< before hollowing, as surveyed, mm^3
 };
 
-/// Takes cavities from the part of the designed job, all of whose layers are surveyed for it. Lengths hold as
-/// printed: what [process] scales is taken into account. Throws InputError when the settings do not suit the
-/// part.
+/// Subtracts cavities from the designed job's part, after a survey of all layers. Lengths are as printed: the
+/// scale of [process] is taken into account. Throws InputError when the settings do not suit the part.
 HollowReport hollow_out(const Recipe& recipe, Job& designed);
 
 nlohmann::ordered_json cavities_json(const HollowReport& cavities);
 
-/// "2 of 120.5 mm3, 40.1 % of the part; 3 too small, left solid": one sentence.
+/// Returns one sentence: "2 of 120.5 mm3, 40.1 % of the part; 3 too small, left solid".
 std::string cavities_text(const HollowReport& cavities);
 
 struct ShieldWork {
@@ -35,12 +34,11 @@ struct ShieldWork {
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
-/// Gives the job a shield besides its supports, where the recipe asks for one: all layers are surveyed, and
-/// the job's bounds grow by it. Throws InputError when the settings do not suit the print, Interrupted when
-/// cancelled.
+/// Adds a shield to the job's supports if the recipe asks for one. Surveys all layers; the job's bounds grow
+/// to include it. Throws InputError when the settings do not suit the print, Interrupted when cancelled.
 std::optional<ShieldSurvey> add_shield(const Recipe& recipe, Job& job, const ShieldWork& work);
 
-/// "a wall of 120.5 mm3": one sentence.
+/// Returns one sentence: "a wall of 120.5 mm3".
 std::string shield_text(const ShieldSurvey& shield);
 
 }  // namespace lamella

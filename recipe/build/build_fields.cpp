@@ -1,4 +1,4 @@
-// Meshes are read, closed and placed; shapes are made in place; formulas are given a box and moved.
+// Reads, closes and places meshes; makes shapes in place; bounds and places formulas.
 #include "recipe/build/build_fields.h"
 
 #include "engine/base/error.h"
@@ -19,7 +19,8 @@ namespace {
 
 Placement placement(const FieldRecipe& field) {
     Placement place{turned_axes(field.turn), field.at};
-    // Right angles leave 1e-17 where 0 is meant, which would cost shapes along the axes their closed forms.
+    // Rotation by right angles yields 1e-17 instead of 0, which would prevent the closed forms of
+    // axis-parallel shapes.
     constexpr double rounding = 1e-15;
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
@@ -46,7 +47,7 @@ FieldPtr mesh_field(const FieldBuildContext& making) {
     return read_solid(field.file, field.unit, field.scale, making.place, making.report);
 }
 
-/// The box about a box of the part, in the space of the formula before it is placed.
+/// Returns the bounding box of a box of the part in the space of the formula before it is placed.
 Box before_placing(const Box& box, const Placement& place) {
     const glm::dmat3 back = glm::transpose(place.axes);
     Box image;
@@ -58,8 +59,8 @@ Box before_placing(const Box& box, const Placement& place) {
     return image;
 }
 
-/// The inside of a formula within the box that the recipe gives, or that is about the part, or that a search
-/// finds.
+/// Bounds a formula's inside by the recipe's box, or else the box around the part, or else the result of a
+/// search.
 FieldPtr bounded(const FieldBuildContext& making, GradedFormula formula) {
     Box bounds;
     if (!making.recipe.bounds.empty()) {
@@ -85,8 +86,7 @@ FieldPtr package_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
     if (!field.function.empty() && !field.object.empty()) {
         throw InputError(field.where +
-                         ".object: a function belongs to no object; accepted: object or function, "
-                         "one of them");
+                         ".object: cannot be combined with a function; accepted: object or function");
     }
     VolumetricModel model(field.file);
     if (!field.function.empty()) {
@@ -94,9 +94,9 @@ FieldPtr package_field(const FieldBuildContext& making) {
         return bounded(making, {std::move(function.formula), std::move(function.others)});
     }
     if (!field.bounds.empty()) {
-        throw InputError(field.where +
-                         ".bounds: objects have bounds of their own; accepted: bounds with a "
-                         "function");
+        throw InputError(
+            field.where +
+            ".bounds: objects have their own bounds; accepted: bounds only together with a function");
     }
     return placed(field.object.empty() ? model.built() : model.object(field.object), making.place);
 }
@@ -154,7 +154,7 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
         case Shape::none:
             break;
     }
-    throw InputError("this shape has no sizes to be made of");
+    throw InputError("this shape cannot be made from sizes");
 }
 
 FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,

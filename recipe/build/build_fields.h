@@ -1,4 +1,4 @@
-// From the recipe's [[field]] entries to solids: kinds are registered here, a line each.
+// Makes solids from the recipe's [[field]] entries; the registry of their kinds.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace lamella {
 
-/// What was found in a mesh file.
+/// Facts about a mesh file.
 struct MeshReport {
     std::string path;
     std::size_t vertices = 0;
@@ -20,20 +20,20 @@ struct MeshReport {
     std::size_t caps = 0;            ///< triangles added to close holes
     bool oriented_manifold = false;  ///< closed and consistently oriented
     double volume = 0;               ///< enclosed, mm^3
-    std::vector<std::string> notes;  ///< what was mended or left out
+    std::vector<std::string> notes;  ///< repairs, and parts of the file that were ignored
 };
 
-/// Where a solid goes: turned about its origin, then moved.
+/// Rotation about a solid's origin, followed by a translation (mm).
 struct Placement {
     glm::dmat3 axes{1};
     dvec3 at{0};
 };
 
-/// The solid of a mesh file. Throws InputError when it cannot be read or is empty.
+/// Reads a mesh file as a solid. Throws InputError when it cannot be read or is empty.
 FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
                     std::optional<MeshReport>& report);
 
-/// A shape with a closed form; sizes in mm, `size` of a box, the others of what is round.
+/// Dimensions of a shape with a closed form, mm: `size` of a box, the others of round shapes.
 struct ShapeSizes {
     double radius = 0;
     dvec3 size{0};
@@ -42,13 +42,13 @@ struct ShapeSizes {
 };
 FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place);
 
-/// The solid of a [[field]]. A formula without bounds is cut off by the box `within`, if there is one;
-/// otherwise bounds are searched. A mesh fills in the report. Throws InputError when a file cannot be read or
-/// the solid is empty.
+/// Makes the solid of a [[field]]. A formula without bounds is cut off by the box `within` if it is given;
+/// otherwise its bounds are found by a search. A mesh fills in the report. Throws InputError when a file
+/// cannot be read or the solid is empty.
 FieldPtr build_field(const FieldRecipe& field, Gradings& gradings, const std::optional<Box>& within,
                      std::optional<MeshReport>& report);
 
-/// A [[field]] in the making.
+/// The inputs from which a [[field]] is made.
 struct FieldBuildContext {
     const FieldRecipe& recipe;
     Gradings& gradings;
@@ -57,14 +57,14 @@ struct FieldBuildContext {
     std::optional<MeshReport>& report;
 };
 
-/// A kind of [[field]]: its keys, and how it is made.
+/// A kind of [[field]]: its keys and its factory.
 struct FieldBuilder {
     Kind kind;
     FieldPtr (*make)(const FieldBuildContext&);
 };
 std::span<const FieldBuilder> field_builders();
 
-/// Signed volume that a closed mesh encloses, mm^3.
+/// Returns the signed volume that a closed mesh encloses, mm^3.
 double enclosed_volume(const TriangleMesh& mesh);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Graded numbers first, kept within the printable range, then the foam of the kind asked for.
+// Makes graded numbers, clamped to the printable range, then the foam of the requested kind.
 #include "recipe/build/build_foam.h"
 
 #include "engine/base/error.h"
@@ -13,13 +13,13 @@ namespace lamella {
 
 namespace {
 
-/// Keeps a further graded number with the foam and gives what is made of it.
+/// Records a further graded number with the foam and returns its grading as made.
 GradingPtr further(FoamBuildContext& making, const char* key, const GradedNumber& number, Interval limits) {
     making.built.others.push_back(graded(key, number, limits, making.gradings, making.names));
     return making.built.others.back().made;
 }
 
-/// Cells about seeds in a pattern, the same stretch everywhere.
+/// Makes the cells of seeds in a pattern, with a uniform stretch.
 FoamSettings seeded(FoamBuildContext& making, SeedPattern pattern) {
     const FoamRecipe& foam = making.recipe;
     FoamSettings settings;
@@ -42,14 +42,14 @@ FoamSettings seeded(FoamBuildContext& making, SeedPattern pattern) {
     return settings;
 }
 
-/// How soon a foam on such seeds repeats, mm.
+/// Returns the period of a foam on such seeds, mm.
 double period_of(const FoamSettings& settings) {
     const bool alike = settings.cell->constant() && settings.stretch.identity();
     if (settings.repeats_after == 0 || !alike) return 0;
     return prepare_foam(settings).tree->coarse_side() * static_cast<double>(settings.repeats_after);
 }
 
-/// Beams along the edges of the seeds' cells.
+/// Makes beams along the edges of the seeds' cells.
 void edges(FoamBuildContext& making, SeedPattern pattern) {
     const FoamSettings settings = seeded(making, pattern);
     BuiltFoam& built = making.built;
@@ -132,7 +132,7 @@ void lattice(FoamBuildContext& making) {
     making.built.beams_touching = [made](const Box& box) { return made->beams_touching(box); };
 }
 
-/// A kind with the range of its cells and members among what it takes.
+/// Returns a kind with the limits of its cells and members added to its optional keys.
 FoamBuilder kind(std::string word, std::string member, std::vector<std::string> needs,
                  std::vector<std::string> takes, void (*make)(FoamBuildContext&)) {
     needs.insert(needs.begin(), {"cell", member});

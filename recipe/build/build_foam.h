@@ -1,4 +1,4 @@
-// From the recipe's [foam] to the foam: kinds are registered here, a line each.
+// Makes the foam of a recipe's [foam]; the registry of its kinds.
 #pragma once
 
 #include <functional>
@@ -17,43 +17,45 @@ namespace lamella {
 struct BuiltFoam {
     FieldPtr field;
     GradedUse cell;
-    GradedUse member;               ///< radius of the beams; of foams without them, thickness of the walls
-    std::vector<GradedUse> others;  ///< further numbers of the kind: walls, windows, stretches
-    /// The beams whose solid touches a box, and the seeds in it; null for foams that have none.
+    GradedUse member;               ///< radius of the beams, or thickness of the walls of foams without beams
+    std::vector<GradedUse> others;  ///< further numbers of the kind: walls, windows, stretch factors
+    /// Return the beams whose solid touches a box, and the seeds in it; null for foams without beams or
+    /// seeds.
     std::function<std::vector<Beam>(const Box&)> beams_touching;
     std::function<std::vector<Seed>(const Box&)> seeds_in;
-    /// After which the foam repeats along x, y and z, mm; 0: it does not.
+    /// Period of the foam along x, y and z, mm; 0: not periodic.
     double period = 0;
-    std::optional<BuiltModulus> modulus;  ///< where the material and the foam's law are known
-    /// The share of space that is solid about a point; null where no law is known.
+    std::optional<BuiltModulus> modulus;  ///< set when the material and the foam's law are known
+    /// Returns the local volume fraction at a point; null when no law is known.
     std::function<double(dvec3)> volume_fraction;
 };
 
-/// The foam, cells filling at least the region. Seeds repeat after so many coarse cells; 0: never.
+/// Makes the foam, with cells that fill at least the region. Seeds repeat after `repeats_after` coarse cells;
+/// 0: never.
 BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings,
                      std::int64_t repeats_after = 0);
 
-/// A foam in the making: what its cells and members have become of already, and what its kind adds.
+/// The inputs from which a foam is made, and the result that its kind completes.
 struct FoamBuildContext {
     const FoamRecipe& recipe;
     const Box& region;
     Gradings& gradings;
-    const std::map<std::string, GradingPtr>& names;  ///< that formulas may use besides the recipe's
+    const std::map<std::string, GradingPtr>& names;  ///< names that formulas may use besides the recipe's
     std::int64_t repeats_after;
     BuiltFoam& built;
 };
 
-/// A kind of foam: its keys, and how it is made.
+/// A kind of foam: its keys and its factory.
 struct FoamBuilder {
     Kind kind;
-    std::string member;  ///< the key that says how thick its members are: "beam" or "wall"
+    std::string member;  ///< key of the thickness of its members: "beam" or "wall"
     void (*make)(FoamBuildContext&);
 };
 std::span<const FoamBuilder> foam_builders();
 
-/// The kind of a foam. Throws InputError where it is unknown.
+/// Returns the kind of a foam. Throws InputError when it is unknown.
 const FoamBuilder& builder_of(const FoamRecipe& foam);
-/// The key of the foam that says how thick its members are: "beam" or "wall".
+/// Returns the key of the thickness of a foam's members: "beam" or "wall".
 inline const std::string& member_of(const FoamRecipe& foam) { return builder_of(foam).member; }
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The kinds of gradings, a line each, and the order in which they are made.
+// The registry of grading kinds; makes gradings and those they depend on.
 #include "recipe/build/build_gradings.h"
 
 #include <fmt/format.h>
@@ -44,18 +44,19 @@ GradingPtr package(const GradingRecipe& grading, Gradings& /*others*/) {
     VolumetricModel model(grading.file);
     if (!grading.property.empty()) return model.property(grading.property, grading.object);
     if (!grading.object.empty())
-        throw InputError("a function belongs to no object; accepted: object with a property");
+        throw InputError(
+            "object cannot be combined with a function; accepted: object together with a property");
     PlacedFormula function = model.function(grading.function);
     return make_formula_grading(std::move(function.formula), std::move(function.others));
 }
 
-/// The part's own mesh serves where no file is given.
+/// Makes an attribute grading; without a file, from the part's own mesh.
 GradingPtr attribute(const GradingRecipe& grading, Gradings& others) {
     const PartRecipe& part = others.recipe().part;
     const std::string& file = grading.file.empty() ? part.mesh : grading.file;
     if (file.empty()) {
         throw InputError("there is no mesh to read `" + grading.attribute +
-                         "` from; accepted: a file, or a PLY as part.mesh");
+                         "` from; accepted: file with the path of a PLY mesh, or a PLY mesh as part.mesh");
     }
     return make_attribute_grading(file, grading.attribute, millimetres(part.unit) * part.scale, 1);
 }
@@ -78,7 +79,8 @@ std::span<const GradingBuilder> grading_builders() {
     using G = GradingRecipe;
     static const std::vector<GradingBuilder> list{
         {{"constant", {"value"}, {}}, [](const G& g, Gradings&) { return make_constant_grading(g.value); }},
-        {{"formula", {"formula"}, {}}, [](const G& g, Gradings& others) { return others.resolve(g.formula); }},
+        {{"formula", {"formula"}, {}},
+         [](const G& g, Gradings& others) { return others.resolve(g.formula); }},
         {{"volume", {"file"}, {"box", "channel"}}, volume},
         {{"3mf", {"file", "property|function"}, {"object"}}, package},
         {{"table", {"along", "rows|file"}, {"smooth"}}, build_table},
@@ -99,11 +101,14 @@ std::span<const GradingBuilder> grading_builders() {
     return list;
 }
 
-/// What formulas mean by a name besides x, y and z.
+/// Returns the grading behind a name other than x, y and z.
 GradingPtr Gradings::named(const std::string& name) {
     if (const auto made = made_.find(name); made != made_.end()) return made->second;
     if (name == depth_name) {
-        if (!body_) throw InputError("the depth `d` needs a part whose surface it is measured from");
+        if (!body_)
+            throw InputError(
+                "the depth `d` is measured from the part's surface, but there is no part; accepted: a "
+                "formula without `d`, or a recipe with [part]");
         return made_[name] = make_depth_grading(body_);
     }
     for (const GradingRecipe& grading : recipe_.gradings) {
@@ -157,13 +162,13 @@ std::span<const RegionalNumber> Gradings::overrides(const std::string& key) cons
 
 namespace {
 
-/// The key of the recipe that limits another one from above; null where there is none.
+/// Returns the recipe's key for the upper limit of another key; null when there is none.
 const Setting* upper_limit(const std::string& key) {
     const std::size_t dot = key.find('.');
     return find_setting(key.substr(0, dot), key.substr(dot + 1) + "_max");
 }
 
-/// What holds where a formula has no number, for a body that it should have numbers in.
+/// Returns the number used where a formula is undefined, for a body in which it should be defined.
 double greatest_of(const GradedUse& use, const std::string& where, const Field& body) {
     const Setting* key = upper_limit(use.key);
     const bool stated = key && use.limits.hi < key->limits.hi;
@@ -173,11 +178,12 @@ double greatest_of(const GradedUse& use, const std::string& where, const Field& 
         const double twice = 2 * found.asked.hi;
         return twice > use.limits.lo ? std::min(use.limits.hi, twice) : use.limits.hi;
     }
-    const std::string remedy =
-        key ? fmt::format(", or {} / {}, which holds where there is none", key->name(), key->flag) : "";
+    const std::string remedy = key ? fmt::format(", or {} / {}, which is used where the formula is undefined",
+                                                 key->name(), key->flag)
+                                   : "";
     throw LocatedError(
-        fmt::format("{}: {:.3g} % of the part has no number; accepted: a formula with a number "
-                    "at every point of it{}",
+        fmt::format("{}: the formula is undefined in {:.3g} % of the part; accepted: a formula that is "
+                    "defined at every point of the part{}",
                     where, 100.0 * found.undefined / found.points, remedy));
 }
 

@@ -1,4 +1,4 @@
-// From the recipe's [[grading]] entries and graded numbers to gradings.
+// Makes gradings from the recipe's [[grading]] entries and graded numbers; the registry of their kinds.
 #pragma once
 
 #include <map>
@@ -13,54 +13,54 @@
 
 namespace lamella {
 
-/// A message that says already which key of the recipe it is about.
+/// An InputError whose message already names the recipe's key.
 struct LocatedError : InputError {
     using InputError::InputError;
 };
 
-/// A formula with the gradings that feed its inputs after x, y, z.
+/// A formula and the gradings that supply its inputs after x, y, z.
 struct GradedFormula {
     Formula formula;
     std::vector<GradingPtr> others;
 };
 
-/// A number of the recipe that may vary in space, as it is asked for and as it is made.
+/// A graded number of the recipe, as requested and as made.
 struct GradedUse {
     std::string key;  ///< "foam.cell"
     GradingPtr asked;
-    GradingPtr made;  ///< kept within limits
+    GradingPtr made;  ///< clamped to the limits
     Interval limits;
-    std::string unit;  ///< of the numbers and limits: "mm", or empty for what has none
+    std::string unit;  ///< of the numbers and limits: "mm"; empty for dimensionless ones
 };
 
-/// A number that holds instead of another one inside a region.
+/// A number that replaces another one inside a region.
 struct RegionalNumber {
     FieldPtr region;
     double blend;  ///< mm; see region_weight
     GradedNumber number;
 };
 
-/// The gradings of a recipe. Each is made, and its file read, when it is first asked for.
+/// The gradings of a recipe. Each is made, and its file read, on first use.
 class Gradings {
   public:
     explicit Gradings(const Recipe& recipe) : recipe_(recipe) {}
 
-    /// From here on there is a body to measure depths from.
+    /// Sets the body from whose surface depths are measured.
     void set_body(FieldPtr body) { body_ = std::move(body); }
 
-    /// A number or formula of the recipe. Names in `more` come before the recipe's. Throws InputError for
-    /// what it needs and cannot be had: a file, or a part to measure depths from.
+    /// Returns the grading of a number or formula. Names in `more` have precedence over the recipe's. Throws
+    /// InputError when it needs something that is missing: a file, or a part from which depths are measured.
     GradingPtr resolve(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
-    /// A formula with what it needs.
+    /// Returns a formula with its input gradings; `more` and errors as in `resolve`.
     GradedFormula formula_of(const GradedNumber& number, const std::map<std::string, GradingPtr>& more = {});
 
-    /// From here on `graded` gives a key another number in a region; of several, later ones win.
+    /// Makes `graded` replace a key's number inside a region; where regions overlap, later ones win.
     void override_number(const std::string& key, RegionalNumber number);
-    /// Those of a key.
+    /// Returns the overrides of a key.
     std::span<const RegionalNumber> overrides(const std::string& key) const;
 
     const Recipe& recipe() const { return recipe_; }
-    /// Null as long as there is no body.
+    /// Null before set_body.
     const FieldPtr& body() const { return body_; }
 
   private:
@@ -72,15 +72,15 @@ class Gradings {
     std::map<std::string, std::vector<RegionalNumber>> overrides_;
 };
 
-/// A graded number, with those of regions in its place, within its limits; constants have been checked with
-/// the recipe. Where it has no number, it gets the upper limit, if the recipe states one (below that of the
-/// settings table for `key`_max). If not, a formula that has no number somewhere in the body is an
-/// InputError; and one that may lack it between the points looked at gets twice the greatest number found
-/// there.
+/// Returns a graded number with the overrides of regions, clamped to its limits; constants have been checked
+/// with the recipe. Where a formula is undefined, the result is the upper limit if the recipe states one
+/// (below that of the settings table for `key`_max). Otherwise a formula that is undefined at a sampled point
+/// of the body is an InputError; a formula that may be undefined between the samples gets twice the greatest
+/// value found there.
 GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more = {});
 
-/// A kind of [[grading]]: its keys, and how it is made.
+/// A kind of [[grading]]: its keys and its factory.
 struct GradingBuilder {
     Kind kind;
     GradingPtr (*make)(const GradingRecipe&, Gradings&);

@@ -1,4 +1,4 @@
-// From a recipe to a job: the part as one field, cut into layers.
+// Builds jobs from recipes: the part as one field, cut into layers.
 #pragma once
 
 #include <optional>
@@ -19,43 +19,53 @@
 
 namespace lamella {
 
-/// What repairs found and did; empty where they were not asked for.
+/// Results of repairs; empty for those that were not asked for.
 struct RepairReport {
     std::optional<JoinSurvey> joins;
-    std::optional<CheckResult> thickened, filled;  ///< as found before they were mended
+    std::optional<CheckResult> thickened, filled;  ///< findings before the repair
 };
 
 struct BuiltJob {
-    Job job;                               ///< what is printed
-    Job designed;                          ///< the same before [process], layers cut alike
-    FieldPtr body;                         ///< what the recipe's part is, without foam and skin
-    FieldPtr outside;                      ///< the body, with a skin that lies outside it
+    Job job;                               ///< the job to print
+    Job designed;                          ///< before [process]; its layers correspond to those of `job`
+    FieldPtr body;                         ///< the part without foam and skin
+    FieldPtr outside;                      ///< the body, including a skin outside it
     std::optional<BuiltFoam> foam;         ///< empty without foam
-    std::optional<ModulusReport> modulus;  ///< empty where nothing is known of the foam's stiffness
-    std::optional<GradedUse> skin;         ///< empty where the skin's thickness does not vary
+    std::optional<ModulusReport> modulus;  ///< empty when the foam's stiffness is unknown
+    std::optional<GradedUse> skin;         ///< empty when the skin's thickness is constant
     std::optional<MeshReport> mesh;        ///< empty for shapes and fields
-    std::optional<PatternReport> pattern;  ///< empty where the skin is closed
-    std::vector<DrilledHole> holes;        ///< that the recipe asks for
-    std::optional<DrainReport> drains;     ///< empty where none are asked for
-    std::optional<DowelHoles> dowels;      ///< empty where none are asked for
-    std::optional<HollowReport> cavities;  ///< empty where none are asked for
-    FieldPtr before_cavities;              ///< the designed part without them; null where none are asked for
+    std::optional<PatternReport> pattern;  ///< empty when the skin is closed
+    std::vector<DrilledHole> holes;        ///< of the recipe's [[hole]] entries
+    std::optional<DrainReport> drains;     ///< empty when none are asked for
+    std::optional<DowelHoles> dowels;      ///< empty when none are asked for
+    std::optional<HollowReport> cavities;  ///< empty when none are asked for
+    FieldPtr before_cavities;              ///< the designed part before hollowing; null without cavities
     BuiltRegions regions;
-    std::optional<IslandReport> islands;  ///< empty until they are looked for
-    std::optional<RepairReport> repairs;  ///< empty until the job is repaired
+    std::optional<IslandReport> islands;  ///< empty before drop_islands
+    std::optional<RepairReport> repairs;  ///< empty before repair_job
 };
 
-/// Where cavities are asked for, the layers are surveyed for room inside the part; where drains are, for
-/// cavities; where dowels are, for places inside all of them. Throws InputError when a file is unreadable or
-/// the part is empty.
+/// Builds the job of a recipe. Surveys all layers when the recipe asks for cavities (for space inside the
+/// part), drains (for closed cavities) or dowels (for places inside all layers). Throws InputError when a
+/// file is unreadable or the part is empty.
+/// ```
+///     const Recipe recipe = read_recipe("part.toml", MachineProfiles());
+///     BuiltJob built = build_job(recipe);
+///     const SupportStructures added = finish_job(recipe, built, {});
+///     const auto backend = make_backend(recipe.printer, "part.sl1", false);
+///     StreamOptions options;
+///     options.range = {0, built.job.layer_count};
+///     const StreamReport report = stream_layers(built.job, *backend, options);
+/// ```
 BuiltJob build_job(const Recipe& recipe);
 
-/// Surveys the job's layers and leaves out of the part what floats free of it. The pitch is the recipe's, or
-/// else a third of the thinnest beam's radius (of half the thinnest wall), as near as the survey takes it.
-/// Throws InputError when a pitch of the recipe does not suit the part, Interrupted when cancelled.
+/// Removes disconnected pieces (islands) from the part after a survey of all layers. The row spacing is the
+/// recipe's, or else a third of the thinnest beam's radius (of half the thinnest wall), clamped to the range
+/// of the survey. Throws InputError when the recipe's spacing does not suit the part, Interrupted when
+/// cancelled.
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options);
 
-/// The foam of a recipe without its part, as build_foam makes it. Throws InputError when it has a frame,
+/// Makes the foam of a recipe without its part, as build_foam does. Throws InputError when it has a frame,
 /// which needs the part.
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region, std::int64_t repeats_after = 0);
 

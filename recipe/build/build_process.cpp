@@ -1,4 +1,4 @@
-// Scale first, then in-plane offsets: the outlines that are moved are those that the machine sees.
+// Scales first, then offsets in the plane, so that offsets are lengths as printed.
 #include "recipe/build/build_process.h"
 
 #include "engine/morphology/in_plane_offset.h"
@@ -9,8 +9,7 @@ namespace lamella {
 
 namespace {
 
-/// How near to the distance asked for outlines are moved, mm; well below the pixels and tool paths of any
-/// printer.
+/// Tolerance of in-plane offsets, mm; well below the pixels and toolpaths of any printer.
 constexpr double outline_tolerance = 0.01;
 
 void scale_part(Job& job, dvec3 scale) {
@@ -23,7 +22,7 @@ void scale_part(Job& job, dvec3 scale) {
     job.bounds = {fixed + (before.lo - fixed) * scale, fixed + (before.hi - fixed) * scale};
 }
 
-/// Lines by which outlines are looked at, in a thickness or a gap.
+/// Sampled lines per thickness or gap.
 constexpr double lines_in_a_thickness = 8;
 
 void grow_bounds(Job& job, double by) {
@@ -36,7 +35,7 @@ void mend_outlines(Job& job, const RepairRecipe& repair) {
         job.part = make_thickened(job.part, repair.thickness, repair.thickness / lines_in_a_thickness);
         grow_bounds(job, repair.thickness / 2);
     }
-    // What has been made thicker may stand closer now.
+    // Gaps come second: thickened walls may have narrowed them.
     if (repair.gap > 0) job.part = make_gaps_filled(job.part, repair.gap, repair.gap / lines_in_a_thickness);
 }
 

@@ -1,4 +1,4 @@
-// From a designed part to the part as it is printed: scaled, and its outlines moved.
+// Applies [process] and [repair] to a designed part: scaling and in-plane offsets.
 #pragma once
 
 #include "engine/layers/layer.h"
@@ -6,21 +6,21 @@
 
 namespace lamella {
 
-/// The height in the designed part of a layer of the printed one, mm.
+/// Returns the height that a printed layer has in the designed part, mm.
 double designed_layer_height(const Recipe& recipe);
 
-/// A solid under the scale of [process], as the designed job's part is.
+/// Scales a solid by [process], about the same point as the designed job's part.
 FieldPtr make_scaled(const Recipe& recipe, const Job& designed, const FieldPtr& solid);
 
-/// The designed job scaled alone: neither mended nor with its outlines moved.
+/// Returns the designed job with its scale only: no repairs, no offsets.
 Job make_scaled(const Recipe& recipe, const Job& designed);
 
-/// The job to print: the designed one under the recipe's [process], its outlines mended as [repair] says.
-/// Layers are cut where those of the designed job are.
+/// Returns the job to print: the designed one with the recipe's [process] and [repair] applied. Its layers
+/// are cut at the same places as those of the designed job.
 ///
 /// The scale is about the middle of the bounds in x and y and about their lowest z, so the part stays where
-/// it stood; foam, skin and everything else scale with it. Then thin walls of each layer are made thicker and
-/// narrow gaps filled, and at last its outline is moved, all in mm as printed.
+/// it stood; foam, skin and everything else scale with it. Then thin walls of each layer are thickened,
+/// narrow gaps are filled, and last its outline is offset, all in mm as printed.
 Job make_processed(const Recipe& recipe, const Job& designed);
 
 }  // namespace lamella

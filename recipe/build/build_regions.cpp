@@ -1,5 +1,5 @@
-// Fields are made once each, their values turned into distances, and then joined to the part or taken from
-// it.
+// Makes each region's field once, turns its values into distances where needed, and combines it with the
+// part.
 #include "recipe/build/build_regions.h"
 
 #include <fmt/format.h>
@@ -18,16 +18,16 @@ namespace lamella {
 
 namespace {
 
-/// Formulas without bounds end this far outside the part, mm: no blend feels it.
+/// Formulas without bounds are cut off this far outside the part, mm: too far to affect any blend.
 constexpr double beyond_part = 1e6;
 
-/// The fields of regions, each made when it is first asked for.
+/// The fields of regions, each made on first use.
 class RegionFields {
   public:
     RegionFields(Gradings& gradings, const Box& part, std::vector<std::string>& notes)
         : gradings_(gradings), part_(part), notes_(notes) {}
 
-    /// The region's field; where it blends, with values that are distances.
+    /// Returns the region's field; if the region blends, one whose values are distances.
     FieldPtr make(const RegionRecipe& region) {
         const auto field = std::find_if(gradings_.recipe().fields.begin(), gradings_.recipe().fields.end(),
                                         [&](const FieldRecipe& f) { return f.name == region.field; });
@@ -63,7 +63,7 @@ class RegionFields {
     std::map<std::string, FieldPtr> made_, even_;
 };
 
-/// What a region acts on: its inside, and what lies less than `reach` outside it.
+/// The volume that a region affects: its inside, and points less than `reach` outside it, within the body.
 class Reach : public Field {
   public:
     Reach(FieldPtr region, double reach, FieldPtr body)
@@ -86,7 +86,7 @@ bool changes_numbers(const BuiltRegion& region) {
     return region.make == RegionMake::foam || region.make == RegionMake::skin;
 }
 
-/// Whether it only says where supports may be, which is not within the part.
+/// Returns true for regions that only control supports, which stand outside the part.
 bool rules_supports(const BuiltRegion& region) {
     return region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
 }
@@ -114,7 +114,7 @@ FieldPtr joined(FieldPtr part, const BuiltRegion& region) {
                             : make_difference(std::move(part), region.field);
 }
 
-/// The regions one after another; what was joined is cut off by the body before anything is taken away.
+/// Applies the regions in order. Added solids are clipped by the body before an empty region is subtracted.
 FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regions) {
     bool beyond_body = false;
     for (const BuiltRegion& region : regions.list) {

@@ -1,4 +1,4 @@
-// From the recipe's [[region]] entries to solids and numbers that hold inside them.
+// Makes the recipe's [[region]] entries: solids, and numbers that hold inside them.
 #pragma once
 
 #include <string>
@@ -12,22 +12,23 @@ struct BuiltRegion {
     std::string name;  ///< "region 2 (`heel`)", for messages
     RegionMake make;
     double blend;  ///< mm
-    /// Where it blends, its value is the distance to its surface or bounds it; a formula's is divided by its
-    /// greatest slope at the surface.
+    /// If `blend` is positive, its value is the distance to its surface or a bound of it; a formula's is
+    /// divided by its greatest slope at the surface.
     FieldPtr field;
 };
 
 struct BuiltRegions {
     std::vector<BuiltRegion> list;
-    std::vector<std::string> warnings;  ///< regions that change nothing; what was mended in their meshes
+    std::vector<std::string> warnings;  ///< regions without effect; repairs of their meshes
 };
 
-/// The regions of a part inside the box, the numbers of those that change foam or skin handed to the
-/// gradings. Throws InputError when a field cannot be made.
+/// Makes the regions of a part inside the box, and registers numbers of foam and skin regions as overrides
+/// with the gradings. Throws InputError when a field cannot be made.
 BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings);
 
-/// The part with its solid and empty regions, in their order, within the body; `filled`: the part is not
-/// solid throughout. Warns of regions that do not touch the body. Throws InputError when nothing is left.
+/// Returns the part with its solid and empty regions applied in order, clipped by the body. `filled`: the
+/// part is not solid throughout. Warns of regions that do not touch the body. Throws InputError when nothing
+/// remains.
 FieldPtr with_regions(FieldPtr part, const FieldPtr& body, bool filled, BuiltRegions& regions);
 
 }  // namespace lamella

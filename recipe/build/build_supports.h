@@ -1,4 +1,4 @@
-// From a job to what holds it up while it is printed: survey, scaffold, and the field of both.
+// Builds the supports of a job: overhang survey, scaffold, and the field of the scaffold.
 #pragma once
 
 #include <filesystem>
@@ -11,30 +11,29 @@
 namespace lamella {
 
 struct SupportOptions : PassControl {
-    std::filesystem::path plans = default_plan_folder();  ///< where plans are kept; empty: nowhere
+    std::filesystem::path plans = default_plan_folder();  ///< folder for plans; empty: none are kept
 };
 
 struct BuiltSupports {
     SupportPlan plan;
-    FieldPtr before_offsets;   ///< the supports of the part before its outlines are moved; null for none
-    bool was_planned = false;  ///< by an earlier run
+    FieldPtr before_offsets;   ///< supports of the part before in-plane offsets; null for none
+    bool was_planned = false;  ///< the plan was read from an earlier run
 };
 
-/// Gives the job its supports, where the recipe asks for them: what would hang is surveyed, bridges and
-/// pillars are found for it, and the job's bounds grow by them. A part under a closed skin, or without foam
-/// and skin, is surveyed by its outer surface. Of others, bare foams and skins with windows, the layers
-/// themselves are surveyed, and what lies more than a millimetre below the body's surface is left to hold
-/// itself.
+/// Adds supports to the job if the recipe asks for them: surveys overhangs, plans bridges and pillars, and
+/// enlarges the job's bounds. A part under a closed skin, or without foam and skin, is surveyed by its outer
+/// surface. Bare foams and skins with windows are surveyed by their layers; overhangs more than a millimetre
+/// below the body's surface are not supported.
 ///
-/// With a lift, the bed comes to lie so far below the part, rounded up to whole layers. Throws InputError
-/// when the settings do not suit the part, Interrupted when cancelled.
+/// With a lift, the bed lies that far below the part, rounded up to whole layers. Throws InputError when the
+/// settings do not suit the part, Interrupted when cancelled.
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options);
 
-/// The number of layers by which add_supports will raise the part: its lift, rounded up.
+/// Returns the number of layers by which add_supports will raise the part: its lift, rounded up.
 int lifted_layers(const Recipe& recipe, const Job& job);
 
-/// "84 points on 10 bridges, 11 pillars": one line, and one for each thing that is amiss.
+/// Returns a line such as "84 points on 10 bridges, 11 pillars", and one line for each problem.
 std::string supports_text(const BuiltSupports& supports);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The order of surveys.
+// Runs the surveys in their order.
 #include "recipe/build/finish_job.h"
 
 #include "recipe/build/repair_job.h"
@@ -20,8 +20,8 @@ SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const Finish
     }
     repair_job(recipe, built, {{options.threads, progress_of("repairs"), options.cancel}});
     SupportStructures around;
-    around.supports = add_supports(recipe, built,
-                                   {{options.threads, progress_of("supports"), options.cancel}, options.plans});
+    around.supports = add_supports(
+        recipe, built, {{options.threads, progress_of("supports"), options.cancel}, options.plans});
     around.shield = add_shield(recipe, built.job, {options.threads, options.cancel});
     return around;
 }

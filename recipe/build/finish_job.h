@@ -10,22 +10,21 @@
 namespace lamella {
 
 struct FinishOptions {
-    std::filesystem::path plans =
-        default_plan_folder();  ///< where plans of supports are kept; empty: nowhere
-    int threads = 0;            ///< 0: one per core
-    /// How far the survey for "islands", "repairs" or "supports" has come; may be empty.
+    std::filesystem::path plans = default_plan_folder();  ///< folder for support plans; empty: none are kept
+    int threads = 0;                                      ///< 0: one per core
+    /// Receives the progress of the survey named "islands", "repairs" or "supports"; may be empty.
     std::function<void(const char* what, const Progress&)> on_progress{};
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
-/// What stands about the part; what was done to the part itself stands in the BuiltJob.
+/// Structures around the part. Changes of the part itself are recorded in the BuiltJob.
 struct SupportStructures {
     std::optional<BuiltSupports> supports;
     std::optional<ShieldSurvey> shield;
 };
 
-/// Leaves out islands, repairs the part, holds it up and shields it, in this order and each where the recipe
-/// asks for it. Throws InputError where the settings do not suit the part, Interrupted when cancelled.
+/// Drops islands, repairs the part, adds supports and a shield, in this order, each if the recipe asks for
+/// it. Throws InputError when the settings do not suit the part, Interrupted when cancelled.
 SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options);
 
 }  // namespace lamella

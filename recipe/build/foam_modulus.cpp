@@ -1,4 +1,4 @@
-// Laws by name; sizes from moduli.
+// Looks up laws by the foam's name; solves for sizes from moduli.
 #include "recipe/build/foam_modulus.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ namespace lamella {
 
 namespace {
 
-/// Tests of a file: a cell, a member (mm) and a modulus (MPa) a line, under a line of words or none.
+/// Reads tests from a file: cell (mm), member (mm) and modulus (MPa) on each line, after an optional line of
+/// column names.
 std::vector<StiffnessTest> read_tests(const std::string& path) {
     const std::string text = whole_file(path, "a table of compression tests");
     std::vector<StiffnessTest> tests;
@@ -32,10 +33,13 @@ std::vector<StiffnessTest> read_tests(const std::string& path) {
         const std::vector<double> numbers = numbers_of(row.cells, where);
         if (numbers.size() != 3 || !(std::ranges::min(numbers) > 0))
             throw InputError(where +
-                             "a test is three positive numbers: cell (mm), member (mm), modulus (MPa)");
+                             "not three positive numbers; accepted: cell (mm), member (mm) and modulus (MPa) "
+                             "on each line");
         tests.push_back({numbers[1] / numbers[0], numbers[2]});
     }
-    if (tests.empty()) throw InputError(path + ": there is no test in it; accepted: cell, member, modulus");
+    if (tests.empty())
+        throw InputError(path +
+                         ": contains no test; accepted: lines of cell (mm), member (mm), modulus (MPa)");
     return tests;
 }
 
@@ -92,15 +96,15 @@ GradedUse member_use(const FoamRecipe& foam, Gradings& gradings,
                : graded("foam.beam", foam.beam, {foam.beam_min, foam.beam_max}, gradings, names);
 }
 
-/// What a modulus asks for instead of a number of the recipe.
+/// Returns the number that follows from a modulus in place of a recipe's.
 GradedUse solved(const std::string& key, GradingPtr asked, Interval limits) {
-    // Ranges are widened for rounding; a foam that is the same everywhere has to be known as such.
+    // Ranges are widened for rounding; a uniform foam must remain recognisable as constant.
     if (const auto same = asked->constant()) asked = make_constant_grading(*same);
     GradingPtr made = make_clamped_grading(asked, limits);
     return {key, std::move(asked), std::move(made), limits, "mm"};
 }
 
-/// Closed cells have a law for one proportion of beams, walls and windows.
+/// Returns true if beams, walls and windows of closed cells keep one proportion, as their law requires.
 bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
     if (foam.kind != "closed") return true;
     const bool same = !foam.beam.is_formula() && !foam.wall.is_formula() && !foam.window.is_formula();
@@ -108,7 +112,7 @@ bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
     return same && !overridden("foam.beam") && !overridden("foam.wall") && !overridden("foam.window");
 }
 
-/// Whether one law can hold for the whole foam.
+/// Returns true if one law can describe the whole foam.
 bool has_one_shape(const FoamRecipe& foam, const Gradings& gradings) {
     return constant(foam.stretch) == dvec3(1) && is_proportioned(foam, gradings);
 }
@@ -116,8 +120,8 @@ bool has_one_shape(const FoamRecipe& foam, const Gradings& gradings) {
 void check_shape(const FoamRecipe& foam, const Gradings& gradings) {
     if (is_proportioned(foam, gradings)) return;
     throw InputError(foam.modulus.where +
-                     ": the law of closed cells holds for beams, walls and windows that are the same "
-                     "everywhere; accepted: numbers for them, and no region that changes one");
+                     ": the law of closed cells requires uniform beams, walls and windows; accepted: numbers "
+                     "instead of formulas for them, and no region that changes one");
 }
 
 FoamSizes sizes_for_modulus(const FoamRecipe& foam, Gradings& gradings, const BuiltModulus& modulus) {
@@ -152,8 +156,8 @@ FoamSizes foam_sizes(const FoamRecipe& foam, Gradings& gradings, std::optional<B
     }
     if (!modulus && (asks || (recipe.material && !recipe.material->tests.empty()))) {
         throw InputError(
-            fmt::format("{}: no law of this foam ({}) is known; accepted: foam.law / --foam-law with a file "
-                        "that `lamella homogenize --table` writes for it",
+            fmt::format("{}: there is no stiffness law for this foam ({}); accepted: foam.law / --foam-law "
+                        "with a file that `lamella homogenize --table` writes for it",
                         asks ? foam.modulus.where : "material.tests / --material-tests", law_name(foam)));
     }
     FoamSizes sizes;

@@ -1,4 +1,4 @@
-// A foam that is chosen by its modulus: which law holds, and the cells or members that follow from it.
+// Foams chosen by modulus: the law that applies, and the cell or member sizes that follow from it.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@
 
 namespace lamella {
 
-/// How stiff a foam of the recipe gets.
+/// The modulus of a recipe's foam: as requested and as predicted.
 struct BuiltModulus {
-    std::optional<GradedUse> asked;  ///< MPa; empty where cells and members are given
-    GradingPtr made;                 ///< MPa: predicted, by cells and members as they are made
+    std::optional<GradedUse> asked;  ///< MPa; empty when cells and members are given
+    GradingPtr made;                 ///< MPa: predicted from cells and members as made
     FoamModulusPtr foam;
     BaseMaterial material;
 };
 
-/// The words that a law's file has for a foam: its kind and the numbers that shape it, but for the sizes of
-/// cells and members, the seed, and what stretches it. All have to be the same everywhere.
+/// Returns the name of a foam in files of laws: its kind and the numbers that shape it, without cell and
+/// member sizes, seed and stretch. Requires that these numbers are constant.
 std::string law_name(const FoamRecipe& foam);
 
-/// The foam's law, of the recipe's file or those that ship; nothing where it is in none. Throws InputError
-/// for a file that is no law's.
+/// Returns the foam's law, from the recipe's file or the built-in laws; nothing when it has none. Throws
+/// InputError for a file that is not a valid file of laws.
 std::optional<FoamLawTable> known_law(const FoamRecipe& foam);
 
-/// The law of the recipe's foam in its material, fitted to the recipe's tests; null where it is not known.
-/// Throws InputError for files that cannot be read, and for tests that do not fit.
+/// Returns the law of the recipe's foam in its material, fitted to the recipe's tests; null when it is
+/// unknown. Throws InputError for files that cannot be read, and for tests that do not fit.
 FoamModulusPtr foam_modulus(const Recipe& recipe, const BaseMaterial& material);
 
 /// Cells and members of a foam.
@@ -35,9 +35,9 @@ struct FoamSizes {
     GradedUse cell, member;
 };
 
-/// The recipe's numbers. Where it asks for a modulus, the cells or the members are what gives it, and
-/// `modulus` tells of it; where it names a material whose law is known, `modulus` predicts it. Throws
-/// InputError where a modulus is asked of a foam whose law is not known.
+/// Returns the sizes of a foam's cells and members. If the recipe asks for a modulus, one of the two is
+/// solved for, and `modulus` describes it; if it names a material whose law is known, `modulus` holds the
+/// prediction. Throws InputError when a modulus is requested of a foam without a known law.
 FoamSizes foam_sizes(const FoamRecipe& foam, Gradings& gradings, std::optional<BuiltModulus>& modulus);
 
 }  // namespace lamella

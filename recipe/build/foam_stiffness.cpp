@@ -1,4 +1,4 @@
-// Samples one by one; a law's points by cells of other sizes.
+// Homogenises samples one by one; a law's points are samples with other cell sizes.
 #include "recipe/build/foam_stiffness.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double elements_in_a_radius = 4;
 constexpr int min_elements = 32, max_elements = 320, elements_step = 16;
-constexpr double max_solid_elements = 1e6;  // for memory below 2 GiB
+constexpr double max_solid_elements = 1e6;  // keeps memory below 2 GiB
 
 double constant_of(const GradedUse& use) {
     const auto number = use.made->constant();
@@ -35,22 +35,24 @@ void refuse_formula(const char* key, const GradedNumber& number) {
                     number.where.empty() ? key : number.where));
 }
 
-/// A kind whose sample would look another way with another seed.
+/// Returns true for kinds whose samples depend on the seed.
 bool is_random(const FoamRecipe& foam) {
     const std::vector<std::string>& takes = builder_of(foam).kind.takes;
     return std::ranges::find(takes, "seed") != takes.end();
 }
 
-/// After how much the foam repeats, mm, once its seeds are made to.
+/// Returns the period of the foam with periodic seeds, mm.
 double period_of(const Recipe& recipe) {
-    const double side = 1;  // of the region: periods do not depend on it
+    const double side = 1;  // side of the region, mm; periods do not depend on it
     const double period = build_foam_alone(recipe, {dvec3(0), dvec3(side)}, 1).period;
     if (!(period > 0))
-        throw InputError("foam: with this stretch it does not repeat along x, y and z, as a sample has to");
+        throw InputError(
+            "foam: with this stretch the foam is not periodic along x, y and z, as a sample must be; "
+            "accepted: a foam without foam.stretch");
     return period;
 }
 
-/// Half the thickness of the thinnest walls or the radius of the beams, mm.
+/// Returns half the thickness of the thinnest walls, or the radius of the beams, mm.
 double thinnest_radius(const BuiltFoam& foam) {
     const bool beams = foam.member.key == "foam.beam";
     double radius = constant_of(foam.member) / (beams ? 1 : 2);
@@ -74,8 +76,8 @@ int suited_elements(const BuiltFoam& foam, double period, int threads) {
     return std::clamp(std::min(steps, bearable) * elements_step, min_elements, max_elements);
 }
 
-/// The share of the work that is done when the forces that are left have fallen to `left`: they fall by
-/// about the same factor with each iteration.
+/// Returns the finished share of the work when the residual forces have fallen to `left`: they fall by about
+/// the same factor with each iteration.
 double share_done(double left, double tolerance) {
     return std::clamp(std::log(std::max(left, 1e-300)) / std::log(tolerance), 0.0, 1.0);
 }
@@ -93,7 +95,7 @@ int samples_of(const FoamRecipe& foam, const StiffnessOptions& options) {
     return is_random(foam) ? options.samples : 1;
 }
 
-/// The foam of a sample.
+/// Makes the foam of a sample.
 BuiltFoam foam_of(Recipe recipe, int sample, double period) {
     recipe.foam->seed += sample;
     return build_foam_alone(recipe, {dvec3(0), dvec3(period)}, 1);
@@ -160,14 +162,14 @@ std::vector<StiffnessSolve> foam_solves(const Recipe& recipe, const StiffnessOpt
 
 namespace {
 
-constexpr std::size_t coarse_solves = 3;  // of a law's point: its own material, and two others
+constexpr std::size_t coarse_solves = 3;  // per point of a law: one for its own material, two for others
 
-/// The recipe with cells so large that the members' ratio to them is as given, in no material.
+/// Returns the recipe with cells resized to the given ratio of members to cells, without a material.
 Recipe with_ratio(Recipe recipe, double ratio) {
     FoamRecipe& foam = *recipe.foam;
     check_uniform(foam);
     GradedNumber& thickness = member_of(foam) == "beam" ? foam.beam : foam.wall;
-    if (thickness.number() == 0) thickness.value = 1.0;  // a modulus would have chosen it
+    if (thickness.number() == 0) thickness.value = 1.0;  // it would follow from a modulus; any length will do
     foam.cell.value = thickness.number() / ratio;
     foam.cell_min = 0;
     foam.cell_max = infinity;
@@ -176,7 +178,7 @@ Recipe with_ratio(Recipe recipe, double ratio) {
     return recipe;
 }
 
-/// Of a sample whose members still hang together.
+/// Returns the elements along a coarse sample in which members are still connected.
 int coarse_elements(const FoamRecipe& foam, double period) {
     constexpr double in_a_radius = 1.5, least = 64;
     const double radius = member_of(foam) == "beam" ? foam.beam.number() : foam.wall.number() / 2;
@@ -198,7 +200,7 @@ SolvedSample solve_sample(const Recipe& given, const StiffnessSolve& solve, Stif
         if (options.elements > 0) return options.elements;
         return suited_elements(foam_of(recipe, sample, solved.period), solved.period, options.threads);
     };
-    // A coarse sample is not finer than the last one of the law's point.
+    // A coarse sample is at most as fine as the last fine sample of the law's point.
     solved.elements = solve.coarse ? std::min(fine_elements(samples_of(*recipe.foam, options) - 1),
                                               coarse_elements(*recipe.foam, solved.period))
                                    : fine_elements(solve.sample);
@@ -223,7 +225,7 @@ std::vector<StiffnessSolve> law_solves(const Recipe& recipe, double ratio, const
     solves.reserve(static_cast<std::size_t>(count) + coarse_solves);
     for (int i = 0; i < count; ++i)
         solves.push_back({ratio, i, law_poisson, false, (1 - coarse_work) / count});
-    // What the material's Poisson's ratio changes is told by one coarse sample, the same for all three.
+    // One coarse sample, the same for all three materials, shows the effect of Poisson's ratio.
     for (const double poisson : {law_poisson, low_poisson, high_poisson})
         solves.push_back({ratio, 0, poisson, true, coarse_work / coarse_solves});
     return solves;

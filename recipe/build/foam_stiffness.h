@@ -1,4 +1,4 @@
-// How stiff the foam of a recipe is: samples of it that repeat, homogenised.
+// Homogenisation of a recipe's foam by periodic samples.
 #pragma once
 
 #include <functional>
@@ -12,70 +12,72 @@
 namespace lamella {
 
 struct StiffnessOptions {
-    int elements = 0;  ///< along a sample's side; 0: four along the radius of the thinnest member, 32 to 320
-                       ///< and about a million of them solid at most
-    int samples = 1;   ///< of a random foam, each of 64 cells or more; of foams without chance one is made
+    int elements = 0;  ///< along a sample's side; 0: four along the radius of the thinnest member, clamped to
+                       ///< 32 to 320 and to about a million solid elements
+    int samples = 1;   ///< number of samples of a random foam, each of 64 cells or more; deterministic foams
+                       ///< have one
     IsotropicMaterial material{};
-    double tolerance = 1e-6;  ///< as HomogenizationOptions
+    double tolerance = 1e-6;  ///< as in HomogenizationOptions
     int threads = 0;          ///< 0: one per core
-    /// Told how much of a solve is done, 0 to 1; may be empty.
+    /// Receives the finished share of a solve, 0 to 1; may be empty.
     std::function<void(double share)> on_progress{};
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
-/// What was found of all samples.
+/// Results of all samples.
 struct FoamStiffness {
     double period = 0;  ///< side of a sample, mm
     int elements = 0;   ///< along it
     std::vector<Homogenized> samples;
 
     double mean(double (*number)(const Homogenized&)) const;
-    /// Of single samples about their mean: the standard deviation; 0 of a single one.
+    /// Returns the standard deviation of the samples about their mean; 0 for a single sample.
     double spread(double (*number)(const Homogenized&)) const;
-    /// The mean of the samples' tensors.
+    /// Returns the mean of the samples' tensors.
     ElasticTensor stiffness() const;
 };
 
 double density_of(const Homogenized& sample);
-/// Of the closest isotropic stiffness.
+/// These four belong to the isotropic stiffness closest to the sample's.
 double young_of(const Homogenized& sample);
 double poisson_of(const Homogenized& sample);
 double shear_of(const Homogenized& sample);
 double bulk_of(const Homogenized& sample);
 
-/// Throws InputError where a number of the foam is a formula: a sample stands for one place.
+/// Throws InputError when a number of the foam is a formula: a sample represents one place.
 void check_uniform(const FoamRecipe& foam);
 
-/// One of the solves that a result consists of. None needs another: they can be done in any order, anywhere.
+/// One of the solves that make up a result. They are independent: any order and any process will do.
 struct StiffnessSolve {
-    double ratio = 0;    ///< of members to cells, for a point of the foam's law; 0: the recipe's foam
-    int sample = 0;      ///< which, from 0
-    double poisson = 0;  ///< of the material where it is for a law
+    double ratio = 0;    ///< ratio of members to cells, for a point of the foam's law; 0: the recipe's foam
+    int sample = 0;      ///< index of the sample
+    double poisson = 0;  ///< of the material, when the solve is for a law
     bool coarse = false;
-    double work = 1;  ///< about, as a share of the result's
+    double work = 1;  ///< estimated share of the result's total work
 };
 
-/// What came of one.
+/// The result of a solve.
 struct SolvedSample {
     double period = 0;  ///< side of the sample, mm
     int elements = 0;   ///< along it
     Homogenized found;
 };
 
-/// Homogenises a sample of the recipe's foam, one period; a random foam is made to repeat for it, each sample
-/// with a seed of its own. Throws InputError where the foam varies in space or cannot repeat.
+/// Homogenises one period of the recipe's foam. A random foam is made periodic for it, each sample with its
+/// own seed. Throws InputError when the foam varies in space or cannot be periodic.
 SolvedSample solve_sample(const Recipe& recipe, const StiffnessSolve& solve, StiffnessOptions options);
 
-/// The solves for the stiffness of the recipe's foam, and what their results, in that order, say of it.
+/// Return the solves for the stiffness of the recipe's foam, and the stiffness from their results, in that
+/// order.
 std::vector<StiffnessSolve> foam_solves(const Recipe& recipe, const StiffnessOptions& options);
 FoamStiffness foam_stiffness(std::span<const SolvedSample> solved);
 
-/// Throws InputError where a point of the foam's law cannot be computed: members that fill their cells.
+/// Throws InputError when a point of the foam's law cannot be computed because members fill their cells.
 void check_law_point(const Recipe& recipe, double ratio);
 
-/// The solves for a point of the foam's law, its stiffness with cells so large that the members' ratio to
-/// them is `ratio`, and what their results, in that order, say of it. The material is given by the law, not
-/// by the options.
+/// Return the solves for a point of the foam's law (cells so large that the ratio of members to cells is
+/// `ratio`), and the point from their results, in that order. The law prescribes the material; that of the
+/// options is ignored.
 std::vector<StiffnessSolve> law_solves(const Recipe& recipe, double ratio, const StiffnessOptions& options);
 FoamLawPoint law_point(double ratio, std::span<const SolvedSample> solved);
 

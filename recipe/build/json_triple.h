@@ -1,4 +1,4 @@
-// A point or vector as the JSON of reports states it.
+// Points and vectors in the JSON of reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace lamella {
 
-/// The array [x, y, z].
+/// Returns the array [x, y, z].
 inline nlohmann::ordered_json json_triple(dvec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Asked and predicted, point by point.
+// Compares requested and predicted moduli point by point.
 #include "recipe/build/modulus_report.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How stiff the foam of a part gets, beside what was asked for.
+// Report on the modulus of a part's foam: predicted against requested.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,18 +9,18 @@
 
 namespace lamella {
 
-/// A modulus is as asked within this share of it.
+/// A predicted modulus within this relative deviation counts as the requested one.
 inline constexpr double modulus_tolerance = 0.01;
 
-/// Over the body, by a lattice of points. Moduli in MPa.
+/// Statistics over the body, sampled on a lattice of points. Moduli in MPa.
 struct ModulusReport {
     bool is_asked = false;
-    Interval asked;      ///< the least and the greatest; empty where none is
-    Interval predicted;  ///< likewise
-    double softer = 0;   ///< share of the volume that gets less than 99 % of what is asked
-    double stiffer = 0;  ///< ... more than 101 %
-    double band = 0;     ///< how far off a prediction may be, over it
-    /// Whether some foam that is given by its sizes lies beyond the law, whose end is told of it.
+    Interval asked;      ///< minimum and maximum; empty when none is requested
+    Interval predicted;  ///< minimum and maximum
+    double softer = 0;   ///< share of the volume with less than 99 % of the requested modulus
+    double stiffer = 0;  ///< share with more than 101 % of it
+    double band = 0;     ///< relative uncertainty of a prediction
+    /// True if some foam given by its sizes lies outside the law's range, whose end is then used.
     bool leaves_law = false;
     std::string material;
     LawFit fit;
@@ -28,7 +28,7 @@ struct ModulusReport {
 
 ModulusReport modulus_report(const BuiltModulus& modulus, const Field& body);
 
-/// What is predicted, and what cannot be had: a sentence each.
+/// Returns sentences about the predicted modulus, and about requests that cannot be met.
 std::vector<std::string> modulus_lines(const ModulusReport& report);
 nlohmann::ordered_json modulus_json(const ModulusReport& report);
 

@@ -1,4 +1,4 @@
-// A survey of what all layers have in common, away from their borders.
+// Surveys the intersection of all layers, eroded by the holes' radius and margin.
 #include "recipe/build/place_dowels.h"
 
 #include <fmt/format.h>
@@ -15,11 +15,12 @@ namespace lamella {
 namespace {
 
 struct ClearProduct : LayerProduct {
-    Polygons clear;  ///< where the axis of a hole may stand
+    Polygons clear;  ///< allowed positions of a hole's axis
     bool empty = false;
 };
 
-/// What is clear in all layers so far, and which of the places asked for are not.
+/// Intersects the allowed positions of all layers so far. Throws InputError when a given place is not
+/// allowed.
 class ClearSurvey : public LayerPass {
   public:
     ClearSurvey(double radius, double tolerance, std::vector<dvec2> places)
@@ -36,13 +37,13 @@ class ClearSurvey : public LayerPass {
     }
     void write(const Layer& layer, LayerProduct& product) override {
         auto& found = dynamic_cast<ClearProduct&>(product);
-        if (found.empty) return;  // nothing there to be aligned
+        if (found.empty) return;  // an empty layer needs no alignment
         for (const dvec2& place : places_) {
             if (is_inside(found.clear, place)) continue;
             throw InputError(fmt::format(
-                "printer.dowel_at / --printer-dowel-at: the hole at ({}, {}) mm would come too near to "
-                "the border of layer {}, or beside it; accepted: places {:.4g} mm inside every layer "
-                "(dowel_diameter / 2 + dowel_margin), or a dowel_height that ends below",
+                "printer.dowel_at / --printer-dowel-at: the hole at ({}, {}) mm is outside layer {} or too "
+                "close to its border; accepted: places {:.4g} mm inside every layer (dowel_diameter / 2 + "
+                "dowel_margin), or a dowel_height that ends below that layer",
                 place.x, place.y, layer.index(), radius_));
         }
         if (closed_ >= 0) return;
@@ -52,7 +53,7 @@ class ClearSurvey : public LayerPass {
     }
 
     const Polygons& clear() const { return clear_; }
-    /// The first layer that leaves no place at all; negative where there is none.
+    /// The first layer at which no allowed position is left; negative when there is none.
     int closed() const { return closed_; }
 
   private:
@@ -68,14 +69,14 @@ std::vector<dvec2> places_of(const CuttingProfile& cutting) {
     for (const auto& row : cutting.dowel_at) places.emplace_back(row[0], row[1]);
     if (!places.empty() && cutting.dowels != 0 && places.size() != static_cast<std::size_t>(cutting.dowels)) {
         throw InputError(
-            fmt::format("printer.dowel_at / --printer-dowel-at: {} places for {} dowels; accepted: as many, "
-                        "or dowel_at alone",
+            fmt::format("printer.dowel_at / --printer-dowel-at: {} places are given for {} dowels; accepted: "
+                        "as many places as printer.dowels, or dowel_at alone",
                         places.size(), cutting.dowels));
     }
     return places;
 }
 
-/// Layers whose cutting plane the holes pass through.
+/// Returns the number of layers whose cutting planes the holes pass through.
 int layers_of(const Job& job, double height) {
     if (height == 0) return job.layer_count;
     int count = 0;
@@ -93,7 +94,7 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
     const CuttingProfile& cutting = recipe.printer.cutting;
     if (cutting.dowels == 1) {
         throw InputError(
-            "printer.dowels / --printer-dowels: one pin lets a layer turn about it; accepted: 0, 2 or 3");
+            "printer.dowels / --printer-dowels: a layer can rotate about a single pin; accepted: 0, 2 or 3");
     }
     DowelHoles holes;
     holes.diameter = cutting.dowel_diameter;
@@ -123,10 +124,10 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
             survey.closed() >= 0
                 ? fmt::format("no place lies inside all layers up to layer {}, which begins at {:.4g} mm",
                               survey.closed(), survey.closed() * job.layer_height)
-                : fmt::format("what all layers have in common is too small for {} of them", cutting.dowels);
+                : fmt::format("the area common to all layers is too small for {} holes", cutting.dowels);
         throw InputError(fmt::format(
-            "printer.dowels / --printer-dowels: {} with a hole of {} mm and {} mm about it; accepted: a "
-            "dowel_height that ends below, a smaller dowel_diameter or dowel_margin, or no dowels",
+            "printer.dowels / --printer-dowels: {}, with holes of {} mm and a margin of {} mm; accepted: a "
+            "smaller dowel_height, a smaller dowel_diameter or dowel_margin, or no dowels",
             why, cutting.dowel_diameter, cutting.dowel_margin));
     }
     return holes;

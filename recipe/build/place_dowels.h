@@ -13,22 +13,22 @@ namespace lamella {
 struct DowelHoles {
     std::vector<dvec2> at;  ///< mm
     double diameter = 0;    ///< mm
-    Interval height;        ///< which they pass through, mm
+    Interval height;        ///< z range through which they pass, mm
 };
 
-/// Whether a recipe asks for any.
+/// Returns true if the recipe asks for dowel holes.
 bool asks_for_dowels(const Recipe& recipe);
 
-/// Where the holes go: as the recipe says, or found by a survey of all layers that they pass through. Throws
-/// InputError, naming the first layer that stands against it, where a hole would come nearer than its margin
-/// to the border of a layer or where there is no place for so many.
+/// Places the holes: as the recipe says, or by a survey of all layers that they pass through. Throws
+/// InputError, naming the first layer that prevents it, when a hole would come nearer than its margin to the
+/// border of a layer or there is no place for the requested number.
 DowelHoles place_dowels(const Recipe& recipe, const Job& job);
 
-/// The solid less the holes.
+/// Subtracts the holes from a solid.
 FieldPtr without_dowels(FieldPtr solid, const DowelHoles& holes);
 
 nlohmann::ordered_json dowels_json(const DowelHoles& holes);
-/// One sentence.
+/// Returns one sentence.
 std::string dowels_text(const DowelHoles& holes);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// A survey of the void, and a hole or two for each cavity.
+// Surveys the void, and drills one or two holes into each cavity.
 #include "recipe/build/place_drains.h"
 #include "recipe/build/json_triple.h"
 
@@ -21,8 +21,8 @@ double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
     if (given == 0) return std::min(std::max(depth / 3, suited.lo), suited.hi);
     if (!suited.contains(given)) {
         throw LocatedError(
-            fmt::format("skin.drain_pitch / --drain-pitch: {} mm does not suit the part; accepted: {:.4g} to "
-                        "{:.4g} mm, the latter being 16 layers",
+            fmt::format("skin.drain_pitch / --drain-pitch: {} mm is out of range for this part; accepted: "
+                        "{:.4g} to {:.4g} mm (16 layers)",
                         given, suited.lo, suited.hi));
     }
     return given;
@@ -30,7 +30,7 @@ double survey_pitch(const Recipe& recipe, const Job& job, double depth) {
 
 DrilledHole drain(const Field& body, dvec3 at, double radius, double depth) {
     DrilledHole hole = drill(body, at, dvec3(0), radius, 0, depth);
-    // The hole leads through the point itself and somewhat beyond, however deep that lies.
+    // The hole passes through the point and slightly beyond, however deep the point lies.
     const dvec3 axis = hole.to - hole.from;
     const double length = std::sqrt(glm::dot(axis, axis));
     const double way = glm::dot(at - hole.from, axis) / length + radius;
@@ -57,8 +57,8 @@ DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body
     }
     if (report.drained.size() > max_cavities) {
         throw LocatedError(
-            fmt::format("skin.drains / --drains: the part has more than {} closed cavities to drain, {} in "
-                        "all; accepted: a foam of open cells, or no drains",
+            fmt::format("skin.drains / --drains: more than {} closed cavities need drains ({} in all); "
+                        "accepted: an open-cell foam, or no drains",
                         max_cavities, report.cavities));
     }
     report.small = survey.count - report.drained.size();

@@ -12,24 +12,25 @@
 
 namespace lamella {
 
-/// What a survey for cavities found, and what was drilled.
+/// Closed cavities found by a survey, and the holes drilled into them.
 struct DrainReport {
-    std::size_t cavities = 0;        ///< closed, before there were drains
-    double volume = 0;               ///< of all, mm^3
-    std::size_t small = 0;           ///< ... smaller than a ball of the drains' radius: left as they are
-    std::vector<Cavity> drained;     ///< the others, the largest first
+    std::size_t cavities = 0;        ///< closed cavities before draining
+    double volume = 0;               ///< of all cavities, mm^3
+    std::size_t small = 0;           ///< cavities smaller than a ball of the drains' radius, which are not
+                                     ///< drained
+    std::vector<Cavity> drained;     ///< the other cavities, the largest first
     std::vector<DrilledHole> holes;  ///< a drain for each, or a drain and a vent
 };
 
-/// Finds the closed cavities of the job, whose skin is at most `depth` mm thick, and where to drill them:
-/// from the nearest point of the body's surface through the cavity's lowest point and, with two drains, its
-/// highest. Throws InputError when the pitch of the recipe does not suit the part, and when there are more
+/// Finds the closed cavities of the job, whose skin is at most `depth` mm thick, and places their holes: from
+/// the nearest point of the body's surface through the cavity's lowest point and, with two drains, through
+/// its highest. Throws InputError when the recipe's pitch does not suit the part, and when there are more
 /// than 1000 cavities to drain.
 DrainReport place_drains(const Recipe& recipe, const Job& job, const Field& body, double depth);
 
 nlohmann::ordered_json drains_json(const DrainReport& report);
 
-/// One sentence.
+/// Returns one sentence.
 std::string drains_text(const DrainReport& report);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Surveys of what is to be mended, and struts between pieces.
+// Surveys places to repair, and joins pieces by struts.
 #include "recipe/build/repair_job.h"
 #include "recipe/build/json_triple.h"
 
@@ -17,13 +17,13 @@ namespace {
 
 constexpr double pitches_in_a_strut = 4;
 
-/// The least pitch that suits a job for what is `size` mm thick.
+/// Returns the pitch for features that are `size` mm thick, clamped to the range of the job's surveys.
 double pitch_for(const Job& job, double size) {
     const Interval suited = survey_pitch_range(job);
     return std::min(std::max(size / pitches_in_a_strut, suited.lo), suited.hi);
 }
 
-/// A strut that reaches into what it joins by its own radius.
+/// Makes a strut that extends into both pieces by its own radius.
 FieldPtr strut(const PieceJoin& join, double radius) {
     const double length = join.length();
     const dvec3 into = length > 0 ? (join.b - join.a) * (radius / length) : dvec3(0);
@@ -31,7 +31,7 @@ FieldPtr strut(const PieceJoin& join, double radius) {
 }
 
 void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, const RepairOptions& options) {
-    // Struts have their diameter as printed only where nothing is scaled; they are no thinner than that.
+    // Under a scale, struts are at least as thick as asked; without one, exactly.
     const dvec3 scale = recipe.process ? recipe.process->scale : dvec3(1);
     const double radius = 0.5 * recipe.repair->join / std::min({scale.x, scale.y, scale.z});
     JoinSurveyOptions survey;
@@ -47,7 +47,7 @@ void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, co
     built.job = make_processed(recipe, built.designed);
 }
 
-/// What a check finds in the job before its outlines are mended.
+/// Returns the findings of a check in the job before outlines are repaired.
 CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check check, double limit,
                          const RepairOptions& options) {
     const Job job = make_scaled(recipe, built.designed);

@@ -1,4 +1,4 @@
-// Repairs before a part is printed: pieces joined, and what of its outlines is mended.
+// Repairs before printing: joins pieces, and counts the repairs of outlines.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,14 +10,14 @@ namespace lamella {
 
 struct RepairOptions : PassControl {};
 
-/// Joins the pieces of the job as [repair] asks, and counts what make_processed mends: the report stands in
-/// `built` then. Looks at all layers, for each of the repairs asked for. Throws InputError when there are too
-/// many pieces, Interrupted when cancelled.
+/// Joins the pieces of the job as [repair] says, and counts the places that make_processed repairs; the
+/// report is stored in `built`. Passes over all layers once for each requested repair. Throws InputError when
+/// there are too many pieces, Interrupted when cancelled.
 void repair_job(const Recipe& recipe, BuiltJob& built, const RepairOptions& options);
 
-/// Counts, sizes and places.
+/// Returns counts, sizes and places.
 nlohmann::ordered_json repairs_json(const RepairReport& report);
-/// A line for each repair that was asked for.
+/// Returns a line for each requested repair.
 std::string repairs_text(const RepairReport& report);
 
 }  // namespace lamella

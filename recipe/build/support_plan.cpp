@@ -1,4 +1,4 @@
-// A JSON file a plan with a hash of its contents, read with every size and number checked.
+// Each plan is a JSON file with a hash of its contents; reading checks every size and number.
 #include "recipe/build/support_plan.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ std::size_t whole(const Json& json) {
     return json.get<std::size_t>();
 }
 
-/// Exactly `count` finite numbers.
+/// Reads exactly `count` finite numbers.
 std::vector<double> number_row(const Json& json, std::size_t count) {
     if (!json.is_array() || json.size() != count) throw std::runtime_error("a row of the wrong length");
     std::vector<double> numbers;
@@ -54,7 +54,7 @@ SupportPoint point_from(const Json& json) {
     return {{n[0], n[1], n[2]}, static_cast<SupportReason>(reason)};
 }
 
-/// Which of the points are not held, in rising order.
+/// Reads the indices of unsupported points, in ascending order.
 std::vector<std::size_t> unheld_from(const Json& json, std::size_t points) {
     std::vector<std::size_t> unheld;
     for (const Json& entry : json) {
@@ -95,7 +95,8 @@ SupportPlan plan_from(const Json& json) {
 }  // namespace
 
 fs::path default_plan_folder() {
-    // The XDG specification has relative paths ignored; so nothing is strewn over folders that one works in.
+    // The XDG specification says to ignore relative paths, so that no files are scattered over working
+    // folders.
     const auto folder = [](const char* name) {
         const char* value = std::getenv(name);
         const fs::path path = value ? value : "";
@@ -146,7 +147,7 @@ std::optional<SupportPlan> read_plan(const fs::path& folder, const std::string& 
         }
         return plan_from(json.at("contents"));
     } catch (const std::exception&) {
-        return std::nullopt;  // a plan can always be made again
+        return std::nullopt;  // a plan can always be computed again
     }
 }
 
@@ -161,7 +162,7 @@ bool keep_plan(const fs::path& folder, const std::string& hash, const SupportPla
                     {"hash", hash},
                     {"contents_hash", contents_hash(contents)},
                     {"contents", contents}};
-    // Shards may keep the same plan at the same time: each writes a file of its own first.
+    // Shards may write the same plan at the same time: each writes its own temporary file first.
     std::string unfinished = (folder / (hash + ".partial.XXXXXX")).string();
     const int descriptor = mkstemp(unfinished.data());
     if (descriptor < 0) return false;

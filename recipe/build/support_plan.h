@@ -1,5 +1,5 @@
-// The plan of supports, kept on disk under the hash of what decides it: shards, resumed runs and pictures of
-// one job share it.
+// SupportPlan: the plan of supports, cached on disk under the hash of its inputs, so that shards, resumed
+// runs and pictures of one job share it.
 #pragma once
 
 #include <filesystem>
@@ -12,24 +12,26 @@
 
 namespace lamella {
 
-/// What must be held, and what holds it. The scaffold's shape is not part of the plan's file: the recipe says
-/// it.
+/// The surveyed overhangs, and the scaffold that supports them. The scaffold's cross-sections are not part of
+/// the file: they follow from the recipe.
 struct SupportPlan {
     OverhangSurvey survey;
     Scaffold scaffold;
 };
 
-/// Where plans are kept unless told otherwise: lamella/plans in the user's cache ($XDG_CACHE_HOME, or else
-/// ~/.cache); empty where there is neither.
+/// Returns the default folder for plans: lamella/plans in the user's cache ($XDG_CACHE_HOME, or else
+/// ~/.cache); empty when there is neither.
 std::filesystem::path default_plan_folder();
 
-/// The survey's figures and the scaffold's pieces; numbers read back exactly.
+/// Returns the survey's figures and the scaffold's pieces; numbers are written so that they read back
+/// exactly.
 nlohmann::ordered_json plan_json(const SupportPlan& plan);
 
-/// The plan of that hash in the folder; nothing when there is none, or its file is damaged.
+/// Reads the plan with that hash from the folder; returns nothing when there is none or its file is damaged.
 std::optional<SupportPlan> read_plan(const std::filesystem::path& folder, const std::string& hash);
 
-/// Keeps a plan; its file appears complete or not at all. False where the folder cannot be written to.
+/// Writes a plan; its file appears complete or not at all. Returns false when the folder cannot be written
+/// to.
 bool keep_plan(const std::filesystem::path& folder, const std::string& hash, const SupportPlan& plan);
 
 }  // namespace lamella

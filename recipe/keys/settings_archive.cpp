@@ -12,8 +12,8 @@ void add_archive_settings(std::vector<Setting>& table) {
     table.push_back(row<[](Recipe & r) -> auto& { return r.printer.nanodlp.pixels; }>(
         "printer", "panel", "--printer-panel",
         {.help =
-             "How pixels stand in the images of NanoDLP archives: each in all three colours, three side by "
-             "side as the colours of one (panels without colour filters), or as grey images."}));
+             "Pixel layout of the images of NanoDLP archives: rgb: each pixel in all three colours; packed: "
+             "three neighbours as the colours of one (panels without colour filters); grey: grey images."}));
 }
 
 }  // namespace lamella

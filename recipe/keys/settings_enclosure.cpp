@@ -1,4 +1,4 @@
-// The rows of the settings table about cavities inside the part and the shield about it.
+// The rows of the settings table about cavities inside the part and the shield around it.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -23,30 +23,30 @@ void add_cavity_settings(std::vector<Setting>& table) {
                              {.unit = "mm",
                               .limits = {0.05, 1000},
                               .fallback = "required in [cavity]",
-                              .help = "Least thickness of what is left about a cavity, to all sides."});
+                              .help = "Minimum wall thickness around a cavity, in all directions."});
     add_cavity_row<&C::overhang>(
         table, "overhang", "--cavity-overhang",
         {.unit = "mm",
          .limits = {0, 100},
          .fallback = "support.overhang",
-         .help = "Distance by which a layer of a cavity's roof may stand out over the one below."});
-    add_cavity_row<&C::chamber>(
-        table, "chamber", "--cavity-chamber",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = "0, undivided",
-         .help = "Width of chambers that walls, a line thick, divide cavities into: for flat parts."});
+         .help = "Largest overhang of a layer of a cavity's roof over the one below."});
+    add_cavity_row<&C::chamber>(table, "chamber", "--cavity-chamber",
+                                {.unit = "mm",
+                                 .limits = {0, 1000},
+                                 .fallback = "0, undivided",
+                                 .help = "Width of the chambers into which walls of one line's thickness "
+                                         "divide cavities: for flat parts."});
     add_cavity_row<&C::least>(table, "least", "--cavity-least",
                               {.unit = "mm3",
                                .limits = {0, 1e9},
                                .fallback = format_value(C{}.least),
-                               .help = "Volume below which a cavity is left solid."});
+                               .help = "Minimum volume of a cavity; smaller ones are left solid."});
     add_cavity_row<&C::pitch>(
         table, "pitch", "--cavity-pitch",
         {.unit = "mm",
          .limits = {0, 100},
          .fallback = "half the overhang, at least 0.1",
-         .help = "Distance of the rows in which the part is looked at, and width of a cavity's stairs."});
+         .help = "Row spacing of the survey of the part, and step width of a cavity's roof."});
 }
 
 void add_shield_settings(std::vector<Setting>& table) {
@@ -55,24 +55,23 @@ void add_shield_settings(std::vector<Setting>& table) {
                             {.unit = "mm",
                              .limits = {0, 1000},
                              .fallback = "required in [shield]",
-                             .help = "Distance in each layer between the print and its shield, at least."});
+                             .help = "Minimum distance between the print and its shield in each layer."});
     add_shield_row<&S::wall>(table, "wall", "--shield-wall",
                              {.unit = "mm",
                               .limits = {0.05, 100},
                               .fallback = format_value(S{}.wall),
                               .help = "Thickness of the shield."});
-    add_shield_row<&S::overhang>(
-        table, "overhang", "--shield-overhang",
-        {.unit = "mm",
-         .limits = {0, 100},
-         .fallback = "support.overhang",
-         .help = "Distance by which the shield's outline may move from layer to layer."});
+    add_shield_row<&S::overhang>(table, "overhang", "--shield-overhang",
+                                 {.unit = "mm",
+                                  .limits = {0, 100},
+                                  .fallback = "support.overhang",
+                                  .help = "Largest shift of the shield's outline from layer to layer."});
     add_shield_row<&S::pitch>(
         table, "pitch", "--shield-pitch",
         {.unit = "mm",
          .limits = {0, 100},
          .fallback = "half the overhang, at least 0.1",
-         .help = "Distance of the rows in which the print is looked at, and width of the shield's stairs."});
+         .help = "Row spacing of the survey of the print, and step width of the shield's outline."});
 }
 
 }  // namespace lamella

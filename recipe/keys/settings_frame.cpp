@@ -19,23 +19,22 @@ void add_frame_settings(std::vector<Setting>& table) {
         {.unit = "mm",
          .limits = radii,
          .fallback = "required in [frame]",
-         .help = "Radius of the frame's beams; where the foam's are thicker, theirs."});
+         .help = "Radius of the frame's beams; the foam's radius where that is larger."});
     add_frame_row<&FrameRecipe::beam_min>(
         table, "beam_min", "--frame-min",
         {.unit = "mm",
          .limits = radii,
          .fallback = "0.005",
-         .help = "Least radius that is made: graded beams of the frame are kept above it."});
+         .help = "Smallest radius: graded beams of the frame are clamped to it."});
     add_frame_row<&FrameRecipe::beam_max>(
         table, "beam_max", "--frame-max",
         {.unit = "mm",
          .limits = radii,
          .fallback = "500",
-         .help = "Greatest radius that is made: graded beams of the frame are kept below it."});
+         .help = "Largest radius: graded beams of the frame are clamped to it."});
     add_frame_row<&FrameRecipe::interior>(
         table, "interior", "--frame-interior",
-        {.fallback = "true",
-         .help = "Whether the foam itself is made; without it there is the frame alone."});
+        {.fallback = "true", .help = "Make the foam inside as well; false: the frame alone."});
 }
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The rows of the settings table about how stiff a foam is wanted, and what it is made of.
+// The rows of the settings table about a foam's modulus and its material.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -9,12 +9,12 @@ void add_stiffness_settings(std::vector<Setting>& t) {
         {.unit = "MPa",
          .limits = {1e-6, 1e6},
          .fallback = "cells and members are given",
-         .help = "Young's modulus that the foam is to have: cells are chosen for it where beams (or walls) "
-                 "are given, and these where cells are. Needs [material]."}));
+         .help = "Desired Young's modulus of the foam: determines the cells if beams (or walls) are given, "
+                 "and these if cells are. Needs [material]."}));
     t.push_back(optional_row<&Recipe::foam, &FoamRecipe::law>(
         "foam", "law", "--foam-law",
-        {.fallback = "those that ship with the program",
-         .help = "File of foams' stiffness against the size of their members, as `homogenize --table` writes "
+        {.fallback = "the built-in laws",
+         .help = "File of stiffness laws of foams (modulus over member size), as `homogenize --table` writes "
                  "it; in a recipe, relative to the recipe's folder.",
          .is_path = true}));
 }
@@ -29,7 +29,7 @@ void add_material_settings(std::vector<Setting>& t) {
         {.fallback = "none", .help = "Name of a material that `lamella materials` lists: pla, petg, ..."});
     add.operator()<&M::table>(
         "table", "--material-table",
-        {.fallback = "the materials that ship with the program",
+        {.fallback = "the built-in materials",
          .help = "File of materials, as `lamella materials --toml` writes them; in a recipe, relative to the "
                  "recipe's folder.",
          .is_path = true});
@@ -46,13 +46,12 @@ void add_material_settings(std::vector<Setting>& t) {
                                 {.unit = "g/cm3",
                                  .limits = {1e-3, 100},
                                  .fallback = "the named material's",
-                                 .help = "Density of the solid, from which the part's mass is told."});
+                                 .help = "Density of the solid, for the part's mass."});
     add.operator()<&M::tests>(
         "tests", "--material-tests",
         {.fallback = "none",
-         .help =
-             "File of compression tests of printed foams that the law is fitted to: a cell, a member (mm) "
-             "and the modulus (MPa) a line; in a recipe, relative to the recipe's folder.",
+         .help = "File of compression tests of printed foams to which the law is fitted: cell (mm), member "
+                 "(mm) and modulus (MPa) on each line; in a recipe, relative to the recipe's folder.",
          .is_path = true});
 }
 

@@ -1,4 +1,4 @@
-// The rows of the settings table about the plate: how many of a part are made at once.
+// The rows of the settings table about the plate: copies of the part.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -8,7 +8,7 @@ void add_plate_settings(std::vector<Setting>& t) {
         "plate", "copies", "--copies",
         {.limits = {1, 10000},
          .fallback = "1",
-         .help = "How many of the part stand on the plate, in rows."}));
+         .help = "Number of copies of the part on the plate, in rows."}));
     t.push_back(row<[](Recipe & r) -> auto& {
         return r.plate.gap;
     }>("plate", "gap", "--plate-gap",

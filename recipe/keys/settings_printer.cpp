@@ -24,20 +24,20 @@ void add_machine(std::vector<Setting>& t) {
         "printer", "profile", "--printer",
         {.fallback = default_profile,
          .help = "Machine profile to start from: a name that `lamella printers` lists, a back-end's name for "
-                 "plain settings, or a profile's .toml file, in a recipe relative to the recipe's folder."}));
+                 "its defaults, or a profile's .toml file; in a recipe, relative to the recipe's folder."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.backend; }>(
         "printer", "kind", "--printer-kind",
         {.choices = backend_words(), .help = "Back-end that makes the output."}));
 }
 
-/// The pixel's edge as printheads state it. What is told is rounded to 1e-6, for a quotient's quotient is not
-/// quite the number that was given.
+/// The pixel size in dots per inch, as printheads state it. The value read back is rounded to 1e-6, because
+/// two divisions do not return exactly the number that was given.
 Setting dots_per_inch() {
     constexpr double inch = 25.4;  // mm
     Setting s = described<double>("printer", "dpi", "--printer-dpi",
                                   {.unit = "dots per inch",
                                    .limits = {0.003, 25'000},
-                                   .help = "Square pixels by their number an inch instead of pixel."});
+                                   .help = "Square pixels given as dots per inch, instead of pixel."});
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         r.printer.image.pixel_x = r.printer.image.pixel_y = inch / std::get<double>(value);
     };
@@ -57,9 +57,7 @@ void add_display_rows(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }, [](Recipe & r) -> auto& {
         return r.printer.image.pixel_y;
     }>("printer", "pixel", "--printer-pixel",
-       {.unit = "mm",
-        .limits = length_limits,
-        .help = "Edge of a square pixel; pixel_x and pixel_y in one."}));
+       {.unit = "mm", .limits = length_limits, .help = "Edge of a square pixel; sets pixel_x and pixel_y."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.pixel_x; }>(
         "printer", "pixel_x", "--printer-pixel-x",
         {.unit = "mm", .limits = length_limits, .help = "Size of a pixel along the display's width."}));
@@ -77,7 +75,7 @@ void add_display_rows(std::vector<Setting>& t) {
         "printer", "portrait", "--printer-portrait", {.help = "Image columns run along +y of the plate."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.antialiasing; }>(
         "printer", "antialiasing", "--printer-antialiasing",
-        {.help = "Grey edges: none, by sub_rows lines a pixel row, or by exact area."}));
+        {.help = "Grey edges: off, from sub_rows lines per pixel row, or from exact areas."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_rows; }>(
         "printer", "sub_rows", "--printer-sub-rows",
         {.limits = {1, 64}, .help = "Lines per pixel row for antialiasing = \"rows\"."}));
@@ -87,26 +85,26 @@ void add_display_rows(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.sub_layers; }>(
         "printer", "sub_layers", "--printer-sub-layers",
         {.limits = {1, 64},
-         .help = "Planes a layer whose masks are averaged, so that slopes get grey edges over z, too."}));
+         .help = "Number of planes per layer whose masks are averaged, so that slopes get grey edges."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.gamma; }>(
         "printer", "gamma", "--printer-gamma",
         {.limits = {0.1, 10}, .help = "Grey of a pixel is its coverage to this power."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.min_grey; }>(
         "printer", "least_grey", "--printer-least-grey",
-        {.limits = {0, 1}, .help = "Grey of pixels that are hardly touched, as a share of white."}));
+        {.limits = {0, 1}, .help = "Grey value of barely covered pixels, as a share of white."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.full_grey; }>(
         "printer", "full_grey", "--printer-full-grey",
-        {.limits = {0, 1}, .help = "Grey of pixels that are wholly covered, as a share of white."}));
+        {.limits = {0, 1}, .help = "Grey value of fully covered pixels, as a share of white."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.image.margin; }>(
         "printer", "display_margin", "--printer-display-margin",
-        {.unit = "mm", .limits = {0, 1000}, .help = "Edge of the display that a part must stay clear of."}));
+        {.unit = "mm", .limits = {0, 1000}, .help = "Margin of the display that a part must not enter."}));
 }
 
 void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.machine; }>(
         "printer", "machine", "--printer-machine",
-        {.help = "Model that an archive is for, else the profile's name; SL1 machines refuse those for "
-                 "another one."}));
+        {.help = "Model for which an archive is made; SL1 machines refuse archives for another model. Empty: "
+                 "the profile's name."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.material; }>(
         "printer", "material", "--printer-material", {.help = "Name of the resin."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.exposure; }>(
@@ -119,27 +117,28 @@ void add_resin(std::vector<Setting>& t) {
         "printer", "first_layers", "--printer-first-layers",
         {.unit = "layers",
          .limits = {1, 100},
-         .help = "Layers that are exposed like the first one; SL1 machines take 3."}));
+         .help = "Number of layers exposed like the first one; SL1 machines use 3."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.lift; }>(
         "printer", "lift", "--printer-lift",
         {.unit = "mm", .limits = {0.1, 100}, .help = "Height by which the plate rises after each layer."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.lift_speed; }>(
         "printer", "lift_speed", "--printer-lift-speed",
-        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed of rising."}));
+        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed at which the plate rises."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.retract_speed; }>(
         "printer", "retract_speed", "--printer-retract-speed",
-        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed of coming down again."}));
+        {.unit = "mm/min", .limits = {1, 10000}, .help = "Speed at which the plate returns."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.fade_layers; }>(
         "printer", "fade_layers", "--printer-fade-layers",
         {.unit = "layers",
          .limits = {0, 100},
-         .help = "Layers over which the first exposure becomes that of the others."}));
+         .help =
+             "Number of layers over which the exposure changes from the first one's to the normal one."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.moves; }>(
         "printer", "layer_moves", "--printer-layer-moves",
-        {.unit = "s", .limits = {0, 1000}, .help = "Time that a layer takes besides its exposure."}));
+        {.unit = "s", .limits = {0, 1000}, .help = "Time of a layer in addition to its exposure."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.preview; }>(
         "printer", "preview", "--printer-preview",
-        {.help = "Put pictures of the part into SL1 and GOO files; those of G-code are \"thumbnails\"."}));
+        {.help = "Put pictures of the part into SL1 and GOO files; for G-code see thumbnails."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.notes; }>(
         "printer", "notes", "--printer-notes",
         {.help = "Keywords for programs that convert SL1 archives, such as FILEFORMAT_goo."}));
@@ -157,10 +156,10 @@ void add_vector(std::vector<Setting>& t) {
         {.help = "One vector file with a group a layer instead of a folder of files."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.vector.margin; }>(
         "printer", "margin", "--printer-margin",
-        {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin round the part in vector files."}));
+        {.unit = "mm", .limits = {0, 1000}, .help = "Empty margin around the part in vector files."}));
 }
 
-/// A number of the printer's section.
+/// Adds a number of the [printer] section.
 template <auto member>
 void add_machine_number(std::vector<Setting>& t, const char* key, const char* flag, const char* unit,
                         Limits limits, const char* help) {
@@ -197,10 +196,9 @@ void add_filament(std::vector<Setting>& t) {
     add_machine_number<&FilamentProfile::travel_speed>(t, "travel_speed", "--printer-travel-speed", "mm/s",
                                                        speed, "Speed of moves without extrusion.");
     add_machine_number<&FilamentProfile::retraction>(t, "retraction", "--printer-retraction", "mm", {0, 100},
-                                                     "Filament drawn back before a move.");
-    add_machine_number<&FilamentProfile::retraction_speed>(t, "retraction_speed",
-                                                           "--printer-retraction-speed", "mm/s", speed,
-                                                           "Speed of drawing filament back.");
+                                                     "Length of filament retracted before a move.");
+    add_machine_number<&FilamentProfile::retraction_speed>(
+        t, "retraction_speed", "--printer-retraction-speed", "mm/s", speed, "Speed of retraction.");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The rows of the settings table about what makes up for the way a machine prints.
+// The rows of the settings table about machine compensation.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -18,25 +18,26 @@ void add_process_settings(std::vector<Setting>& table) {
         table, "scale", "--process-scale",
         {.limits = {0.1, 10},
          .fallback = "1, 1, 1",
-         .help = "Factors on the finished part, foam and skin with it, along x, y and z: about "
-                 "the middle of its bounds in x and y, up from its lowest point."});
+         .help = "Scale factors of the finished part, including foam and skin, along x, y and z: about the "
+                 "middle of its bounds in x and y, up from its lowest point."});
     add_process_row<&P::xy_compensation>(
         table, "xy_compensation", "--xy-compensation",
         {.unit = "mm",
          .limits = {-10, 10},
          .fallback = format_value(P{}.xy_compensation),
-         .help = "Distance by which every layer's outline grows; below 0 it shrinks."});
+         .help = "Outward offset of every layer's outline; negative: inward."});
     add_process_row<&P::elephant_foot>(table, "elephant_foot", "--elephant-foot",
                                        {.unit = "mm",
                                         .limits = {0, 10},
                                         .fallback = format_value(P{}.elephant_foot),
-                                        .help = "Distance by which the first layer's outline is drawn in."});
+                                        .help = "Inward offset of the first layer's outline."});
     add_process_row<&P::elephant_foot_layers>(
         table, "elephant_foot_layers", "--elephant-foot-layers",
         {.unit = "layers",
          .limits = {1, 10000},
          .fallback = format_value(P{}.elephant_foot_layers),
-         .help = "Layers over which elephant_foot fades evenly to nothing; 1: the first layer alone."});
+         .help =
+             "Number of layers over which elephant_foot decreases linearly to 0; 1: only the first layer."});
 }
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// The rows of the settings table about solids by name and the regions that they make.
+// The rows of the settings table about named solids and regions.
 #include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_kinds.h"
 
@@ -25,24 +25,23 @@ void add_formulas(std::vector<Setting>& t) {
     add_field_row<&FieldRecipe::file>(
         t, "file",
         {.fallback = "required by vm, mesh, 3mf",
-         .help = "Program of one operation a line (.vm), a mesh (STL, OBJ, PLY, 3MF), or a 3MF with level "
-                 "sets or functions, relative to the recipe's folder.",
+         .help = "Program with one operation per line (.vm), a mesh (STL, OBJ, PLY, 3MF), or a 3MF with "
+                 "level sets or functions, relative to the recipe's folder.",
          .is_path = true});
     add_field_row<&FieldRecipe::object>(
         t, "object",
-        {.fallback = "all that the 3MF builds", .help = "Number or name of an object in a 3MF."});
+        {.fallback = "all built objects of the 3MF", .help = "Number or name of an object in a 3MF."});
     add_field_row<&FieldRecipe::function>(
         t, "function",
         {.fallback = "none",
-         .help = "Number or name of a function in a 3MF, with .output where it has several: the solid is "
-                 "where it is below zero."});
-    add_field_row<&FieldRecipe::bounds>(
-        t, "bounds",
-        {.unit = "mm",
-         .limits = place_limits,
-         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
-         .fallback = "found by search; of a region, a box about the part",
-         .help = "Box that the solid lies in; outside it the solid is cut off."});
+         .help = "Number or name of a function in a 3MF, with .output if it has several outputs: the solid "
+                 "is where it is below zero."});
+    add_field_row<&FieldRecipe::bounds>(t, "bounds",
+                                        {.unit = "mm",
+                                         .limits = place_limits,
+                                         .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
+                                         .fallback = "found by a search; for a region, a box around the part",
+                                         .help = "Box around the solid, which is cut off outside it."});
 }
 
 void add_shapes(std::vector<Setting>& t) {
@@ -54,16 +53,16 @@ void add_shapes(std::vector<Setting>& t) {
                                .help = help});
     };
     length.operator()<&FieldRecipe::radius>("radius", "sphere, cylinder, capsule, torus",
-                                            "Radius; of a torus, of the circle in the middle of its tube.");
+                                            "Radius; for a torus, that of the centre line of its tube.");
     length.operator()<&FieldRecipe::size>("size", "box", "Edge lengths along x, y and z.");
     length.operator()<&FieldRecipe::height>("height", "cylinder, capsule",
                                             "Height from end to end, along z.");
     length.operator()<&FieldRecipe::tube>("tube", "torus", "Radius of the tube of a torus.");
     add_field_row<&FieldRecipe::unit>(
-        t, "unit", {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."});
+        t, "unit", {.fallback = "mm", .help = "Length unit of a mesh file whose format states none."});
     add_field_row<&FieldRecipe::scale>(
         t, "scale",
-        {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Factor on a mesh's size, after the unit."});
+        {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Scale factor of a mesh, applied after the unit."});
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ void add_field_settings(std::vector<Setting>& t) {
     add_field_row<&FieldRecipe::kind>(t, "kind",
                                       {.choices = kind_words("field"),
                                        .fallback = "formula",
-                                       .help = "Where the field's values come from."});
+                                       .help = "Kind of the field: a formula, a file or a shape."});
     add_formulas(t);
     add_shapes(t);
     add_field_row<&FieldRecipe::at>(
@@ -83,13 +82,13 @@ void add_field_settings(std::vector<Setting>& t) {
         {.unit = "mm",
          .limits = place_limits,
          .fallback = "0, 0, 0",
-         .help = "Centre of a shape; of a mesh or formula, where its origin goes."});
+         .help = "Centre of a shape; for a mesh or formula, the position of its origin."});
     add_field_row<&FieldRecipe::turn>(
         t, "turn",
         {.unit = "degrees",
          .limits = {-360, 360},
          .fallback = "0, 0, 0",
-         .help = "Turns the solid about x, then y, then z, before it is placed."});
+         .help = "Rotation of the solid about x, then y, then z, before it is moved."});
 }
 
 void add_region_settings(std::vector<Setting>& t) {
@@ -97,33 +96,33 @@ void add_region_settings(std::vector<Setting>& t) {
         t.push_back(list_row<&Recipe::regions, member>("region", key, std::move(facts)));
     };
     add.operator()<&RegionRecipe::field>(
-        "field", {.fallback = "required", .help = "Name of the [[field]] that the region is the inside of."});
-    add.operator()<&RegionRecipe::make>("make", {.fallback = "required",
-                                                 .help = "What the body is made of there; foam and skin "
-                                                         "change numbers. A blocker keeps supports away, an "
-                                                         "enforcer wants them under all that stands out."});
+        "field", {.fallback = "required", .help = "Name of the [[field]] whose inside is the region."});
+    add.operator()<&RegionRecipe::make>(
+        "make", {.fallback = "required",
+                 .help = "Content of the body in the region; foam and skin change numbers. A blocker keeps "
+                         "supports away, an enforcer puts them under every overhang."});
     add.operator()<&RegionRecipe::blend>(
         "blend", {.unit = "mm",
                   .limits = {0, 1000},
                   .fallback = "0",
-                  .help = "Width over which the region passes into what is about it: of fillets, rounded "
-                          "edges, the change of numbers."});
+                  .help = "Width of the transition between the region and its surroundings: of fillets, "
+                          "rounded edges, changing numbers."});
     const auto number = [&]<auto member>(const char* key, const char* unit, Limits limits, const char* other,
                                          const char* help) {
         add.operator()<member>(key, {.unit = unit, .limits = limits, .fallback = other, .help = help});
     };
     number.operator()<&RegionRecipe::cell>("cell", "mm", {0.05, 1000}, "the foam's",
-                                           "Cells of the foam there.");
+                                           "Cell size of the foam in the region.");
     number.operator()<&RegionRecipe::beam>("beam", "mm", {0.005, 500}, "the foam's",
-                                           "Radius of the foam's beams there.");
+                                           "Radius of the foam's beams in the region.");
     number.operator()<&RegionRecipe::wall>("wall", "mm", {0.01, 500}, "the foam's",
-                                           "Thickness of the foam's walls there.");
+                                           "Thickness of the foam's walls in the region.");
     number.operator()<&RegionRecipe::window>("window", "", {0, 1}, "the foam's",
-                                             "Share of a closed foam's walls that is a window there.");
+                                             "Open share of a closed foam's walls in the region.");
     number.operator()<&RegionRecipe::modulus>("modulus", "MPa", {1e-6, 1e6}, "the foam's",
-                                              "Young's modulus of the foam there.");
+                                              "Young's modulus of the foam in the region.");
     number.operator()<&RegionRecipe::thickness>("thickness", "mm", {0, 1000}, "required by skin",
-                                                "Thickness of the skin there; 0 for none.");
+                                                "Thickness of the skin in the region; 0 for none.");
 }
 
 }  // namespace lamella

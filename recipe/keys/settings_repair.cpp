@@ -1,4 +1,4 @@
-// The rows of the settings table about what is mended before a part is printed.
+// The rows of the settings table about repairs before printing.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -19,13 +19,12 @@ void add_repair_settings(std::vector<Setting>& table) {
     using R = RepairRecipe;
     add_repair_row<&R::thickness>(
         table, "thickness", "--repair-thickness",
-        {.help = "What is thinner than this within a layer is made so thick; 0: it stays."});
+        {.help = "Walls thinner than this within a layer are thickened to it; 0: no change."});
     add_repair_row<&R::gap>(table, "gap", "--repair-gap",
-                            {.help = "Void narrower than this within a layer is filled; 0: it stays."});
+                            {.help = "Gaps narrower than this within a layer are filled; 0: no change."});
     add_repair_row<&R::join>(
         table, "join", "--repair-join",
-        {.help = "Diameter of the struts that join pieces of the part which float free; 0: none "
-                 "are joined."});
+        {.help = "Diameter of struts that join disconnected pieces of the part; 0: pieces are not joined."});
 }
 
 }  // namespace lamella

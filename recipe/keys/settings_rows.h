@@ -1,4 +1,4 @@
-// Making rows of the settings table: from a place in the recipe to a key that is read, checked and told.
+// Helpers that make rows of the settings table: they bind a key to a place in the recipe.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace lamella {
 
-/// The words of a choice, in the order of its values; every enumeration that a row holds has one.
+/// Returns the words of a choice, in the order of the enumerators; one overload for every enumeration that a
+/// row uses.
 const std::vector<std::string>& choice_names(Shape);
 const std::vector<std::string>& choice_names(LengthUnit);
 const std::vector<std::string>& choice_names(Falloff);
@@ -63,20 +64,20 @@ void add_archive_settings(std::vector<Setting>& table);
 
 /// The rows of the [printer] section.
 void add_printer_settings(std::vector<Setting>& table);
-/// Those of them about G-code's dialect, scripts, speeds and motion, and about lasers.
+/// Its rows about the G-code dialect, scripts, speeds and motion, and about lasers.
 void add_gcode_settings(std::vector<Setting>& table);
-/// Those of them about where an extruder's beads go.
+/// Its rows about an extruder's toolpaths.
 void add_toolpath_settings(std::vector<Setting>& table);
-/// Those of them about files for other programs and powder-bed machines.
+/// Its rows about files for other programs and for powder-bed machines.
 void add_exchange_settings(std::vector<Setting>& table);
-/// Those of them that are about cutting layers out of sheets.
+/// Its rows about cutting layers out of sheets.
 void add_cutting_settings(std::vector<Setting>& table);
 
-inline constexpr Limits length_limits{1e-3, 1e4};  ///< of a length that must not vanish, mm
+inline constexpr Limits length_limits{1e-3, 1e4};  ///< of a positive length, mm
 inline constexpr Limits extent_limits{1e-2, 1e5};  ///< of a solid's size, mm
 inline constexpr Limits place_limits{-1e6, 1e6};   ///< of a coordinate, mm
 
-/// What a row says about a key besides its name and flag.
+/// The properties of a setting other than its key, flag and storage.
 struct SettingSpec {
     std::string unit{};
     Limits limits{};
@@ -133,7 +134,7 @@ Value to_value(const T& held) {
     }
 }
 
-/// A row without its places.
+/// Makes a row without its access functions.
 template <typename Held>
 Setting described(std::string section, std::string key, std::string flag, SettingSpec facts) {
     Setting s;
@@ -151,8 +152,8 @@ Setting described(std::string section, std::string key, std::string flag, Settin
     return s;
 }
 
-/// A row whose value is stored in one or several places of the recipe, and read from the first. A place is
-/// a function from the recipe to a reference into it.
+/// Makes a row whose value is stored in one or several places of the recipe, and read from the first. A place
+/// is a function from the recipe to a reference into it.
 template <auto place, auto... others>
 Setting row(std::string section, std::string key, std::string flag, SettingSpec facts) {
     using Held = std::remove_reference_t<decltype(place(std::declval<Recipe&>()))>;
@@ -168,7 +169,7 @@ Setting row(std::string section, std::string key, std::string flag, SettingSpec 
     return s;
 }
 
-/// A row of a section that may be absent: a member of the structure that `optional` holds.
+/// Makes a row of an optional section: a member of the structure that `optional` holds.
 template <auto optional, auto member>
 Setting optional_row(std::string section, std::string key, std::string flag, SettingSpec facts) {
     using Whole = typename std::remove_reference_t<decltype(std::declval<Recipe&>().*optional)>::value_type;
@@ -176,7 +177,7 @@ Setting optional_row(std::string section, std::string key, std::string flag, Set
     Setting s = described<Held>(std::move(section), std::move(key), std::move(flag), std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         auto& whole = r.*optional;
-        // Not as one expression with ?:, for g++ 12 stores into a copy of plain structures.
+        // Not one expression with ?:, because g++ 12 then stores into a copy of plain structures.
         if (!whole) whole.emplace();
         (*whole).*member = from_value<Held>(value);
     };
@@ -187,7 +188,7 @@ Setting optional_row(std::string section, std::string key, std::string flag, Set
     return s;
 }
 
-/// A row of a list section: a member of each entry of `list`.
+/// Makes a row of a list section: a member of each entry of `list`.
 template <auto list, auto member>
 Setting list_row(std::string section, std::string key, SettingSpec facts) {
     using Entry = typename std::remove_reference_t<decltype(std::declval<Recipe&>().*list)>::value_type;

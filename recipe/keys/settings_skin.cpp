@@ -27,19 +27,17 @@ void add_thickness(std::vector<Setting>& t) {
                                  .limits = {0, 1000},
                                  .fallback = "required in [skin]",
                                  .help = "Thickness of the skin; 0 for none."});
-    add_skin_row<&S::thickness_min>(
-        t, "thickness_min", "--skin-min",
-        {.unit = "mm",
-         .limits = {0, 1000},
-         .fallback = format_value(S{}.thickness_min),
-         .help = "Least thickness that is made: a graded skin is kept above it."});
-    add_skin_row<&S::thickness_max>(
-        t, "thickness_max", "--skin-max",
-        {.unit = "mm",
-         .limits = {0.001, S{}.thickness_max},
-         .fallback = format_value(S{}.thickness_max),
-         .help = "Greatest thickness that is made: a graded skin is kept below it, and has it where the "
-                 "formula has no number."});
+    add_skin_row<&S::thickness_min>(t, "thickness_min", "--skin-min",
+                                    {.unit = "mm",
+                                     .limits = {0, 1000},
+                                     .fallback = format_value(S{}.thickness_min),
+                                     .help = "Smallest thickness: a graded skin is clamped to it."});
+    add_skin_row<&S::thickness_max>(t, "thickness_max", "--skin-max",
+                                    {.unit = "mm",
+                                     .limits = {0.001, S{}.thickness_max},
+                                     .fallback = format_value(S{}.thickness_max),
+                                     .help = "Largest thickness: a graded skin is clamped to it, and has "
+                                             "this thickness where the formula is undefined."});
     add_skin_row<&S::side>(
         t, "side", "--skin-side",
         {.fallback = "inside",
@@ -50,18 +48,18 @@ void add_pattern(std::vector<Setting>& t) {
     add_skin_row<&S::pattern>(t, "pattern", "--skin-pattern",
                               {.choices = kind_words("skin"),
                                .fallback = S{}.pattern,
-                               .help = "Windows that are cut through the skin."});
+                               .help = "Pattern of windows cut through the skin."});
     add_skin_row<&S::window>(
         t, "window", "--skin-window",
         {.unit = "mm",
          .limits = widths,
          .fallback = "required by voronoi, hexagons",
-         .help = "Width of a window: of hexagons from side to side, of others on average."});
+         .help = "Width of a window: across the flats of hexagons, on average for other patterns."});
     add_skin_row<&S::strut>(t, "strut", "--skin-strut",
                             {.unit = "mm",
                              .limits = widths,
                              .fallback = "required by all patterns",
-                             .help = "Width of what is left between windows; no strut is narrower."});
+                             .help = "Minimum width of the struts between windows."});
     add_skin_row<&S::corner>(t, "corner", "--skin-corner",
                              {.unit = "mm",
                               .limits = {0, 1000},
@@ -70,7 +68,7 @@ void add_pattern(std::vector<Setting>& t) {
     add_skin_row<&S::seed>(t, "seed", "--skin-seed",
                            {.limits = {0, 9223372036854775807.0},
                             .fallback = format_value(S{}.seed),
-                            .help = "Number that picks one set of Voronoi windows among all."});
+                            .help = "Seed of the random numbers for Voronoi windows."});
 }
 
 void add_image_pattern(std::vector<Setting>& t) {
@@ -84,30 +82,31 @@ void add_image_pattern(std::vector<Setting>& t) {
                                   .limits = {0.01, 1e5},
                                   .fallback = "required by image",
                                   .help = "Length that the picture's width covers."});
-    add_skin_row<&S::threshold>(
-        t, "threshold", "--skin-threshold",
-        {.limits = {0, 1}, .fallback = format_value(S{}.threshold), .help = "Grey below which it is solid."});
-    add_skin_row<&S::invert>(t, "invert", "--skin-invert",
-                             {.fallback = "false", .help = "Solid where the picture is bright instead."});
+    add_skin_row<&S::threshold>(t, "threshold", "--skin-threshold",
+                                {.limits = {0, 1},
+                                 .fallback = format_value(S{}.threshold),
+                                 .help = "Grey value below which the skin is solid."});
+    add_skin_row<&S::invert>(
+        t, "invert", "--skin-invert",
+        {.fallback = "false", .help = "Make the skin solid where the picture is bright instead of dark."});
 }
 
 void add_drains(std::vector<Setting>& t) {
-    add_skin_row<&S::drains>(
-        t, "drains", "--drains",
-        {.limits = {0, 2},
-         .fallback = "0",
-         .help = "Holes for each closed cavity: 1 at its lowest point, 2 one at its highest, too; the layers "
-                 "are surveyed first."});
+    add_skin_row<&S::drains>(t, "drains", "--drains",
+                             {.limits = {0, 2},
+                              .fallback = "0",
+                              .help = "Holes per closed cavity: 1: at its lowest point; 2: also at its "
+                                      "highest (needs an extra pass over the layers)."});
     add_skin_row<&S::drain_radius>(t, "drain_radius", "--drain-radius",
                                    {.unit = "mm",
                                     .limits = {0.01, 1000},
                                     .fallback = "half the skin's thickness, at least 0.5 mm",
-                                    .help = "Radius of these holes."});
+                                    .help = "Radius of the drain holes."});
     add_skin_row<&S::drain_pitch>(t, "drain_pitch", "--drain-pitch",
                                   {.unit = "mm",
                                    .limits = {0.001, 100},
                                    .fallback = "a third of the skin's thickness, at most 16 layers",
-                                   .help = "Distance of the rows in which the survey for cavities looks."});
+                                   .help = "Row spacing of the survey for cavities."});
 }
 
 template <auto member>
@@ -120,20 +119,21 @@ void add_holes(std::vector<Setting>& t) {
                          {.unit = "mm",
                           .limits = place_limits,
                           .fallback = "required",
-                          .help = "Where it is: the point of the surface that is nearest to this one."});
+                          .help = "Position: the hole begins at the surface point nearest to this one."});
     add_hole_row<&H::radius>(
-        t, "radius", {.unit = "mm", .limits = {0.01, 1e4}, .fallback = "required", .help = "Its radius."});
+        t, "radius",
+        {.unit = "mm", .limits = {0.01, 1e4}, .fallback = "required", .help = "Radius of the hole."});
     add_hole_row<&H::direction>(t, "direction",
                                 {.limits = place_limits,
-                                 .fallback = "at right angles to the surface",
-                                 .help = "Which way it is drilled, into the body."});
+                                 .fallback = "perpendicular to the surface",
+                                 .help = "Drilling direction, into the body."});
     add_hole_row<&H::depth>(t, "depth",
                             {.unit = "mm",
                              .limits = {0.001, 1e5},
                              .fallback = "through the skin",
-                             .help = "How deep it is drilled, from the surface."});
+                             .help = "Depth of the hole from the surface."});
     add_hole_row<&H::through>(
-        t, "through", {.fallback = "false", .help = "Drilled through the filling, too, as deep as it goes."});
+        t, "through", {.fallback = "false", .help = "Drill through the foam as well, over the whole depth."});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The rows of the settings table about what holds the part up while it is printed.
+// The rows of the settings table about supports.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -13,7 +13,7 @@ namespace {
 constexpr Limits thickness{0.05, 100};
 constexpr Limits amount_limits{0, 1000};
 
-/// A row of the printer's supports. Whoever sets one wants supports, unless support.kind says otherwise.
+/// Adds a row of the printer's supports. Setting one enables supports unless support.kind says otherwise.
 template <auto member>
 void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     static constexpr auto place = [](Recipe & r) -> auto& { return r.printer.support.*member; };
@@ -26,50 +26,48 @@ void add_support_row(std::vector<Setting>& t, const char* key, const char* flag,
     t.push_back(std::move(s));
 }
 
-/// What must be held.
+/// The overhangs to support.
 void add_needs(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::overhang>(
         t, "overhang", "--support-overhang",
         {.unit = "mm",
          .limits = {0, 100},
-         .help = "Distance by which a layer may stand out over the one below; 0: half a "
-                 "line's width, of other machines than those with filament a layer's "
-                 "height."});
-    add_support_row<&P::spacing>(t, "spacing", "--support-spacing",
-                                 {.unit = "mm",
-                                  .limits = {0.1, 100},
-                                  .help = "Distance within which a support point holds what hangs."});
+         .help = "Largest overhang of a layer over the one below that needs no support; 0: half a line's "
+                 "width with filament, one layer height on other machines."});
+    add_support_row<&P::spacing>(
+        t, "spacing", "--support-spacing",
+        {.unit = "mm",
+         .limits = {0.1, 100},
+         .help = "Radius around a support point within which overhangs are supported."});
     add_support_row<&P::free_stretch>(
         t, "free_stretch", "--support-free-stretch",
-        {.unit = "mm", .limits = amount_limits, .help = "Length of outline that may hang unheld."});
-    add_support_row<&P::own_bridge>(
-        t, "own_bridge", "--support-own-bridge",
-        {.unit = "mm",
-         .limits = amount_limits,
-         .help = "Length up to which straight runs of the part, held at both ends, "
-                 "bridge a gap by themselves."});
-    add_support_row<&P::margin>(
-        t, "margin", "--support-margin",
-        {.unit = "mm",
-         .limits = amount_limits,
-         .help = "Distance by which the centre of mass must lie inside the hull of what "
-                 "holds the part."});
+        {.unit = "mm", .limits = amount_limits, .help = "Length of unsupported outline that is tolerated."});
+    add_support_row<&P::own_bridge>(t, "own_bridge", "--support-own-bridge",
+                                    {.unit = "mm",
+                                     .limits = amount_limits,
+                                     .help = "Longest straight span of the part, supported at both ends, "
+                                             "that bridges a gap without supports."});
+    add_support_row<&P::margin>(t, "margin", "--support-margin",
+                                {.unit = "mm",
+                                 .limits = amount_limits,
+                                 .help = "Distance by which the centre of mass must lie inside the convex "
+                                         "hull of the contacts with bed and supports."});
     add_support_row<&P::push>(
         t, "push", "--support-push",
-        {.unit = "N", .limits = amount_limits, .help = "Sideways force that a print must stand."});
+        {.unit = "N", .limits = amount_limits, .help = "Sideways force that a print must withstand."});
     add_support_row<&P::adhesion>(
         t, "adhesion", "--support-adhesion",
-        {.unit = "MPa", .limits = amount_limits, .help = "Strength with which the part sticks to the bed."});
+        {.unit = "MPa", .limits = amount_limits, .help = "Strength of the bond between part and bed."});
     add_support_row<&P::bond>(t, "bond", "--support-bond",
                               {.unit = "MPa",
                                .limits = amount_limits,
-                               .help = "Strength with which the part sticks to a support point."});
+                               .help = "Strength of the bond between part and support point."});
     add_support_row<&P::density>(t, "density", "--support-density",
                                  {.unit = "g/cm3", .limits = {0.01, 30}, .help = "Density of the material."});
 }
 
-/// How the scaffold is shaped.
+/// The shape of the scaffold.
 void add_shape(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::bridge>(
@@ -81,27 +79,28 @@ void add_shape(std::vector<Setting>& t) {
                                     {.unit = "mm", .limits = thickness, .help = "Height of a bar."});
     add_support_row<&P::connector>(
         t, "connector", "--support-connector",
-        {.unit = "mm", .limits = {0.1, 1000}, .help = "Least height of a connector."});
+        {.unit = "mm", .limits = {0.1, 1000}, .help = "Minimum height of a connector."});
     add_support_row<&P::longest_connector>(
         t, "longest_connector", "--support-longest-connector",
-        {.unit = "mm", .limits = {0.2, 1000}, .help = "Greatest height of a connector on a bar."});
+        {.unit = "mm", .limits = {0.2, 1000}, .help = "Maximum height of a connector on a bar."});
     add_support_row<&P::reach>(
         t, "reach", "--support-reach",
-        {.unit = "mm", .limits = {0.01, 1000}, .help = "Distance by which a connector may lean sideways."});
+        {.unit = "mm", .limits = {0.01, 1000}, .help = "Largest sideways offset of a connector."});
     add_support_row<&P::tip>(
         t, "tip", "--support-tip",
         {.unit = "mm", .limits = thickness, .help = "Diameter of a connector where it meets the part."});
     add_support_row<&P::gap>(
         t, "gap", "--support-gap",
         {.unit = "mm", .limits = {0, 100}, .help = "Gap between the tip of a connector and the part."});
-    add_support_row<&P::clearance>(
-        t, "clearance", "--support-clearance",
-        {.unit = "mm", .limits = {0, 100}, .help = "Distance between part and supports, contacts apart."});
+    add_support_row<&P::clearance>(t, "clearance", "--support-clearance",
+                                   {.unit = "mm",
+                                    .limits = {0, 100},
+                                    .help = "Distance between part and supports, except at contacts."});
     add_support_row<&P::pillar>(
         t, "pillar", "--support-pillar",
         {.unit = "mm",
          .limits = thickness,
-         .help = "Width of a pillar: of a round one its diameter, of a cross its arms."});
+         .help = "Width of a pillar: the diameter of a round one, the arms of a cross."});
     add_support_row<&P::round_pillars>(t, "round_pillars", "--support-round-pillars",
                                        {.help = "Round pillars instead of crosses of two walls."});
     add_support_row<&P::wall>(
@@ -116,10 +115,10 @@ void add_shape(std::vector<Setting>& t) {
         t, "lift", "--support-lift",
         {.unit = "mm",
          .limits = amount_limits,
-         .help = "Height by which the part is raised over the bed, held by supports alone."});
+         .help = "Height by which the part is raised above the bed, carried by supports alone."});
 }
 
-/// How supports are printed.
+/// The way supports are printed.
 void add_printing(std::vector<Setting>& t) {
     using P = SupportProfile;
     add_support_row<&P::speed>(
@@ -127,7 +126,7 @@ void add_printing(std::vector<Setting>& t) {
         {.unit = "mm/s", .limits = {0.1, 2000}, .help = "Speed of printing supports."});
     add_support_row<&P::grey>(
         t, "grey", "--support-grey",
-        {.limits = {0, 1}, .help = "Grey of supports in image stacks, 1 the part's white."});
+        {.limits = {0, 1}, .help = "Grey value of supports in image stacks; 1: white like the part."});
 }
 
 }  // namespace
@@ -136,8 +135,7 @@ void add_support_settings(std::vector<Setting>& table) {
     table.push_back(row<[](Recipe & r) -> auto& { return r.support; }>(
         "support", "kind", "--support",
         {.fallback = "bridges in [support], else none",
-         .help = "Supports under what would hang in the air: bridges on pillars, or a pillar under every "
-                 "point."}));
+         .help = "Kind of supports: bars on pillars (bridges), or a pillar under every support point."}));
     add_needs(table);
     add_shape(table);
     add_printing(table);

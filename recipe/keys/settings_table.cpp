@@ -30,7 +30,7 @@ void add_part(std::vector<Setting>& t) {
          .is_path = true}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.field; }>(
         "part", "field", "--field",
-        {.fallback = "the only [[field]] there is", .help = "Name of the [[field]] that is the body."}));
+        {.fallback = "the only [[field]]", .help = "Name of the [[field]] that is the body."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.shape; }>(
         "part", "shape", "--shape",
         {.fallback = "none", .help = "Body with a closed form, centred at the origin."}));
@@ -39,7 +39,7 @@ void add_part(std::vector<Setting>& t) {
         {.unit = "mm",
          .limits = extent_limits,
          .fallback = "required by sphere, cylinder, capsule, torus",
-         .help = "Radius; of a torus, of the circle in the middle of its tube."}));
+         .help = "Radius; for a torus, that of the centre line of its tube."}));
     t.push_back(
         row<[](Recipe & r) -> auto& { return r.part.size; }>("part", "size", "--shape-size",
                                                              {.unit = "mm",
@@ -72,10 +72,12 @@ void add_part(std::vector<Setting>& t) {
          .help = "Thickness of the gyroid's sheet."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.unit; }>(
         "part", "unit", "--unit",
-        {.fallback = "mm", .help = "Unit of a mesh file whose format does not say."}));
+        {.fallback = "mm", .help = "Length unit of a mesh file whose format states none."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.scale; }>(
         "part", "scale", "--scale",
-        {.limits = {1e-6, 1e6}, .fallback = "1", .help = "Factor on the part's size, after the unit."}));
+        {.limits = {1e-6, 1e6},
+         .fallback = "1",
+         .help = "Scale factor of the part, applied after the unit."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
         "part", "name", "--name",
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
@@ -92,7 +94,7 @@ void add_gradings(std::vector<Setting>& t) {
         t, "name", {.fallback = "required", .help = "Name, for formulas to use: letters, digits and _."});
     add_grading_row<&G::kind>(
         t, "kind",
-        {.choices = kind_words("grading"), .fallback = "required", .help = "Where the number comes from."});
+        {.choices = kind_words("grading"), .fallback = "required", .help = "Source of the number."});
     add_grading_row<&G::value>(
         t, "value",
         {.limits = any_number, .fallback = "required by constant", .help = "The number everywhere."});
@@ -102,21 +104,21 @@ void add_gradings(std::vector<Setting>& t) {
                                   .is_formula = true});
     add_grading_row<&G::file>(
         t, "file",
-        {.fallback = "required by volume, 3mf; of an attribute, part.mesh",
+        {.fallback = "required by volume, 3mf; for an attribute, part.mesh",
          .help = "Volume (.nrrd, .tif or a folder of images), PLY mesh, table (.csv) or 3MF, relative to the "
                  "recipe's folder.",
          .is_path = true});
     add_grading_row<&G::property>(t, "property",
                                   {.fallback = "3mf has a property or a function",
-                                   .help = "Property of an object in a 3MF: density, modulus, ...; of a "
-                                           "vector with .x, .y or .z."});
-    add_grading_row<&G::function>(t, "function",
-                                  {.fallback = "3mf has a property or a function",
-                                   .help = "Number or name of a function in a 3MF, with .output where it "
-                                           "has several."});
+                                   .help = "Property of an object in a 3MF: density, modulus, ...; for a "
+                                           "component of a vector, append .x, .y or .z."});
+    add_grading_row<&G::function>(
+        t, "function",
+        {.fallback = "3mf has a property or a function",
+         .help = "Number or name of a function in a 3MF; if it has several outputs, append .output."});
     add_grading_row<&G::object>(t, "object",
                                 {.fallback = "the only one that has the property",
-                                 .help = "Number or name of the object in a 3MF whose property is meant."});
+                                 .help = "Number or name of the object in a 3MF that has the property."});
     add_grading_row<&G::box>(t, "box",
                              {.unit = "mm",
                               .limits = place_limits,
@@ -127,7 +129,7 @@ void add_gradings(std::vector<Setting>& t) {
         t, "channel", {.limits = {0, 255}, .fallback = "0", .help = "Channel of a volume's images, from 0."});
     add_grading_row<&G::along>(t, "along",
                                {.fallback = "required by table",
-                                .help = "Formula whose value the table is looked up with: \"z\", \"d\", ...",
+                                .help = "Formula of the position to look up in the table: \"z\", \"d\", ...",
                                 .is_formula = true});
     add_grading_row<&G::rows>(t, "rows",
                               {.limits = any_number,
@@ -136,7 +138,7 @@ void add_gradings(std::vector<Setting>& t) {
                                .help = "Rows of a table, in order of position."});
     add_grading_row<&G::smooth>(
         t, "smooth",
-        {.fallback = "false", .help = "Pass through a table's rows smoothly instead of straight."});
+        {.fallback = "false", .help = "Interpolate a table's rows smoothly instead of linearly."});
     add_grading_row<&G::attribute>(
         t, "attribute",
         {.fallback = "required by attribute", .help = "Property of a PLY's vertices: red, quality, ..."});
@@ -165,7 +167,7 @@ void add_gradings(std::vector<Setting>& t) {
                                  .fallback = "required by attractors",
                                  .help = "Distance over which the number changes."});
     add_grading_row<&G::falloff>(t, "falloff",
-                                 {.fallback = "smooth", .help = "How the number changes from near to far."});
+                                 {.fallback = "smooth", .help = "Shape of the transition from near to far."});
     add_grading_row<&G::at>(t, "at",
                             {.unit = "mm",
                              .limits = place_limits,
@@ -201,13 +203,13 @@ void add_foam(std::vector<Setting>& t) {
     add_foam_row<&F::kind>(t, "kind", "--foam",
                            {.choices = kind_words("foam"),
                             .fallback = FoamRecipe{}.kind,
-                            .help = "What the body is filled with."});
-    add_foam_row<&F::cell>(
-        t, "cell", "--cell",
-        {.unit = "mm",
-         .limits = cells,
-         .fallback = "required in [foam]",
-         .help = "Mean diameter of a cell: one seed to every cell cubed; side or period of what repeats."});
+                            .help = "Kind of foam that fills the body."});
+    add_foam_row<&F::cell>(t, "cell", "--cell",
+                           {.unit = "mm",
+                            .limits = cells,
+                            .fallback = "required in [foam]",
+                            .help = "Mean diameter of a cell: one seed per cubed diameter; for periodic "
+                                    "foams, the side or period of a cell."});
     add_foam_row<&F::beam>(t, "beam", "--beam",
                            {.unit = "mm",
                             .limits = beams,
@@ -219,74 +221,74 @@ void add_foam(std::vector<Setting>& t) {
             t, key, flag, {.unit = "mm", .limits = limits, .fallback = format_value(fallback), .help = help});
     };
     bound.operator()<&F::cell_min>("cell_min", "--cell-min", cells, cells.lo,
-                                   "Least cell that is made: graded cells are kept above it.");
+                                   "Smallest cell: graded cells are clamped to it.");
     bound.operator()<&F::cell_max>("cell_max", "--cell-max", cells, cells.hi,
-                                   "Greatest cell that is made: graded cells are kept below it.");
+                                   "Largest cell: graded cells are clamped to it.");
     bound.operator()<&F::beam_min>("beam_min", "--beam-min", beams, beams.lo,
-                                   "Least radius that is made: graded beams are kept above it.");
+                                   "Smallest radius: graded beams are clamped to it.");
     bound.operator()<&F::beam_max>("beam_max", "--beam-max", beams, beams.hi,
-                                   "Greatest radius that is made: graded beams are kept below it.");
+                                   "Largest radius: graded beams are clamped to it.");
     add_foam_row<&F::wall>(t, "wall", "--wall",
                            {.unit = "mm",
                             .limits = walls,
                             .fallback = "required by periodic surfaces, closed",
-                            .help = "Thickness of the walls, at least; of a network, of its struts."});
+                            .help = "Minimum thickness of the walls, or of a network's struts."});
     bound.operator()<&F::wall_min>("wall_min", "--wall-min", walls, walls.lo,
-                                   "Least thickness that is made: graded walls are kept above it.");
+                                   "Smallest thickness: graded walls are clamped to it.");
     bound.operator()<&F::wall_max>("wall_max", "--wall-max", walls, walls.hi,
-                                   "Greatest thickness that is made: graded walls are kept below it.");
-    add_foam_row<&F::window>(
-        t, "window", "--window",
-        {.limits = {0, 1},
-         .fallback = "0",
-         .help = "Share of a closed foam's walls that is a window: 0 is closed, 1 has no walls."});
+                                   "Largest thickness: graded walls are clamped to it.");
+    add_foam_row<&F::window>(t, "window", "--window",
+                             {.limits = {0, 1},
+                              .fallback = "0",
+                              .help = "Open share of a closed foam's walls: 0 is closed, 1 has no walls."});
     add_foam_row<&F::network>(
         t, "network", "--network",
-        {.fallback = "false", .help = "Struts on one side of a periodic surface instead of a wall on it."});
+        {.fallback = "false",
+         .help = "Make struts on one side of a periodic surface instead of a wall along it."});
     add_foam_row<&F::unit_cell>(t, "unit_cell", "--unit-cell",
                                 {.choices = {"cubic", "bcc", "fcc", "octet"},
                                  .fallback = "a lattice has unit_cell or struts",
-                                 .help = "Struts that a lattice repeats, by name."});
+                                 .help = "Unit cell of a lattice, by name."});
     add_foam_row<&F::struts>(t, "struts", "--struts",
                              {.limits = {0, 1},
                               .shape = {6, 0, "struts [[[x, y, z], [x, y, z]], ...]"},
                               .fallback = "a lattice has unit_cell or struts",
-                              .help = "Struts that a lattice repeats, by their ends in the unit cube."});
+                              .help = "Unit cell of a lattice, as struts with their ends in the unit cube."});
     add_foam_row<&F::seed>(t, "seed", "--seed",
                            {.limits = {0, 9223372036854775807.0},
                             .fallback = "1",
-                            .help = "Number that picks one foam among all."});
+                            .help = "Seed of the random numbers: each gives a different foam."});
     add_foam_row<&F::jitter>(
         t, "jitter", "--jitter",
         {.limits = {0, 1},
          .fallback = format_value(F{}.jitter),
-         .help = "Disorder of Kelvin's foam: share of the spacing that seeds are moved by."});
-    add_foam_row<&F::neighbours>(t, "neighbours", "--neighbours",
-                                 {.limits = {1, 26},
-                                  .fallback = format_value(F{}.neighbours),
-                                  .help = "Nearest seeds that a beam goes to from each seed (k-nearest)."});
+         .help = "Disorder of a Kelvin foam: displacement of seeds as a share of their spacing."});
+    add_foam_row<&F::neighbours>(
+        t, "neighbours", "--neighbours",
+        {.limits = {1, 26},
+         .fallback = format_value(F{}.neighbours),
+         .help = "Number of nearest seeds to which each seed has a beam (k-nearest)."});
     add_foam_row<&F::stretch>(t, "stretch", "--stretch",
                               {.limits = {0.05, 20},
                                .fallback = "1, 1, 1",
-                               .help = "Factors on the cells along x, y and z, or along these axes turned; "
-                                       "formulas for k-nearest alone."});
-    add_foam_row<&F::turn>(t, "turn", "--turn",
-                           {.unit = "degrees",
-                            .limits = {-360, 360},
-                            .fallback = "0, 0, 0",
-                            .help = "Turns the axes of stretch about x, then y, then z; formulas for "
-                                    "k-nearest alone."});
+                               .help = "Stretch factors of the cells along x, y and z, or along these axes "
+                                       "rotated by turn; formulas only for k-nearest."});
+    add_foam_row<&F::turn>(
+        t, "turn", "--turn",
+        {.unit = "degrees",
+         .limits = {-360, 360},
+         .fallback = "0, 0, 0",
+         .help = "Rotation of the axes of stretch about x, then y, then z; formulas only for k-nearest."});
     add_foam_row<&F::drop_islands>(
         t, "drop_islands", "--drop-islands",
         {.fallback = "false",
-         .help = "Leave out what floats free of the part; the layers are surveyed first."});
+         .help = "Remove pieces that are not connected to the part (needs an extra pass over the layers)."});
     add_foam_row<&F::islands_pitch>(
         t, "islands_pitch", "--islands-pitch",
         {.unit = "mm",
          .limits = {0.001, 100},
          .fallback = "a third of the thinnest beam's radius, at most 16 layers",
-         .help = "Distance of the rows in which that survey looks; what lies within two counts as "
-                 "connected."});
+         .help = "Row spacing of the survey for loose pieces; gaps below two rows count as connected."});
     add_stiffness_settings(t);
 }
 
@@ -309,7 +311,7 @@ void add_output(std::vector<Setting>& t) {
          .limits = place_limits,
          .shape = {3, 2, "two corners [[x, y, z], [x, y, z]]"},
          .fallback = "the part's bounds",
-         .help = "Box whose beams are written: all that touch it, uncut."}));
+         .help = "Box of beams to write: all beams that touch it, uncut."}));
 }
 
 std::vector<Setting> make_table() {
@@ -376,32 +378,29 @@ std::span<const Setting> settings() {
 std::span<const Section> sections() {
     static const std::vector<Section> list{
         {"part", "the body: a mesh file, a shape or a field"},
-        {"field", "a solid by name, for the part or a region",
-         [](const Recipe& r) { return r.fields.size(); }},
+        {"field", "a named solid, for the part or a region", [](const Recipe& r) { return r.fields.size(); }},
         {"grading", "a number that varies in space, for formulas to use by its name",
          [](const Recipe& r) { return r.gradings.size(); }},
         {"foam", "foam inside the body; without this section the part has none"},
-        {"material", "what the part is made of, where it matters how stiff it gets"},
-        {"frame",
-         "beams along the surface that the foam grows out of; without this section the part has none"},
+        {"material", "the part's material, for predicting its stiffness"},
+        {"frame", "beams along the surface in which the foam ends; without this section there are none"},
         {"skin",
          "skin at the body's surface, closed or with windows; without this section the part has none"},
         {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
-        {"region", "a part of the body that is made otherwise; later ones win",
+        {"region", "a part of the body with other content or numbers; later ones win",
          [](const Recipe& r) { return r.regions.size(); }},
         {"cavity",
          "cavities inside the part whose roofs print without supports; without this section there are none"},
-        {"layers", "how the part is cut"},
-        {"process", "what makes up for the way a machine prints"},
-        {"repair", "what is mended before the part is printed; without this section nothing is"},
-        {"support", "what holds up what would hang in the air; without this section there are none"},
-        {"shield", "a wall close about the print, taken off later; without this section there is none"},
-        {"check",
-         "how small the machine makes things, and which faults matter to `check` and `slice --check`",
-         nullptr, false},
-        {"plate", "how many of the part are made at once"},
-        {"output", "what is written besides the layers", nullptr, false},
-        {"printer", "the machine: a profile, and what differs from it"}};
+        {"layers", "how the part is cut into layers"},
+        {"process", "machine compensation: scale and offsets"},
+        {"repair", "repairs before printing; without this section nothing is repaired"},
+        {"support", "supports under overhangs; without this section there are none"},
+        {"shield", "a wall around the print, removed later; without this section there is none"},
+        {"check", "limits of the machine and severity of faults, for `check` and `slice --check`", nullptr,
+         false},
+        {"plate", "copies of the part printed together"},
+        {"output", "outputs other than layers", nullptr, false},
+        {"printer", "the machine: a profile, and changes to it"}};
     return list;
 }
 

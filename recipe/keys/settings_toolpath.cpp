@@ -1,4 +1,4 @@
-// The rows of the settings table about where an extruder's beads go: walls, infill, seam, brim and skirt.
+// The rows of the settings table about an extruder's toolpaths: walls, infill, seam, brim and skirt.
 #include "recipe/keys/settings_rows.h"
 
 namespace lamella {
@@ -17,34 +17,37 @@ void add_toolpath_settings(std::vector<Setting>& t) {
         "printer", "walls", "--printer-walls",
         {.unit = "beads",
          .limits = {1, 1000},
-         .help =
-             "Beads round each island, the outermost included. What is too thin for two gets one along its "
-             "middle."}));
+         .help = "Number of perimeters around each island, the outermost included. Walls too thin for two "
+                 "beads get one along their centre line."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.top_layers; }>(
         "printer", "top_layers", "--printer-top-layers",
         {.unit = "layers",
          .limits = {0, 1000},
-         .help = "Layers that are solid under what is open above, where infill is sparse."}));
+         .help = "Number of solid layers below top surfaces, when infill is sparse."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.bottom_layers; }>(
         "printer", "bottom_layers", "--printer-bottom-layers",
         {.unit = "layers",
          .limits = {0, 1000},
-         .help = "Layers that are solid over what is open below, where infill is sparse."}));
+         .help = "Number of solid layers above bottom surfaces, when infill is sparse."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.infill; }>(
         "printer", "infill", "--printer-infill", {.help = "Pattern of the beads inside the walls."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.seam; }>(
-        "printer", "seam", "--printer-seam", {.help = "Where loops begin and end."}));
+        "printer", "seam", "--printer-seam", {.help = "Start and end point of loops."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.brim; }>(
         "printer", "brim", "--printer-brim",
         {.unit = "mm",
          .limits = {0, 1000},
-         .help = "Width of loops round the first layer that hold it to the bed."}));
+         .help = "Width of the loops around the first layer that improve its adhesion."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.skirt; }>(
         "printer", "skirt", "--printer-skirt",
-        {.unit = "loops", .limits = {0, 1000}, .help = "Loops round the first layer that fill the nozzle."}));
+        {.unit = "loops",
+         .limits = {0, 1000},
+         .help = "Number of separate loops around the first layer that prime the nozzle."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.toolpath.skirt_distance; }>(
         "printer", "skirt_distance", "--printer-skirt-distance",
-        {.unit = "mm", .limits = {0, 1000}, .help = "From the first layer, or its brim, to the skirt."}));
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .help = "Distance from the first layer, or its brim, to the skirt."}));
 }
 
 }  // namespace lamella

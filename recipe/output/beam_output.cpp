@@ -1,4 +1,4 @@
-// Checks before the layers, the file after them.
+// Checks the output before the layers, and writes its file after them.
 #include "recipe/output/beam_output.h"
 
 #include <fmt/format.h>
@@ -28,8 +28,8 @@ BeamLatticeReport write_beam_output(const Recipe& recipe, const BuiltJob& built)
     const std::vector<Beam> beams = built.foam->beams_touching(box);
     if (beams.empty()) {
         throw InputError(
-            "output.beams_box / --output-beams-box: no beam touches it; accepted: a box that "
-            "beams touch");
+            "output.beams_box / --output-beams-box: no beam touches this box; accepted: a box that "
+            "intersects the foam");
     }
     return write_beam_lattice(output.beams, beams, recipe.part.name);
 }

@@ -1,4 +1,4 @@
-// What of a job is drawn.
+// Selects the fields and bounds of a job's picture.
 #include "recipe/output/job_picture.h"
 
 #include "recipe/build/build_process.h"
@@ -6,14 +6,14 @@
 namespace lamella {
 namespace {
 
-/// Fields and bounds to draw.
+/// The fields and bounds to draw.
 struct Scenery {
     FieldPtr part, supports;
     Box bounds;
 };
 
 Scenery scenery(const Recipe& recipe, const BuiltJob& built, const std::optional<BuiltSupports>& added) {
-    // Outlines moved layer by layer have no values that a picture could be had of in reasonable time.
+    // In-plane offsets have no values from which a picture could be rendered in reasonable time.
     const FieldPtr supports = added ? added->before_offsets : nullptr;
     if (!supports) return {built.designed.part, nullptr, built.designed.bounds};
     // Supports are planned for the part as scaled for the machine.
@@ -31,7 +31,8 @@ Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optio
 
 void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
                  int threads) {
-    // Foam is looked at roughly: its distances would take longer than its layers. Smooth walls would show it.
+    // Foam is rendered roughly: its distances would take longer than its layers. Smooth walls would show the
+    // grid.
     built.job.picture = [drawn = scenery(recipe, built, supports), has_foam = recipe.foam.has_value(),
                          threads](int size) {
         PreviewOptions options;

@@ -1,4 +1,4 @@
-// Pictures of a job: the part as it was designed, and what holds it.
+// Pictures of a job: the designed part and its supports.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace lamella {
 
-/// The part and its supports (nothing for none) before layers are offset, as render_preview draws them.
+/// Renders the part and its supports (nothing for none) before in-plane offsets, with render_preview.
 Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optional<BuiltSupports>& supports,
                    const PreviewOptions& options);
 
-/// Gives the job its picture, drawn when a back-end asks for it. `threads` as in PreviewOptions.
+/// Gives the job its picture, which is drawn when a back-end asks for it. `threads` as in PreviewOptions.
 void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
                  int threads);
 

@@ -1,4 +1,4 @@
-// Reading paths, endings and profiles of outputs.
+// Parses paths, endings and profiles of outputs.
 #include "recipe/output/outputs.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace lamella {
 namespace {
 
-/// Where the profile begins in PATH@PROFILE; npos where there is none. An @ in a folder's name or before an
-/// ending belongs to the path.
+/// Returns the position of the profile in PATH@PROFILE; npos when there is none. An @ in a folder's name or
+/// before an ending belongs to the path.
 std::size_t profile_mark(const std::string& named) {
     const std::size_t mark = named.rfind('@');
     if (mark == std::string::npos || named.find_first_of("/.", mark) != std::string::npos)
@@ -25,7 +25,8 @@ Output read_output(const std::string& named, const Recipe& recipe, const Machine
                    std::span<const OutsideBackend> outside) {
     const std::size_t mark = profile_mark(named);
     Output output{named.substr(0, mark), recipe.printer};
-    if (output.path.empty()) throw InputError("--output: \"" + named + "\" names no file");
+    if (output.path.empty())
+        throw InputError("--output: \"" + named + "\" does not name a file; accepted: PATH or PATH@PROFILE");
     for (const OutsideBackend& backend : outside) {
         const bool is_named = mark != std::string::npos && named.substr(mark + 1) == backend.name;
         const bool has_ending =
@@ -38,7 +39,7 @@ Output read_output(const std::string& named, const Recipe& recipe, const Machine
         const std::optional<MachineProfile> profile = profiles.find(name);
         if (!profile) {
             throw InputError("--output " + named + ": " + profiles.unknown(name) +
-                             " (a file whose own name has an @ needs an ending behind it)");
+                             " (if the file name itself contains an @, give it an ending such as .sl1)");
         }
         output.printer = profile->printer;
     }

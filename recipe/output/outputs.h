@@ -1,4 +1,4 @@
-// Where a run's layers go: paths with the machine that each is for.
+// The outputs of a run: paths, each with its machine.
 #pragma once
 
 #include <functional>
@@ -17,28 +17,28 @@ namespace lamella {
 using OpenBackendAt = std::function<std::unique_ptr<Backend>(const PrinterProfile& printer,
                                                              const std::string& path, bool force)>;
 
-/// A back-end that is none of the registry's.
+/// A back-end that is not in the registry, such as a plugin's.
 struct OutsideBackend {
     std::string name;
-    std::string ending;  ///< of its files, with the dot; empty for none
+    std::string ending;  ///< file name ending, with the dot; empty for none
     OpenBackendAt open;
 };
 
-/// A file or folder, and the machine it is made for.
+/// An output file or folder and its machine.
 struct Output {
     std::string path;
     PrinterProfile printer;
-    OpenBackendAt open{};  ///< empty: the back-end that the machine names
+    OpenBackendAt open{};  ///< empty: the machine's back-end
 };
 
-/// The outputs that a command line names: PATH, or PATH@PROFILE for another machine than the recipe's, or for
-/// one of the `outside`. A path's ending that belongs to a back-end chooses it. None named: the default
-/// output of the recipe. Throws InputError for a profile that there is none of, and for a path named twice.
+/// Parses the outputs of a command line: PATH, or PATH@PROFILE for a machine other than the recipe's or for
+/// one of the `outside` back-ends. A path's ending that belongs to a back-end selects it. Without any,
+/// returns the recipe's default output. Throws InputError for an unknown profile and for a path named twice.
 std::vector<Output> read_outputs(const std::vector<std::string>& named, const Recipe& recipe,
                                  const MachineProfiles& profiles,
                                  std::span<const OutsideBackend> outside = {});
 
-/// One back-end that writes all of them.
+/// Makes one back-end that writes all outputs; `force` replaces existing ones.
 std::unique_ptr<Backend> make_outputs(const std::vector<Output>& outputs, bool force);
 
 }  // namespace lamella

@@ -1,4 +1,5 @@
-// Ray casting: grid to the first solid cell, the field for the surface and its normal, cones for soft light.
+// Ray casting: the grid up to the first solid cell, the field for the surface and its normal, cone tracing
+// for ambient light.
 #include "recipe/output/preview_render.h"
 
 #include <tbb/parallel_for.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double half_view =
     14 * std::numbers::pi / 180;  // half the angle of view; long lenses flatter parts
-constexpr double margin = 0.86;   // share of the picture that the part may take
+constexpr double margin = 0.86;   // share of the picture that the part fills
 constexpr dvec3 part_colour{0.42, 0.52, 0.60};
 constexpr dvec3 cut_colour{0.86, 0.30, 0.09};
 constexpr dvec3 support_colour{0.82, 0.63, 0.28};
@@ -27,14 +28,15 @@ constexpr dvec3 sky_top{0.80, 0.84, 0.88};
 constexpr dvec3 sky_bottom{0.93, 0.93, 0.92};
 constexpr dvec3 key_light{1.00, 0.95, 0.88};
 constexpr dvec3 fill_light{0.55, 0.65, 0.80};
-constexpr double contrast_of_edges = 0.08;  // difference of neighbours, in sRGB, that calls for more samples
+constexpr double contrast_of_edges = 0.08;  // difference between neighbours, in sRGB, above which more
+                                            // samples are taken
 
 struct Camera {
     dvec3 eye, forward, right, up;
-    dvec2 shift{0};                      ///< of the picture's centre, so that the part stands in the middle
-    double reach = std::tan(half_view);  ///< half of the shorter side of the picture, at distance 1
+    dvec2 shift{0};                      ///< shift of the picture's centre that centres the part
+    double reach = std::tan(half_view);  ///< half the picture's shorter side at distance 1
 
-    /// Direction through a point of the picture; x and y from -1 to 1 across the shorter side.
+    /// Returns the direction through a point of the picture; x and y from -1 to 1 across the shorter side.
     dvec3 ray(double x, double y) const {
         return glm::normalize(forward + right * (x * reach + shift.x) + up * (y * reach + shift.y));
     }
@@ -60,7 +62,7 @@ Camera frame(const Box& bounds, const PreviewOptions& options) {
     return camera;
 }
 
-/// Turns the camera and narrows its view until these points just fill the picture.
+/// Turns the camera and narrows its view until these points just fit the picture.
 void zoom_to(Camera& camera, const std::vector<dvec3>& points, const PreviewOptions& options) {
     Rect seen;
     for (const dvec3& point : points) {
@@ -77,11 +79,11 @@ void zoom_to(Camera& camera, const std::vector<dvec3>& points, const PreviewOpti
     camera.reach = std::max(half.x, half.y) / margin;
 }
 
-/// What is left of the part once the side towards the eye is cut away.
+/// The plane of the cut: the part on the eye's side of it is removed.
 struct CutAway {
     int axis = -1;    ///< -1: nothing is cut
     double at = 0;    ///< mm
-    double side = 1;  ///< +1: what lies above `at` is gone
+    double side = 1;  ///< +1: the side above `at` is removed
     Box kept;
 };
 
@@ -96,7 +98,7 @@ CutAway cut_away(const Box& bounds, const Camera& camera, const PreviewOptions& 
     return cut;
 }
 
-/// The stretch of a ray within a box.
+/// Returns the interval of a ray inside a box.
 Interval through(const Box& box, dvec3 start, dvec3 direction) {
     Interval inside{0, infinity};
     for (int k = 0; k < 3; ++k) {
@@ -121,7 +123,7 @@ struct Hit {
 
 class Scene {
   public:
-    /// `all` is part and supports together; part is null where there is nothing to tell apart.
+    /// `all` is the union of part and supports; `part` is null when they need no distinction.
     Scene(const Field& all, const Field* part, const Box& bounds, const CutAway& cut, const Camera& camera,
           const VoxelGrid& grid)
         : all_(all), part_(part), bounds_(bounds), cut_(cut), camera_(camera), grid_(grid) {
@@ -130,17 +132,17 @@ class Scene {
         reach_ = grid_.size().x + grid_.size().y + grid_.size().z;
     }
 
-    /// Gives the second solid another colour than supports have.
+    /// Gives the second solid a colour different from that of supports.
     void paint_second(dvec3 colour) { second_ = second_cut_ = colour; }
-    /// Takes surfaces from the grid, and what is part from another one like it; null where all is.
+    /// Takes surfaces from the grid, and the part from a second grid; null when everything is part.
     void look_quickly(const VoxelGrid* part) {
         is_quick_ = true;
         part_grid_ = part;
     }
-    /// Gives the part another colour at every point; empty for its own.
+    /// Sets the part's colour at every point; empty: its default colour.
     void paint_part(std::function<dvec3(dvec3)> paint) { paint_ = std::move(paint); }
 
-    /// Linear light at a point of the picture.
+    /// Returns the linear light at a point of the picture.
     dvec3 colour(double x, double y) const {
         const dvec3 direction = camera_.ray(x, y);
         if (const auto hit = trace(direction)) return shade(*hit, direction);
@@ -156,7 +158,7 @@ class Scene {
         if (const auto face = cut_face(direction, inside.lo)) return face;
         const dvec3 start = grid_.to_grid(camera_.eye);
         const double h = grid_.pitch();
-        double at = inside.lo;  // so far it is void
+        double at = inside.lo;  // void up to here
         for (double from = inside.lo;;) {
             const auto cell = grid_.next_solid(start, direction / h, from, inside.hi);
             if (!cell) return std::nullopt;
@@ -181,12 +183,12 @@ class Scene {
         return hit;
     }
 
-    /// The surface where a ray enters a solid cell.
+    /// Finds the surface where a ray enters a solid cell.
     Hit cell_face(dvec3 direction, Interval cell) const {
         const dvec3 p = camera_.eye + direction * cell.lo;
         const dvec3 inside = camera_.eye + direction * ((cell.lo + cell.hi) / 2);
         dvec3 normal = -grid_.slope(grid_.to_grid(p));
-        // Steps of the grid are seen where the surface itself turns away.
+        // A grid cell's face can be hit where the surface itself faces away: drop that part of the normal.
         normal -= direction * std::max(glm::dot(normal, direction), 0.0);
         const double length = glm::length(normal);
         return {p, length > 0 ? normal / length : -direction, false, of_support(inside)};
@@ -194,14 +196,14 @@ class Scene {
 
     bool is_solid(dvec3 p) const { return is_quick_ ? grid_.solid_at(grid_.to_grid(p)) : all_.value(p) < 0; }
 
-    /// Of a place within the solid.
+    /// Returns true if a position inside the solid belongs to the supports.
     bool of_support(dvec3 inside) const {
         if (is_quick_) return part_grid_ != nullptr && !part_grid_->solid_at(grid_.to_grid(inside));
         return part_ != nullptr && !(part_->value(inside) < 0);
     }
 
-    /// Fences in the first change from void to solid on a stretch of the ray; `at` moves to where void is
-    /// certain.
+    /// Brackets the first change from void to solid on an interval of the ray; `at` moves up to the last
+    /// certain void.
     std::optional<Interval> surface(dvec3 direction, double& at, double end) const {
         const double least = grid_.pitch() / 4;
         const bool distances = all_.metric() != Metric::sign;
@@ -217,8 +219,8 @@ class Scene {
         return std::nullopt;
     }
 
-    /// The crossing between two points of the ray: where a straight line through the two values crosses, kept
-    /// off the ends, so that each step at least fences it in.
+    /// Finds the crossing between two points of the ray by false position, kept away from the ends so that
+    /// each step shrinks the bracket.
     Interval crossing(dvec3 direction, double outside, double v_outside, double inside,
                       double v_inside) const {
         for (int i = 0; i < 3; ++i) {
@@ -242,7 +244,8 @@ class Scene {
         return length > 0 && std::isfinite(length) ? sum / length : -direction;
     }
 
-    /// Share of the sky that is seen from a surface: one cone upright and five leaning by 60 degrees.
+    /// Returns the share of the sky visible from a surface: one cone along the normal and five leaning by 60
+    /// degrees.
     double openness(dvec3 p, dvec3 n, double reach) const {
         const dvec3 aside = std::abs(n.z) < 0.9 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
         const dvec3 u = glm::normalize(glm::cross(n, aside));
@@ -306,7 +309,7 @@ class Scene {
     std::function<dvec3(dvec3)> paint_;
 };
 
-/// Linear light to sRGB, 0 to 1.
+/// Converts linear light to sRGB, 0 to 1.
 dvec3 encoded(dvec3 c) {
     for (int k = 0; k < 3; ++k) {
         const double v = std::clamp(c[k], 0.0, 1.0);
@@ -358,7 +361,7 @@ class Painter {
         return differs(i - 1, j) || differs(i + 1, j) || differs(i, j - 1) || differs(i, j + 1);
     }
 
-    /// The mean of a rotated 2 x 2 grid of samples.
+    /// Returns the mean of a rotated 2 x 2 grid of samples.
     dvec3 smoothed(int i, int j) const {
         return encoded((sample(i + 0.375, j + 0.125) + sample(i + 0.875, j + 0.375) +
                         sample(i + 0.625, j + 0.875) + sample(i + 0.125, j + 0.625)) *

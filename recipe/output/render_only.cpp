@@ -1,4 +1,4 @@
-// Outputs in a folder that nobody sees.
+// Opens the outputs in a temporary folder.
 #include "recipe/output/render_only.h"
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone when this is.
+/// A temporary folder that is removed with this object.
 class ScratchFolder {
   public:
     ScratchFolder() {
         std::error_code error;
         std::string pattern = (fs::temp_directory_path(error) / "lamella_XXXXXX").string();
         if (error || mkdtemp(pattern.data()) == nullptr)
-            throw FaultError("no folder for unfinished layers can be made in " + pattern);
+            throw FaultError("cannot make a folder for unfinished layers in " + pattern);
         path_ = pattern;
     }
     ~ScratchFolder() {
@@ -58,7 +58,7 @@ class Renderer : public Backend {
     void finish() override {}
 
   private:
-    ScratchFolder folder_;  ///< outlives what is open in it
+    ScratchFolder folder_;  ///< outlives the files open in it
     std::unique_ptr<Backend> outputs_;
     LayerRange whole_;
 };
@@ -74,8 +74,8 @@ std::string settings_of(std::span<const Output> outputs) {
     for (const Output& output : outputs) {
         if (output.open)
             throw InputError(output.path +
-                             ": layers for a plugin cannot be carried; accepted: outputs "
-                             "of lamella's own printers");
+                             ": layers rendered by a plugin cannot be stored or sent to another process; "
+                             "accepted: outputs of lamella's own printers");
         hash.add(profile_as_toml({output.printer, "", ""}) + "\n");
     }
     return hash.hex();

@@ -9,12 +9,13 @@
 
 namespace lamella {
 
-/// The rendering of outputs alone, as in a run of all layers of `whole`, whichever of them are asked for:
-/// what they open lies in a folder of its own, which is removed with the back-end. Throws FaultError where
-/// that cannot be made.
+/// Makes a back-end that renders for `outputs` as in a run over all layers of `whole`, whichever layers it is
+/// given, and writes nothing. Files that the outputs open lie in a temporary folder, which is removed with
+/// the back-end. Throws FaultError when the folder cannot be made.
 std::unique_ptr<Backend> make_renderer(std::span<const Output> outputs, LayerRange whole);
 
-/// What decides the bytes of outputs besides the job: two lists with equal words take each other's layers.
+/// Returns a hash of the settings that decide the bytes of outputs besides the job: outputs with equal hashes
+/// can exchange rendered layers.
 std::string settings_of(std::span<const Output> outputs);
 
 }  // namespace lamella

@@ -1,4 +1,4 @@
-// Building the grid from slices, walking rays through it, and cone tracing (Crassin et al. 2011) for soft
+// Builds the grid from slices, traverses it by rays, and traces cones (Crassin et al. 2011) for ambient
 // light.
 #include "recipe/output/voxel_grid.h"
 
@@ -13,8 +13,8 @@ namespace lamella {
 
 namespace {
 
-/// The whole number at or below v. A grid's positions are small; std::floor is a call where the processor may
-/// be an old one.
+/// Returns the largest integer not above v. Positions in the grid are small; std::floor is a function call on
+/// old processors.
 int whole_below(double v) {
     const int towards_zero = static_cast<int>(v);
     return towards_zero - (v < towards_zero ? 1 : 0);
@@ -23,7 +23,7 @@ int whole_below(double v) {
 /// Rounded up: only truly empty blocks are 0.
 std::uint8_t mean_of_eight(unsigned sum) { return static_cast<std::uint8_t>((sum + 7) / 8); }
 
-/// Where the ray leaves the block that holds a cell; blocks are 2^`doublings` cells wide.
+/// Returns where the ray leaves the block around a cell; blocks are 2^`doublings` cells wide.
 double leaving(glm::ivec3 cell, int doublings, dvec3 start, dvec3 direction) {
     double exit = infinity;
     for (int k = 0; k < 3; ++k) {
@@ -39,7 +39,7 @@ double leaving(glm::ivec3 cell, int doublings, dvec3 start, dvec3 direction) {
 
 VoxelGrid::VoxelGrid(const Field& part, const Box& bounds, int cells, Mark mark) {
     const dvec3 size = bounds.size();
-    // One empty cell stands round the part, so that a surface on the bounds is entered from outside.
+    // The part is surrounded by one empty cell, so that a surface on the bounds is entered from outside.
     pitch_ = std::max({size.x, size.y, size.z}) / std::max(cells - 2, 1);
     origin_ = bounds.lo - pitch_;
     const auto count = [&](double length) { return static_cast<int>(std::ceil(length / pitch_ - 1e-9)) + 2; };
@@ -59,10 +59,10 @@ void VoxelGrid::mark_plane(const Field& part, const Box& bounds, int z, Mark mar
     band.across_origin = origin_.y;
     band.across_pitch = pitch_;
     band.count = ny_;
-    const int samples = mark == Mark::touched ? 2 : 1;  // planes of a cell, and lines of a plane in it
+    const int samples = mark == Mark::touched ? 2 : 1;  // planes per cell, and lines per plane of a cell
     band.sub = samples;
     band.hi = nx_;
-    // Beyond the bounds nothing is marked, even if the part goes on there: that is how it is cut away.
+    // Nothing is marked outside the bounds, even if the part continues there: this is how it is cut away.
     const std::int32_t low = round_run(band.coordinate(bounds.lo.x));
     const std::int32_t high = round_run(band.coordinate(bounds.hi.x));
     const std::int32_t begin_shift = mark == Mark::touched ? 0 : run_unit / 2;
@@ -154,7 +154,7 @@ std::vector<dvec3> VoxelGrid::solid_places() const {
 }
 
 std::optional<Interval> VoxelGrid::next_solid(dvec3 start, dvec3 direction, double from, double to) const {
-    constexpr double nudge = 1e-4;  // cells; carries the walk over a wall in spite of rounding
+    constexpr double nudge = 1e-4;  // cells; carries the ray past a cell wall despite rounding
     for (double t = from; t < to;) {
         const dvec3 p = start + direction * (t + nudge);
         const glm::ivec3 cell(whole_below(p.x), whole_below(p.y), whole_below(p.z));
@@ -170,7 +170,7 @@ std::optional<Interval> VoxelGrid::next_solid(dvec3 start, dvec3 direction, doub
     return std::nullopt;
 }
 
-/// The largest empty block about a cell that is crossed in one step, as of `leaving`.
+/// The doublings of the largest empty block around a cell, which is crossed in one step; see `leaving`.
 int VoxelGrid::empty_doublings(glm::ivec3 cell) const {
     for (const int doublings : {5, 3}) {
         const auto k = static_cast<std::size_t>(doublings - 1);
@@ -188,7 +188,8 @@ bool VoxelGrid::solid_at(dvec3 p) const {
 }
 
 dvec3 VoxelGrid::slope(dvec3 p) const {
-    constexpr double step = 2;  // cells, as wide as the finest densities: nearer, steps of the grid show
+    constexpr double step = 2;  // cells, the width of the finest densities; closer, the grid's steps would
+                                // show
     dvec3 slope(0);
     for (int k = 0; k < 3; ++k) {
         dvec3 aside(0);
@@ -206,7 +207,7 @@ double VoxelGrid::density(std::size_t k, dvec3 p) const {
     if (far(x, level.nx) || far(y, level.ny) || far(z, level.nz)) return 0;
     const std::uint8_t* const near = &level.density[level.at(x, y, z)];
     const std::size_t row = level.row(), plane = level.plane();
-    // Most of what is asked about is air.
+    // Most queried positions are void.
     unsigned any = 0;
     for (const std::size_t pair : {std::size_t{0}, row, plane, plane + row})
         any |= near[pair] | near[pair + 1U];
@@ -243,7 +244,7 @@ double VoxelGrid::cone(dvec3 start, dvec3 direction, double spread, double reach
             ++k;
         }
         const double step = 0.5 * width;
-        // A stretch of density d per cell's width dims the light by (1 - d) to the number of widths crossed.
+        // A density d dims the light by (1 - d) to the power of the cell widths crossed.
         light *= std::max(0.0, 1 - density(k, p) * std::min(1.0, step / scale * 1.2));
         t += step;
     }

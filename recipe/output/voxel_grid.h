@@ -1,4 +1,4 @@
-// VoxelGrid: where a part is solid, one bit a cell, with a pyramid of densities for soft light.
+// VoxelGrid: the solid of a part, one bit a cell, with a pyramid of densities for ambient light.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace lamella {
 
-/// Positions handed to the grid are in cells from its lower corner, so that one cell is one unit.
+/// Positions are in cells from the grid's lower corner: one cell is one unit.
 class VoxelGrid {
   public:
-    /// Which cells along a run are solid: all that it touches, so that nothing visible is left out, or those
-    /// whose middle it covers, so that nothing looks thicker.
+    /// The cells along a run that become solid: all that it touches, so that nothing visible is lost, or
+    /// those whose centre it covers, so that nothing looks thicker.
     enum class Mark : unsigned char { touched, covered };
 
     /// Cuts the part into planes and marks the cells of their runs within the bounds. `cells` is the number
@@ -25,29 +25,29 @@ class VoxelGrid {
     dvec3 to_part(dvec3 g) const { return origin_ + g * pitch_; }
     dvec3 size() const { return {nx_, ny_, nz_}; }
 
-    /// The middles, in part coordinates, of coarse cells (8 cells wide) that hold something solid.
+    /// Returns the centres, in part coordinates, of coarse cells (8 cells wide) with any solid.
     std::vector<dvec3> solid_places() const;
 
-    /// The stretch of the ray within the first solid cell at or after `from`; nothing when it leaves the grid
-    /// first.
+    /// Returns the interval of the ray in the first solid cell at or after `from`; nothing when the ray
+    /// leaves the grid first.
     std::optional<Interval> next_solid(dvec3 start, dvec3 direction, double from, double to) const;
 
-    /// Whether the cell that holds a position is solid.
+    /// Returns true if the cell at a position is solid.
     bool solid_at(dvec3 p) const;
 
-    /// How the density of the solid grows about a position, a cell; zero where it is the same all round.
+    /// Returns the gradient of the density at a position, per cell; zero where the density is uniform.
     dvec3 slope(dvec3 p) const;
 
-    /// Light that arrives through a cone, 1 for all of it. The cone's width grows by `spread` cells a cell.
+    /// Returns the share of light that arrives through a cone, 1 for all. The cone's width grows by `spread`
+    /// cells a cell.
     double cone(dvec3 start, dvec3 direction, double spread, double reach) const;
 
   private:
-    /// Densities with an empty cell on every side, so that a place between cells has eight of them everywhere
-    /// about the grid.
+    /// Densities with a border of empty cells, so that every position has eight neighbours for interpolation.
     struct Level {
         int nx, ny, nz;
-        double per_cell;                    ///< cells of this level in one of the grid
-        std::vector<std::uint8_t> density;  ///< 255 full; 0 only where all below is empty
+        double per_cell;                    ///< cells of this level per cell of the grid
+        std::vector<std::uint8_t> density;  ///< 255 full; 0 only if all finer cells are empty
 
         Level(int x, int y, int z, double cells)
             : nx(x), ny(y), nz(z), per_cell(cells), density(plane() * (static_cast<std::size_t>(z) + 2)) {}
@@ -65,7 +65,7 @@ class VoxelGrid {
     bool solid(int x, int y, int z) const {
         return bits_[row(y, z) + static_cast<std::size_t>(x >> 6)] >> (x & 63) & 1U;
     }
-    /// Where a row's words begin.
+    /// Returns the index of a row's first word.
     std::size_t row(int y, int z) const {
         return words_ *
                (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(y));

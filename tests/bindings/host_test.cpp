@@ -327,7 +327,8 @@ TEST_CASE("a grading of the program's makes the foam that its formula makes", "[
                                                            "kind = \"host\"\n");
     lamella_job* none = nullptr;
     CHECK(lamella_job_build(caller, recipe.get(), nullptr, &none) == LAMELLA_BAD_INPUT);
-    CHECK_THAT(caller.error().message, Catch::Contains("the program gives no grading `wanted`"));
+    CHECK_THAT(caller.error().message,
+               Catch::Contains("the embedding program does not provide the grading `wanted`"));
     caller.require(lamella_recipe_add_grading(caller, recipe.get(), "wanted", &grading));
     const JobHandle host = job_by_call(caller, recipe.get()),
                     own = job_by_call(caller, part + "\"2 + 0.2 * x\"\n");

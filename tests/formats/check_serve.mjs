@@ -46,7 +46,7 @@ for (const [request, message] of [
   [{ method: 'slice' }, /method: "slice" is unknown; accepted: open/],
   [{ method: 'contours', job: 99, z: 0 }, /job: 99 is not open/],
   [{ method: 'contours', job: ball.job }, /z: missing/],
-  [{ method: 'contours', job: ball.job, z: 0, layer: 0 }, /layer: contradicts z/],
+  [{ method: 'contours', job: ball.job, z: 0, layer: 0 }, /layer: conflicts with z/],
   [{ method: 'contours', job: ball.job, z: 0, what: 'all' }, /accepted: part, supports, both/],
   [{ method: 'coverage', job: ball.job, z: 0, ...raster, columns: 2e9 }, /columns/],
   [{ method: 'coverage', job: ball.job, z: 0, ...raster, pitch_x: 'wide' }, /pitch_x/],

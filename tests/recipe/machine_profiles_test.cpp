@@ -252,10 +252,11 @@ TEST_CASE("a profile that cannot be is refused with file, line and key") {
                    "mine.toml:1: based_on: a whole number"));
     CHECK(mentions(wrong("description = \"\"\n[printer]\nkind = \"sl1\"\n"),
                    "mine.toml:1: description: the text"));
-    CHECK(mentions(wrong("[printer]\nprofile = \"svg\"\n"), "mine.toml:2: printer.profile: a recipe has it"));
+    CHECK(mentions(wrong("[printer]\nprofile = \"svg\"\n"),
+                   "mine.toml:2: printer.profile: belongs in a recipe"));
     CHECK(mentions(wrong("[support]\nkind = \"bridges\"\n[printer]\nkind = \"sl1\"\n"),
-                   "mine.toml:2: support.kind: recipes ask for supports"));
-    CHECK(mentions(wrong("[foam]\ncell = 3\n"), "mine.toml:1: foam: does not belong into a machine profile"));
+                   "mine.toml:2: support.kind: belongs in a recipe"));
+    CHECK(mentions(wrong("[foam]\ncell = 3\n"), "mine.toml:1: foam: is not a key of a machine profile"));
     CHECK(mentions(wrong("[printr]\nkind = \"sl1\"\n"), "did you mean `printer`?"));
     CHECK(mentions(wrong("width = 3\n"),
                    "mine.toml:1: width: stands outside a section, it belongs to [printer]"));
@@ -264,7 +265,7 @@ TEST_CASE("a profile that cannot be is refused with file, line and key") {
     CHECK(mentions(wrong("[printer\n"), "mine.toml:1:9: not valid TOML"));
     CHECK(mentions(wrong("[printer]\nkind = \"sl1\"\n[support]\ntip = 5\n"),
                    "mine.toml:4: support.tip: 5 mm is wider than support.pillar"));
-    CHECK(mentions(wrong("[printer]\nkind = \"png\"\ndpi = 600\npixel = 0.05\n"), "contradicts"));
+    CHECK(mentions(wrong("[printer]\nkind = \"png\"\ndpi = 600\npixel = 0.05\n"), "conflicts with"));
     // All mistakes at once.
     const std::string several = wrong("[printer]\nkind = \"sl1\"\nwidth = 0\nheight = 0\n");
     CHECK(std::count(several.begin(), several.end(), '\n') == 1);
@@ -301,10 +302,9 @@ TEST_CASE("dots per inch are another way to say the size of a pixel") {
     const ImageProfile image = recipe_of(sphere + "[printer]\ndpi = 600\n").printer.image;
     CHECK(image.pixel_x == 25.4 / 600);
     CHECK(image.pixel_y == image.pixel_x);
-    CHECK(
-        mentions(complaint_about(sphere + "[printer]\ndpi = 600\npixel_x = 0.04\n"),
-                 "test.toml:6: printer.pixel_x: contradicts test.toml:5: printer.dpi; accepted: pixel alone, "
-                 "dpi alone"));
+    CHECK(mentions(complaint_about(sphere + "[printer]\ndpi = 600\npixel_x = 0.04\n"),
+                   "test.toml:6: printer.pixel_x: conflicts with test.toml:5: printer.dpi; accepted: pixel "
+                   "alone, dpi alone"));
     RecipeDraft draft;
     draft.read_text(sphere + "[printer]\npixel_x = 0.03\npixel_y = 0.04\n", "test.toml");
     draft.assign_flag(*find_setting("printer", "dpi"), "1200");

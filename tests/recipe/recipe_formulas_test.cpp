@@ -63,11 +63,13 @@ TEST_CASE("a formula's mistake is told with file, line, key and column") {
 TEST_CASE("names are identifiers of their own") {
     for (const std::string bad : {"2a", "a-b", "a.b", "\xc3\xa4"}) {
         CHECK(mentions(complaint(sphere + grading(bad, "x")),
-                       "test.toml:4: grading.name: \"" + bad + "\" is no name"));
+                       "test.toml:4: grading.name: \"" + bad + "\" is not a valid name"));
     }
     CHECK(mentions(complaint(sphere + grading("z", "x")), "`z` is a coordinate in formulas"));
-    CHECK(mentions(complaint(sphere + grading("d", "x")), "`d` is the depth below the surface in formulas"));
-    CHECK(mentions(complaint(sphere + grading("cell", "x")), "`cell` is the size of the foam's cell"));
+    CHECK(mentions(complaint(sphere + grading("d", "x")),
+                   "`d` is reserved: it means the depth below the surface in formulas"));
+    CHECK(mentions(complaint(sphere + grading("cell", "x")),
+                   "`cell` is reserved: it means the size of the foam's cell"));
     CHECK(mentions(complaint(sphere + grading("clamp", "x")), "`clamp` is a function in formulas"));
     CHECK(mentions(complaint(sphere + grading("pi", "x")), "`pi` is a constant in formulas"));
     CHECK(
@@ -77,7 +79,7 @@ TEST_CASE("names are identifiers of their own") {
 
 TEST_CASE("gradings that lead back to themselves are refused, with the way round") {
     CHECK(complaint(sphere + grading("a", "a + 1")) ==
-          "test.toml:4: grading: `a` uses `a`; accepted: gradings that do not lead back to themselves");
+          "test.toml:4: grading: `a` uses `a`; accepted: gradings that do not depend on themselves");
     CHECK(mentions(complaint(sphere + grading("a", "b") + grading("b", "c") + grading("c", "a")),
                    "`a` uses `b`, which uses `c`, which uses `a`"));
     std::string chain = grading("g0", "x");
@@ -89,8 +91,9 @@ TEST_CASE("gradings that lead back to themselves are refused, with the way round
 }
 
 TEST_CASE("a field's formula cannot use the depth below the surface that it makes") {
-    CHECK(mentions(complaint(field("f", "x + d")),
-                   "test.toml:3: field.formula: uses the depth `d` below the surface that it makes itself"));
+    CHECK(mentions(
+        complaint(field("f", "x + d")),
+        "test.toml:3: field.formula: uses the depth `d` below the surface, but defines that surface itself"));
     CHECK(mentions(complaint(field("f", "x + a") + grading("b", "d") + grading("a", "b")),
                    "test.toml:3: field.formula: `a` depends on the depth `d`"));
     CHECK(complaint(field("f", "x + a") + grading("a", "y")) == "");
@@ -101,7 +104,7 @@ TEST_CASE("the body is a field by name, or the only one there is") {
                    "accepted: part.field / --field with the name of one of the 2 [[field]]"));
     CHECK(mentions(complaint("[part]\nfield = \"tow\"\n" + field("one", "x") + field("two", "y")),
                    "no [[field]] is named \"tow\", did you mean `two`?"));
-    CHECK(mentions(complaint(sphere + "field = \"one\"\n" + field("one", "x")), "contradicts"));
+    CHECK(mentions(complaint(sphere + "field = \"one\"\n" + field("one", "x")), "conflicts with"));
     RecipeDraft draft;
     draft.read_text(field("one", "x"), "test.toml");
     const Recipe recipe = draft.finish();
@@ -111,34 +114,35 @@ TEST_CASE("the body is a field by name, or the only one there is") {
 
 TEST_CASE("each kind has its own keys") {
     const std::string volume = "[[grading]]\nname = \"g\"\nkind = \"volume\"\n";
-    CHECK(mentions(complaint(sphere + volume), "test.toml:4: grading.file: missing, kind volume needs it"));
+    CHECK(
+        mentions(complaint(sphere + volume), "test.toml:4: grading.file: missing, required by kind volume"));
     CHECK(
         mentions(complaint(sphere + volume + "file = \"a.nrrd\"\nradius = 2\n"),
-                 "test.toml:8: grading.radius: kind volume does not have it; accepted: file, box, channel"));
+                 "test.toml:8: grading.radius: does not apply to kind volume; accepted: file, box, channel"));
     const std::string table = "[[grading]]\nname = \"g\"\nkind = \"table\"\nalong = \"z\"\n";
-    CHECK(mentions(complaint(sphere + table), "grading.rows: missing, kind table needs it (or file)"));
+    CHECK(mentions(complaint(sphere + table), "grading.rows: missing, required by kind table (or file)"));
     CHECK(mentions(complaint(sphere + table + "rows = [[0, 1]]\nfile = \"t.csv\"\n"),
-                   "test.toml:9: grading.file: contradicts test.toml:8: grading.rows"));
+                   "test.toml:9: grading.file: conflicts with test.toml:8: grading.rows"));
     CHECK(mentions(complaint(sphere + "[[grading]]\nname = \"g\"\n"),
-                   "grading.kind: missing, [[grading]] needs it"));
+                   "grading.kind: missing, required by [[grading]]"));
     CHECK(mentions(complaint(sphere + "[[grading]]\nkind = \"constant\"\nvalue = 1\n"),
                    "grading.name: missing"));
     CHECK(mentions(
         complaint(sphere + "[grading]\nname = \"g\"\n"),
         "test.toml:4: grading: a table was found; accepted: a section [[grading]] with keys, as often"));
     CHECK(mentions(complaint(sphere + "[foam]\nkind = \"gyroid\"\ncell = 3\nbeam = 0.2\n"),
-                   "foam.beam: kind gyroid does not have it; accepted: cell, wall, network"));
+                   "foam.beam: does not apply to kind gyroid; accepted: cell, wall, network"));
     CHECK(mentions(complaint(sphere + "[foam]\nkind = \"lattice\"\ncell = 3\nbeam = 0.2\n"),
-                   "foam.unit_cell: missing, kind lattice needs it (or struts)"));
+                   "foam.unit_cell: missing, required by kind lattice (or struts)"));
 }
 
 TEST_CASE("rows of numbers have the right length and number") {
     const std::string head = "[[grading]]\nname = \"g\"\nkind = \"volume\"\nfile = \"a.nrrd\"\nbox = ";
     CHECK(complaint(sphere + head + "[[0, 0, 0], [1, 1, 1]]\n") == "");
     CHECK(mentions(complaint(sphere + head + "[[0, 0, 0]]\n"),
-                   "test.toml:8: grading.box: 1 were found where 2 belong; accepted: two corners"));
+                   "test.toml:8: grading.box: the number of rows is 1 instead of 2; accepted: two corners"));
     CHECK(mentions(complaint(sphere + head + "[[0, 0], [1, 1]]\n"),
-                   "2 numbers were found where 3 belong together"));
+                   "the number of values in a row is 2 instead of 3"));
     CHECK(mentions(complaint(sphere + head + "[[0, 0, nan], [1, 1, 1]]\n"), "nan is not a finite number"));
     CHECK(mentions(complaint(sphere + head + "3\n"), "a whole number was found"));
     CHECK(mentions(complaint(sphere + head + "[0, 0, 0, 1, 1, 1]\n"), "an array of 6 was found"));
@@ -153,7 +157,7 @@ TEST_CASE("constants lie within the printable range") {
     CHECK(mentions(complaint(sphere + constant + "cell_min = 4\ncell_max = 2\n"),
                    "test.toml:7: foam.cell_min: 4 mm is more than test.toml:8: foam.cell_max, 2 mm"));
     CHECK(mentions(complaint(sphere + constant + "turn = [0, 0, 30]\n"),
-                   "test.toml:7: foam.turn: turns nothing"));
+                   "test.toml:7: foam.turn: has no effect without a stretch"));
 }
 
 TEST_CASE("a flag takes formulas like its key") {

@@ -39,28 +39,28 @@ TEST_CASE("a region of an unknown field is told the known ones") {
 
 TEST_CASE("a region must say what it makes, and of which field") {
     CHECK(mentions(complaint(foam + "[[region]]\nfield = \"heel\"\n"),
-                   "region.make: missing, [[region]] needs it"));
+                   "region.make: missing, required by [[region]]"));
     CHECK(mentions(complaint(foam + "[[region]]\nmake = \"solid\"\n"),
-                   "region.field: missing, make solid needs it"));
+                   "region.field: missing, required by make solid"));
     CHECK(mentions(complaint(foam + region("heel", "\"hollow\"")),
                    "accepted: one of solid, empty, foam, skin"));
 }
 
 TEST_CASE("keys that belong to another kind of region are refused by name") {
     CHECK(mentions(complaint(foam + region("heel", "\"solid\"\ncell = 2")),
-                   "region.cell: make solid does not have it; accepted: field, blend"));
+                   "region.cell: does not apply to make solid; accepted: field, blend"));
     CHECK(mentions(complaint(foam + region("heel", "\"foam\"\ncell = 2\nthickness = 1")),
-                   "region.thickness: make foam does not have it"));
+                   "region.thickness: does not apply to make foam"));
     CHECK(mentions(complaint(foam + region("heel", "\"skin\"")),
-                   "region.thickness: missing, make skin needs it"));
+                   "region.thickness: missing, required by make skin"));
 }
 
 TEST_CASE("a region of foam needs a foam, a number, and one that this foam has") {
     CHECK(mentions(complaint(region("heel", "\"foam\"\ncell = 2")),
                    "there is none; accepted: a section [foam]"));
-    CHECK(mentions(complaint(foam + region("heel", "\"foam\"")), "changes no number of the foam"));
+    CHECK(mentions(complaint(foam + region("heel", "\"foam\"")), "sets no number of the foam"));
     CHECK(mentions(complaint(foam + region("heel", "\"foam\"\nwall = 0.2")),
-                   "region.wall: the part's foam, kind voronoi, does not have it"));
+                   "region.wall: does not apply to foam.kind voronoi"));
     CHECK(complaint("[foam]\nkind = \"gyroid\"\ncell = 3\nwall = 0.4\n" +
                     region("heel", "\"foam\"\nwall = 0.8"))
               .empty());

@@ -300,27 +300,26 @@ TEST_CASE("unknown keys and sections are refused, with the near one named") {
 }
 
 TEST_CASE("keys that belong together must stand together") {
-    CHECK(
-        complaint(sphere + "[foam]\ncell = 3\n") ==
-        "folder/test.toml:4: foam.beam: missing, kind voronoi needs it; accepted: a number from 0.005 to 500 "
-        "mm or a formula");
+    CHECK(complaint(sphere + "[foam]\ncell = 3\n") ==
+          "folder/test.toml:4: foam.beam: missing, required by kind voronoi; accepted: a number from 0.005 "
+          "to 500 mm or a formula");
     CHECK(mentions(complaint(sphere + "[skin]\n"), "test.toml:4: skin.thickness: missing"));
     CHECK(mentions(complaint("[part]\nshape = \"sphere\"\n"),
-                   "test.toml:1: part.radius: missing, shape sphere needs it"));
+                   "test.toml:1: part.radius: missing, required by shape sphere"));
     CHECK(mentions(complaint("[layers]\nheight = 0.1\n"), "no body is given"));
     CHECK(mentions(complaint(""), "no body is given"));
 }
 
 TEST_CASE("contradictions are refused") {
     CHECK(complaint("[part]\nmesh = \"a.stl\"\nshape = \"sphere\"\n") ==
-          "folder/test.toml:3: part.shape: contradicts folder/test.toml:2: part.mesh; accepted: a mesh, a "
-          "shape or a field, one of them");
+          "folder/test.toml:3: part.shape: conflicts with folder/test.toml:2: part.mesh; accepted: only one "
+          "of a mesh, a shape and a field");
     CHECK(mentions(complaint("[part]\nmesh = \"a.stl\"\nradius = 3\n"),
-                   "test.toml:3: part.radius: only a shape has it"));
+                   "test.toml:3: part.radius: applies only to a shape"));
     CHECK(mentions(complaint(sphere + "tube = 2\n"),
-                   "test.toml:4: part.tube: shape sphere does not have it; accepted: radius"));
+                   "test.toml:4: part.tube: does not apply to shape sphere; accepted: radius"));
     CHECK(mentions(complaint(sphere + "[printer]\npixel = 0.05\npixel_x = 0.04\n"),
-                   "test.toml:6: printer.pixel_x: contradicts"));
+                   "test.toml:6: printer.pixel_x: conflicts with"));
     CHECK(mentions(complaint(sphere + "[foam]\ncell = 1\nbeam = 0.5\n"),
                    "test.toml:6: foam.beam: 0.5 mm fills cells of 1 mm"));
     CHECK(mentions(complaint("[part]\nshape = \"torus\"\nradius = 2\ntube = 2\n"), "closes the hole"));
@@ -378,7 +377,7 @@ TEST_CASE("wrong flags are told by their names, all at once") {
     const std::string text = message(draft);
     CHECK_FALSE(mentions(text, "--cell"));  // a formula, which is looked at when all values stand
     CHECK(mentions(text, "--seed: -1 is too small"));
-    CHECK(mentions(text, "--beam: missing, kind voronoi needs it"));
+    CHECK(mentions(text, "--beam: missing, required by kind voronoi"));
     CHECK(mentions(text, "no body is given"));
 }
 
@@ -422,7 +421,7 @@ TEST_CASE("scripts are lists of lines or texts of several lines") {
     CHECK_THAT(complaint(printer + "end_script = [\"M84\", 5]\n"),
                Catch::StartsWith("folder/test.toml:6: printer.end_script: an array of 2 was found") &&
                    Catch::Contains("a list of lines"));
-    CHECK_THAT(complaint(printer + "end_script = []\n"), Catch::Contains("there is no line"));
+    CHECK_THAT(complaint(printer + "end_script = []\n"), Catch::Contains("it has no line"));
     CHECK_THAT(complaint(printer + "end_script = [\"M84\", \"M117 \u00e9\"]\n"),
                Catch::StartsWith("folder/test.toml:6: printer.end_script: line 2 holds a character"));
     CHECK_THAT(complaint(printer + "layer_script = [\"M400\", \"\", \"M117 {Layer}\"]\n"),

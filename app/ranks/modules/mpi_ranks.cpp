@@ -20,7 +20,10 @@ class MpiRanks : public Ranks {
     MpiRanks() {
         int level = 0;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
-        if (level < MPI_THREAD_SERIALIZED) throw FaultError("this MPI serves programs with one thread only");
+        if (level < MPI_THREAD_SERIALIZED)
+            throw FaultError(
+                "this MPI library does not support calls from several threads; accepted: one with "
+                "MPI_THREAD_SERIALIZED");
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
         mover_ = std::thread([this] { keep_moving(); });
@@ -43,7 +46,7 @@ class MpiRanks : public Ranks {
 
     void send(int to, int tag, std::string bytes) override {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw FaultError("a layer takes more than 2 GiB, which MPI does not carry in one piece");
+            throw FaultError("a layer has more than 2 GiB, the limit of an MPI message");
         const std::lock_guard lock(calling_);
         Message& message = on_the_way_.emplace_back();
         message.bytes = std::move(bytes);
@@ -90,7 +93,7 @@ class MpiRanks : public Ranks {
         });
     }
 
-    /// Large messages move on only while someone calls MPI. Costs nothing while none is on the way.
+    /// Large messages progress only during calls to MPI. Costs nothing while none is in transit.
     void keep_moving() {
         std::unique_lock lock(calling_);
         for (;;) {
@@ -105,8 +108,8 @@ class MpiRanks : public Ranks {
 
     int rank_ = 0, size_ = 1;
     std::mutex calling_;
-    std::deque<Message> on_the_way_;  // whose messages stay where they are until they have arrived
-    std::condition_variable sent_;    // something is on the way, or it is all done
+    std::deque<Message> on_the_way_;  // a deque: messages must not move in memory until they have arrived
+    std::condition_variable sent_;    // signals a message in transit, or the end
     bool done_ = false;
     std::thread mover_;
 };

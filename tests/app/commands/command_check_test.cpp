@@ -199,7 +199,7 @@ TEST_CASE("a file that cannot be made is told of before anything is looked at", 
     }
     const Outcome twice = run_lamella(fmt::format("check {} -o {} --report {}", block, good, good));
     CHECK(twice.code == 2);
-    CHECK(mentions(twice.err, "is the file of --output, too"));
+    CHECK(mentions(twice.err, "is also the file of --output"));
     CHECK(tree(folder.path()).empty());
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("slice --check writes the bytes of a run without it, and tells what it
         const Outcome checked = run_lamella(job + at + "_checked --check --json " + only({"connectivity"}));
         CHECK(checked.code == 1);
         CHECK(mentions(checked.err, "connectivity  the part is one piece  FAIL  1 place\n"));
-        CHECK(mentions(checked.err, "all layers have been written all the same"));
+        CHECK(mentions(checked.err, "all layers have been written nevertheless"));
         const Json summary = Json::parse(checked.out);
         REQUIRE(summary["checks"].size() == 1);
         CHECK(summary["checks"][0]["passed"] == false);
@@ -274,7 +274,7 @@ TEST_CASE("slice --check looks at each output's machine, and at all layers or no
     CHECK(checks[1]["process"] == "powder");
     const Outcome range = run_lamella(bar + "--layers 0:5 --printer svg -o " + folder / "some.svg");
     CHECK(range.code == 2);
-    CHECK(mentions(range.err, "--check: it looks at all layers"));
+    CHECK(mentions(range.err, "--check: needs all layers"));
     CHECK_FALSE(fs::exists(folder / "some.svg"));
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("foams without a stiffness of their own are refused with what would be
     refused("[part]\nshape = \"sphere\"\nradius = 3\n", "", "[foam] is missing");
     refused("[foam]\ncell = \"2 + 0.1 * x\"\nbeam = 0.2\n", "", "foam.cell: it varies in space");
     refused("[foam]\ncell = 2\nbeam = \"0.2 + 0.01 * z\"\n", "", "foam.beam: it varies in space");
-    refused("[foam]\ncell = 2\nbeam = 0.2\nstretch = [1, 1, 2]\n", "", "it does not repeat");
+    refused("[foam]\ncell = 2\nbeam = 0.2\nstretch = [1, 1, 2]\n", "", "the foam is not periodic");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--poisson 0.5", "--poisson: 0.5 is too large");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--young 0", "--young: 0 is too small");
     refused("[foam]\ncell = 2\nbeam = 0.2\n", "--rve 2000", "--rve");

@@ -81,7 +81,7 @@ TEST_CASE("several processes slice and check at once", "[ranks][check]") {
                                        folder);
         INFO(outcome.err);
         CHECK(outcome.code == 1);
-        CHECK(times(outcome.err, "all layers have been written all the same") == 1);
+        CHECK(times(outcome.err, "all layers have been written nevertheless") == 1);
         const Json summary = Json::parse(outcome.out);
         CHECK(summary["checks"].size() == 2);
         return std::tuple(summary["checks"].dump(), contents(name + ".gcode"), contents(name + ".sl1"));
@@ -103,14 +103,16 @@ TEST_CASE("what several processes cannot do is told once", "[ranks]") {
         CHECK(times(outcome.err, why) == 1);
     };
     const std::string slice = "slice " + faulty + "-o " + folder / "x.svg ";
-    refused(slice + "--check --layers 0:4", "--check: it looks at all layers");
-    refused(slice + "--shard " + folder / "x.shard", "--shard: mpirun joins by itself");
-    refused(slice + "--plugin none.so", "--plugin: what a plugin makes of a layer stays in its process");
+    refused(slice + "--check --layers 0:4", "--check: needs all layers");
+    refused(slice + "--shard " + folder / "x.shard",
+            "--shard: under mpirun the processes' layers are joined already");
+    refused(slice + "--plugin none.so",
+            "--plugin: layers rendered by a plugin cannot be sent to another process");
     refused("check " + faulty + "--beam -1", "--beam: ");
     refused("check " + folder / "none.toml", "none.toml");
     refused("homogenize --table --cell 1", "--beam: missing");
     refused("homogenize --table --cell 1 --beam 0.2 --ratios 0.2,0.1", "--ratios: ");
-    refused("homogenize -q --cell 1 --beam 0.2 --stretch 1,1,2", "it does not repeat");
+    refused("homogenize -q --cell 1 --beam 0.2 --stretch 1,1,2", "the foam is not periodic");
 }
 
 TEST_CASE("tables and samples of a foam by several processes are those of one", "[ranks][elasticity]") {

@@ -115,7 +115,7 @@ TEST_CASE("a task that fails elsewhere fails the run with its words and its exit
     CHECK(outcome(square, "work").first == 0);
     const auto [other_code, other_words] = outcome(square, "other work");
     CHECK(other_code == 2);
-    CHECK_THAT(other_words, Catch::Contains("it was given other work than rank 0"));
+    CHECK_THAT(other_words, Catch::Contains("its work differs from that of rank 0"));
 }
 
 TEST_CASE("who waits for tasks of others can be stopped", "[ranks]") {

@@ -116,13 +116,13 @@ TEST_CASE("cavities and shields are refused where they make no sense", "[enclosu
     CHECK(mentions(complaint_about(box + "[cavity]\n"), "cavity.wall: missing"));
     CHECK(mentions(complaint_about(box + "[shield]\nwall = 1\n"), "shield.gap: missing"));
     CHECK(mentions(complaint_about(box + "[cavity]\nwall = 2\n[skin]\nthickness = 1\n"),
-                   "test.toml:9: cavity.wall: a part with a skin is hollow already"));
+                   "test.toml:9: cavity.wall: a part with a skin cannot have cavities"));
     CHECK(mentions(complaint_about(box + "[cavity]\nwall = 2\n[foam]\ncell = 4\nbeam = 0.5\n"),
-                   "a part with foam is hollow already"));
+                   "a part with foam cannot have cavities"));
     CHECK(
         mentions(complaint_about("[part]\nshape = \"sphere\"\nradius = 5\n[printer]\nkind = \"svg\"\nkerf = "
                                  "0.2\n[shield]\ngap = 1\n"),
-                 "a shield is not cut out of sheets"));
+                 "a printer that cuts sheets cannot make a shield"));
     CHECK(mentions(complaint_about(box + "[cavity]\nwall = 3\npitch = 50\n"), "[cavity]: "));
 }
 

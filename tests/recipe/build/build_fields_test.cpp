@@ -125,18 +125,19 @@ TEST_CASE("level sets and functions of a 3MF are fields, in millimetres and wher
     CHECK_THAT(refusal("object = \"4\"\nfunction = \"5\"\n"),
                Catch::Contains("accepted: object or function"));
     CHECK_THAT(refusal("bounds = [[0, 0, 0], [1, 1, 1]]\n"),
-               Catch::Contains("accepted: bounds with a function"));
+               Catch::Contains("accepted: bounds only together with a function"));
 }
 
 TEST_CASE("keys that a kind of field does not have, or lacks, are named") {
     const std::string begin = "[[field]]\nname = \"it\"\n";
-    CHECK(mentions(complaint(begin + "kind = \"sphere\"\n"), "field.radius: missing, kind sphere needs it"));
+    CHECK(
+        mentions(complaint(begin + "kind = \"sphere\"\n"), "field.radius: missing, required by kind sphere"));
     CHECK(mentions(complaint(begin + "kind = \"sphere\"\nradius = 2\nturn = [0, 0, 9]\n"),
-                   "field.turn: kind sphere does not have it; accepted: radius, at"));
+                   "field.turn: does not apply to kind sphere; accepted: radius, at"));
     CHECK(mentions(complaint(begin + "kind = \"box\"\nsize = [1, 2, 3]\nformula = \"x\"\n"),
-                   "kind box does not have it"));
+                   "does not apply to kind box"));
     CHECK(mentions(complaint(begin + "kind = \"capsule\"\nradius = 2\nheight = 3\n"),
-                   "field.height: 3 mm is less than the two round ends of radius 2 mm; accepted: 4 mm"));
+                   "field.height: 3 mm is too short for two round ends of radius 2 mm; accepted: 4 mm"));
     CHECK(mentions(complaint(begin + "kind = \"torus\"\nradius = 2\ntube = 2\n"), "field.tube: 2 mm closes"));
     CHECK(mentions(complaint(begin + "kind = \"mesh\"\nfile = \"models/none.stl\"\n"), "none.stl"));
     CHECK(mentions(complaint(begin + "kind = \"ball\"\n"), "accepted: one of formula, vm, mesh, 3mf"));

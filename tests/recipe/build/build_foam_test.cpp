@@ -121,9 +121,8 @@ TEST_CASE("a stretch beyond what a k-nearest foam takes is kept within it and to
 }
 
 TEST_CASE("stretches that a kind does not take are refused by their key") {
-    CHECK(
-        mentions(complaint("stretch = [1, 1, \"1 + z/20\"]\n"),
-                 "test.toml:7: foam.stretch: kind voronoi has the same everywhere; accepted: three numbers"));
+    CHECK(mentions(complaint("stretch = [1, 1, \"1 + z/20\"]\n"),
+                   "test.toml:7: foam.stretch: must be constant for kind voronoi; accepted: three numbers"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nstretch = [1, 1, 15]\n"),
                    "test.toml:8: foam.stretch: 15 is too large for kind k-nearest; accepted: 0.1 to 10"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nstretch = [1, 1, \"1 + q\"]\n"),
@@ -135,8 +134,8 @@ TEST_CASE("stretches that a kind does not take are refused by their key") {
     CHECK(mentions(complaint("kind = \"k-nearest\"\nneighbours = 27\n"),
                    "test.toml:8: foam.neighbours: 27 is too large"));
     CHECK(mentions(complaint("kind = \"k-nearest\"\nstretch = [1, 1, \"z > 0 ? sqrt(-1) : 2\"]\n"),
-                   "foam.stretch (z): 50 % of the part has no number"));
-    CHECK(mentions(complaint("kind = \"closed\"\n"), "foam.wall: missing, kind closed needs it"));
+                   "foam.stretch (z): the formula is undefined in 50 % of the part"));
+    CHECK(mentions(complaint("kind = \"closed\"\n"), "foam.wall: missing, required by kind closed"));
 }
 
 }  // namespace build_foam_test

@@ -33,7 +33,7 @@ const std::string loose_foam =
 TEST_CASE("a skin that has no number somewhere takes the stated limit there, or is refused") {
     const std::string half = "[skin]\nthickness = \"z > 0 ? sqrt(-1) : 0.5\"\n";
     const std::string refused = complaint(10, half);
-    CHECK(mentions(refused, "test.toml:5: skin.thickness: 50 % of the part has no number"));
+    CHECK(mentions(refused, "test.toml:5: skin.thickness: the formula is undefined in 50 % of the part"));
     CHECK(mentions(refused, "skin.thickness_max / --skin-max"));
     const BuiltJob limited = ball(10, half + "thickness_max = 1\n");
     const Field& part = *limited.job.part;
@@ -58,7 +58,7 @@ TEST_CASE("a skin stays within its limits") {
 
 TEST_CASE("no graded number of a foam is made up where the formula has none") {
     CHECK(mentions(complaint(10, "[foam]\ncell = \"z > 0 ? sqrt(-1) : 2\"\nbeam = 0.2\n"),
-                   "test.toml:5: foam.cell: 50 % of the part has no number"));
+                   "test.toml:5: foam.cell: the formula is undefined in 50 % of the part"));
     CHECK(complaint(10, "[foam]\ncell = \"z > 0 ? sqrt(-1) : 2\"\ncell_max = 3\nbeam = 0.2\n").empty());
 }
 

@@ -168,7 +168,8 @@ TEST_CASE("a process that cannot be is refused with the key and what is accepted
     CHECK(mentions(complaint("[process]\nelephant_foot = -0.1\n"), "test.toml:7: process.elephant_foot"));
     CHECK(mentions(complaint("[process]\nxy_compensation = 11\n"), "-10 to 10 mm"));
     CHECK(mentions(complaint("[process]\nelephant_foot_layers = 3\n"),
-                   "process.elephant_foot_layers: no layer is drawn in; accepted: process.elephant_foot"));
+                   "process.elephant_foot_layers: has no effect while process.elephant_foot is 0; accepted: "
+                   "process.elephant_foot"));
     CHECK(mentions(complaint("[skin]\nthickness = 1\nside = \"middle\"\n"), "inside, outside, centred"));
     CHECK(mentions(complaint("[skin]\nside = \"outside\"\n"), "skin.thickness"));
     const std::string gyroid =

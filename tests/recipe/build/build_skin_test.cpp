@@ -152,14 +152,15 @@ TEST_CASE("skins that cannot be are refused with the key that is to blame") {
     const std::string skin = "[skin]\nthickness = 1\n";
     CHECK(mentions(complaint(ball, skin + "pattern = \"voronoi\"\nstrut = 1\n"), "skin.window: missing"));
     CHECK(mentions(complaint(ball, skin + "pattern = \"hexagons\"\nwindow = 1\nstrut = 1\nseed = 4\n"),
-                   "skin.seed: pattern hexagons does not have it"));
-    CHECK(mentions(complaint(ball, skin + "window = 2\n"), "pattern closed does not have it"));
-    CHECK(mentions(complaint(ball, skin + "drain_radius = 2\n"), "there are no drains"));
+                   "skin.seed: does not apply to pattern hexagons"));
+    CHECK(mentions(complaint(ball, skin + "window = 2\n"), "does not apply to pattern closed"));
+    CHECK(mentions(complaint(ball, skin + "drain_radius = 2\n"), "has no effect without drains"));
     CHECK(mentions(complaint(ball, skin + "drains = 1\ndrain_pitch = 90\n"), "drain_pitch"));
     CHECK(mentions(
         complaint(ball, skin + "drains = 1\n[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.3\n"),
         "too many to drain"));
-    CHECK(mentions(complaint(ball, "[[hole]]\nat = [0, 0, 10]\nradius = 1\n"), "there is no skin to drill"));
+    CHECK(mentions(complaint(ball, "[[hole]]\nat = [0, 0, 10]\nradius = 1\n"),
+                   "holes are drilled through a skin, and there is none"));
     CHECK(mentions(complaint(ball, skin + "[[hole]]\nradius = 1\n"), "hole.at: missing"));
     CHECK(mentions(complaint(ball, skin + "[[hole]]\nat = [0, 0, 10]\nradius = 1\ndirection = [0, 0, 1]\n"),
                    "does not lead into the body"));

@@ -225,7 +225,8 @@ TEST_CASE("regions that rule supports need supports") {
         const std::string unheld =
             fmt::format("{}{}{}", ball, filament, box_region(make, {{-1, -1, -1}, {1, 1, 1}}));
         CHECK(mentions(complaint_about(unheld),
-                       ".make: there are no supports to rule; accepted: a section [support] with it"));
+                       ".make: blockers and enforcers need supports, and there are none; accepted: a section "
+                       "[support] as well"));
         CHECK(complaint_about(unheld + "[support]\n").empty());
     }
 }

@@ -66,7 +66,7 @@ TEST_CASE("places of one's own are checked in every layer") {
     CHECK_THAT(complaint("[printer]\nprofile = \"svg\"\ndowel_at = [[-20, 5], [28, -8]]\n"),
                Catch::Contains("(28, -8)") && Catch::Contains("layer 0") && Catch::Contains("3.5 mm inside"));
     CHECK_THAT(complaint("[printer]\ndowel_at = [[-20, 5]]\ndowels = 3\n"),
-               Catch::Contains("1 places for 3 dowels"));
+               Catch::Contains("1 places are given for 3 dowels"));
 }
 
 TEST_CASE("dowels that cannot be are refused") {
@@ -85,7 +85,8 @@ TEST_CASE("dowels change the job's identity") {
 TEST_CASE("a sheet's size needs no second brackets") {
     CHECK(recipe_of(plate + "[printer]\nsheet = [300, 200]\n").printer.cutting.sheet ==
           NumberRows{{300, 200}});
-    CHECK_THAT(complaint("[printer]\nsheet = [300]\n"), Catch::Contains("1 numbers were found where 2"));
+    CHECK_THAT(complaint("[printer]\nsheet = [300]\n"),
+               Catch::Contains("the number of values in a row is 1 instead of 2"));
     CHECK_THAT(complaint("[printer]\nsheet = 300\n"), Catch::Contains("[w, h]"));
 }
 

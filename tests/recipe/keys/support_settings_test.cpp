@@ -121,13 +121,14 @@ TEST_CASE("supports that cannot be are refused with the key and what is accepted
     const std::string marlin = "[printer]\nprofile = \"marlin\"\n[support]\n";
     CHECK(mentions(
         complaint(marlin + "tip = 3\n"),
-        "test.toml:9: support.tip: 3 mm is wider than support.pillar, 2.5 mm; accepted: at most that"));
+        "test.toml:9: support.tip: 3 mm is wider than support.pillar, 2.5 mm; accepted: at most 2.5 mm"));
     CHECK(mentions(complaint(marlin + "foot = 2\n"),
                    "support.pillar: 2.5 mm is wider than support.foot, 2 mm"));
     CHECK(mentions(complaint(marlin + "gap = 2.5\n"), "test.toml:9: support.gap: 2.5 mm leaves nothing of"));
-    CHECK(mentions(complaint(marlin + "wall = 2.5\n"), "test.toml:9: support.wall: 2.5 mm leaves no cross"));
+    CHECK(mentions(complaint(marlin + "wall = 2.5\n"),
+                   "test.toml:9: support.wall: 2.5 mm is too thick for crosses"));
     CHECK(mentions(complaint(marlin + "pillar = 0.4\ntip = 0.3\n"),
-                   "0.45 mm (a line's width) leaves no cross"));
+                   "0.45 mm (a line's width) is too thick for crosses"));
     CHECK(complaint(marlin + "pillar = 0.4\ntip = 0.3\nround_pillars = true\n").empty());
     CHECK(mentions(complaint(marlin + "bridge = 0.6\n"),
                    "support.bar_width: 0.9 mm is more than support.bridge"));
