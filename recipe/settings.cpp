@@ -390,11 +390,18 @@ std::string settings_reference(std::string_view only_section) {
 
 std::string settings_markdown() {
     std::string text =
-        "# Keys of a recipe\n\n"
+        "# Keys of a recipe\n"
+        "\n"
         "Made by `lamella keys --markdown`. A flag stands for its key on the command line.\n";
     for (const Section& section : sections()) {
         text += fmt::format(
-            "\n## {}\n\n{}\n\n| key | what it is | accepts | default | flag |\n|---|---|---|---|---|\n",
+            "\n"
+        "## {}\n"
+        "\n"
+        "{}\n"
+        "\n"
+        "| key | what it is | accepts | default | flag |\n"
+        "|---|---|---|---|---|\n",
             section.title(), section.help);
         for (const Setting& s : settings()) {
             if (s.section != section.name) continue;

@@ -101,12 +101,13 @@ void add_check_command(CLI::App& root) {
         ->type_name("FILE");
     add_survey_options(command, *options);
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
-    finish_command(
-        command,
-        "  lamella check model.stl --printer prusa-mk4 --layer-height 0.2\n  lamella check insole.toml "
-        "--report insole.html\n  lamella check figure.stl --support bridges --printer marlin --check-bridges "
-        "warn\n  mpirun -n 4 lamella check insole.toml\nLimits depend on the machine's process; `lamella "
-        "keys check` lists them.\nExit code 1 when something fails; warnings alone are 0.");
+    finish_command(command,
+                   "  lamella check model.stl --printer prusa-mk4 --layer-height 0.2\n"
+                   "  lamella check insole.toml --report insole.html\n"
+                   "  lamella check figure.stl --support bridges --printer marlin --check-bridges warn\n"
+                   "  mpirun -n 4 lamella check insole.toml\n"
+                   "Limits depend on the machine's process; `lamella keys check` lists them.\n"
+                   "Exit code 1 when something fails; warnings alone are 0.");
     command.callback([options] {
         run_on_ranks([&](Ranks* ranks) { return run(*options, ranks); },
                      [&](Ranks& ranks) { run_worker(*options, ranks); });

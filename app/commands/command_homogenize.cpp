@@ -191,14 +191,18 @@ void add_homogenize_command(CLI::App& root) {
         ->type_name("FILE");
     command.add_flag("--json", options->json, "Write the whole result as JSON");
     command.add_flag("-q,--quiet", options->quiet, "Nothing on standard error but errors");
-    finish_command(command,
-                   "  lamella homogenize --cell 2 --beam 0.2 --young 2300 --poisson 0.35\n  lamella "
-                   "homogenize insole.toml --samples 4 --json -o stiffness.json\n  lamella homogenize "
-                   "gyroid.toml --rve 128 --plot gyroid.svg\n  lamella homogenize mine.toml --table -o "
-                   "mine.csv\n  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\nA sample is "
-                   "one period of the foam, a cube; a random foam is made periodic for it. Only the ratio "
-                   "of\nsizes matters: cells and beams twice as large are equally stiff.\nmpirun distributes "
-                   "whole samples, for a table those of all ratios: a single sample uses one process.");
+    finish_command(
+        command,
+        "  lamella homogenize --cell 2 --beam 0.2 --young 2300 --poisson 0.35\n"
+        "  lamella homogenize insole.toml --samples 4 --json -o stiffness.json\n"
+        "  lamella homogenize gyroid.toml --rve 128 --plot gyroid.svg\n"
+        "  lamella homogenize mine.toml --table -o mine.csv\n"
+        "  mpirun -n 4 lamella homogenize mine.toml --table -o mine.csv\n"
+        "A sample is one period of the foam, a cube; a random foam is made periodic for it. Only the "
+        "ratio of\n"
+        "sizes matters: cells and beams twice as large are equally stiff.\n"
+        "mpirun distributes whole samples, for a table those of all ratios: a single sample uses one "
+        "process.");
     command.callback([options] {
         const auto lead = [&](Ranks* ranks) { return run(*options, ranks), std::string(); };
         run_on_ranks(lead, [&](Ranks& ranks) { run_worker(*options, ranks); });

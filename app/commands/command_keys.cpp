@@ -19,7 +19,9 @@ void add_keys_command(CLI::App& root) {
     const auto options = std::make_shared<Options>();
     command.add_option("SECTION", options->section, "One section of the recipe, such as foam")->type_name("");
     command.add_flag("--markdown", options->markdown, "Write a Markdown page");
-    finish_command(command, "  lamella keys\n  lamella keys foam");
+    finish_command(command,
+                   "  lamella keys\n"
+                   "  lamella keys foam");
     command.callback([options] {
         TextOutput out("");
         out.write(options->markdown ? settings_markdown() : settings_reference(options->section));

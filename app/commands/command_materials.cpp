@@ -52,8 +52,9 @@ void add_materials_command(CLI::App& root) {
         ->type_name("FILE");
     command.add_flag("--toml", options->toml, "Write the materials as a file to edit");
     finish_command(command,
-                   "  lamella materials\n  lamella materials --toml > mine.toml\nA - marks unknown values. "
-                   "If nu is unknown, 1/3 is assumed, which hardly matters.");
+                   "  lamella materials\n"
+                   "  lamella materials --toml > mine.toml\n"
+                   "A - marks unknown values. If nu is unknown, 1/3 is assumed, which hardly matters.");
     command.callback([options] { run(*options); });
 }
 

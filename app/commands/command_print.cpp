@@ -147,7 +147,11 @@ void list_ports() {
     for (const PortInfo& port : serial_ports()) {
         text += port.path;
         if (!port.description.empty()) text += "  " + port.description;
-        if (!port.by_id.empty()) text += "\n    " + port.by_id;
+        if (!port.by_id.empty())
+            text +=
+                "\n"
+                "    " +
+                port.by_id;
         text += "\n";
     }
     if (text.empty()) text = "no serial port found; is the printer plugged in and switched on?\n";

@@ -71,9 +71,11 @@ void add_serve_command(CLI::App& root) {
         .add_flag("--stdio", *stdio, "Read requests from standard input, write replies to standard output")
         ->required();
     finish_command(command,
-                   "  lamella serve --stdio\nA request is its length (4 bytes, little-endian) followed by "
-                   "that many bytes of JSON. A reply has the\nsame form, followed by `bytes` bytes of "
-                   "numbers. docs/embedding/server.md describes the methods.");
+                   "  lamella serve --stdio\n"
+                   "A request is its length (4 bytes, little-endian) followed by that many bytes of JSON. A "
+                   "reply has the\n"
+                   "same form, followed by `bytes` bytes of numbers. docs/embedding/server.md describes the "
+                   "methods.");
     command.callback([] { run(); });
 }
 
