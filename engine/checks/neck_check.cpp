@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/morphology/layer_opening.h"
+#include "engine/morphology/sampled_ball.h"
 #include "engine/runs/row_sets.h"
 
 namespace lamella {

@@ -41,10 +41,6 @@ bool MeshEdges::is_oriented_manifold() const {
     return std::all_of(edges_.begin(), edges_.end(), [](const Edge& e) { return e.is_matched_pair(); });
 }
 
-bool MeshEdges::is_closed() const {
-    return std::all_of(edges_.begin(), edges_.end(), [](const Edge& e) { return e.net() == 0; });
-}
-
 std::size_t MeshEdges::odd_edges() const {
     return static_cast<std::size_t>(
         std::count_if(edges_.begin(), edges_.end(), [](const Edge& e) { return e.count() % 2 == 1; }));

@@ -38,7 +38,6 @@ class MeshEdges {
 
     bool is_oriented_manifold()
         const;                      ///< every edge has two triangles that run along it in opposite directions
-    bool is_closed() const;         ///< the net boundary is zero
     std::size_t odd_edges() const;  ///< edges with an odd number of triangles: no reorientation closes them
 
     /// Returns a number for each triangle: equal for triangles connected through shared edges; 0, 1, ... by

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/layers/survey_rows.h"
-#include "engine/morphology/layer_opening.h"
+#include "engine/morphology/sampled_ball.h"
 #include "engine/runs/row_sets.h"
 #include "engine/surveys/printable_roof.h"
 

@@ -140,19 +140,6 @@ CellOctree::Divisions CellOctree::balance(glm::i64vec3 coarse) const {
     return all;
 }
 
-OctreeCell CellOctree::cell_at(dvec3 p) const {
-    const dvec3 place = glm::clamp((p - region_.lo) / coarse_side_, -farthest, farthest);
-    OctreeCell cell{glm::i64vec3(glm::floor(place)), 0};
-    if (levels_ == 0) return cell;
-    const auto divisions = balanced(cell.index);
-    while (divisions->contains(cell)) {
-        const dvec3 center = box(cell).center();
-        const int octant = (p.x >= center.x ? 1 : 0) | (p.y >= center.y ? 2 : 0) | (p.z >= center.z ? 4 : 0);
-        cell = {child(cell.index, octant), cell.level + 1};
-    }
-    return cell;
-}
-
 void CellOctree::for_each(const Box& where, const std::function<void(const OctreeCell&)>& visit) const {
     if (where.empty()) return;
     const auto index = [&](dvec3 p, double margin) {

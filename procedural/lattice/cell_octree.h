@@ -41,8 +41,6 @@ class CellOctree {
     int levels() const { return levels_; }
     double side(int level) const { return coarse_side_ / static_cast<double>(1 << level); }
     Box box(const OctreeCell& cell) const;
-    /// Returns the leaf cube that contains the point; a cube includes its lower faces.
-    OctreeCell cell_at(dvec3 p) const;
     /// Calls visit for every leaf cube that meets the closed box: coarse cubes by z, y, x; inside them depth
     /// first.
     void for_each(const Box& box, const std::function<void(const OctreeCell&)>& visit) const;

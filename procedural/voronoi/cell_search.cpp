@@ -24,33 +24,6 @@ double start_half_side(const SeedTree& tree) { return 2 * tree.coarse_side(); }
 
 }  // namespace
 
-bool cell_among(std::span<const Seed> seeds, std::size_t own, double half_side, VoronoiCell& cell) {
-    struct Other {
-        double distance_squared;
-        std::size_t seed;
-    };
-    cell.start(half_side);
-    std::vector<Other> others;
-    const dvec3 center = seeds[own].position;
-    for (std::size_t i = 0; i < seeds.size(); ++i) {
-        if (i == own) continue;
-        if (seeds[i].position == center) {
-            if (seeds[i].key < seeds[own].key) return false;
-            continue;
-        }
-        others.push_back({squared_length(seeds[i].position - center), i});
-    }
-    std::sort(others.begin(), others.end(), [&](const Other& a, const Other& b) {
-        if (a.distance_squared != b.distance_squared) return a.distance_squared < b.distance_squared;
-        return seeds[a.seed].key < seeds[b.seed].key;
-    });
-    for (const Other& other : others) {
-        if (other.distance_squared >= 4 * cell.reach_squared() * rounding_margin) break;
-        cell.clip(seeds[other.seed].position - center, static_cast<std::int32_t>(other.seed));
-    }
-    return true;
-}
-
 void TreeSearch::push(const Visit& visit) {
     heap_.push_back(visit);
     std::push_heap(heap_.begin(), heap_.end(),

@@ -14,11 +14,6 @@
 
 namespace lamella {
 
-/// Computes the cell of seeds[own], clipped to a cube of the given half side around it, mm. Plane identifiers
-/// are indices into `seeds`. Seeds clip in order of distance, then key. Among seeds at equal positions the
-/// one with the lowest key has the cell; for the others returns false and no cell.
-bool cell_among(std::span<const Seed> seeds, std::size_t own, double half_side, VoronoiCell& cell);
-
 /// Computes cells for any density. Visits the tree best first and prunes every node that cannot cut the cell
 /// any more. Not thread-safe; use one per thread.
 class TreeSearch {

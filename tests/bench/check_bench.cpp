@@ -9,7 +9,7 @@
 #include "engine/checks/overhang_check.h"
 #include "engine/checks/void_check.h"
 #include "engine/layers/survey_rows.h"
-#include "engine/morphology/layer_opening.h"
+#include "engine/morphology/sampled_ball.h"
 #include "engine/morphology/thin_feature_search.h"
 #include "engine/morphology/thin_features.h"
 #include "engine/runs/row_sets.h"

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/layers/survey_rows.h"
-#include "engine/morphology/layer_opening.h"
+#include "engine/morphology/sampled_ball.h"
 #include "engine/runs/row_sets.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"

@@ -5,10 +5,12 @@
 #include <set>
 
 #include "tests/procedural/voronoi/brute_voronoi.h"
+#include "tests/procedural/voronoi/cell_among.h"
 
 namespace foam_beams_test {
 
 using namespace lamella;
+using lamella::test::cell_among;
 
 namespace {
 

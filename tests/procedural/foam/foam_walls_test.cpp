@@ -7,10 +7,12 @@
 
 #include "procedural/voronoi/counter_hash.h"
 #include "tests/engine/field/gradings.h"
+#include "tests/procedural/voronoi/cell_among.h"
 
 namespace foam_walls_test {
 
 using namespace lamella;
+using lamella::test::cell_among;
 
 namespace {
 

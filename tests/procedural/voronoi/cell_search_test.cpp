@@ -6,11 +6,13 @@
 #include <catch2/catch.hpp>
 
 #include "procedural/foam/foam_beams.h"
+#include "tests/procedural/voronoi/cell_among.h"
 #include "tests/procedural/voronoi/graded_densities.h"
 
 namespace cell_search_test {
 
 using namespace lamella;
+using lamella::test::cell_among;
 
 namespace {
 
