@@ -12,14 +12,17 @@
 
 namespace lamella {
 
-/// Finds the cell of each seed, in rings where the seeds allow it, and has a maker make its pieces:
-///   using Piece
-///   std::size_t append(const VoronoiCell&, const Seed& own, std::span<const Seed> sites,
-///                      std::vector<Piece>&)   returns the number of edges left out for want of an end
-///   double growth(const Box&) const, double largest_growth() const, bool avoids(const Box&) const,
-///   const Stretch& stretch() const
-/// with the meanings of PieceUnits.
-template <typename Maker>
+/// Makes the pieces of a Voronoi cell.
+template <typename T>
+concept CellMaker = PieceExtent<T> && std::copy_constructible<T> &&
+    requires(T& maker, const VoronoiCell& cell, const Seed& own, std::span<const Seed> sites,
+             std::vector<typename T::Piece>& pieces) {
+    /// Appends the cell's pieces. Returns the number of edges left out for want of an end.
+    { maker.append(cell, own, sites, pieces) } -> std::same_as<std::size_t>;
+};
+
+/// Finds the cell of each seed, in rings where the seeds allow it, and has a maker make its pieces.
+template <CellMaker Maker>
 class CellSource {
   public:
     using Piece = typename Maker::Piece;
@@ -71,7 +74,7 @@ class CellSource {
 };
 
 /// The pieces of a Voronoi foam by place.
-template <typename Maker>
+template <CellMaker Maker>
 class CellUnits : public PieceUnits<CellSource<Maker>> {
   public:
     /// `cache_bytes` bounds the memory of the cached units (CellCache says how).

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
@@ -12,24 +13,41 @@
 
 namespace lamella {
 
-/// Answers which pieces (beams, walls) of a foam touch a box. Thread-safe; the answers are pure functions of
-/// the tree and the source.
-///
-/// Source makes the pieces that a seed owns, and is copied for each query that makes some:
-///   using Piece                    with bounds(piece) and touches(piece, box) found by argument
-///   void gather(const Box&)        called before append() for seeds in the box
-///   void append(const Seed&, std::vector<Piece>&)
-///   double reach(const SeedBlock&, std::size_t node) const   how far the axes of the node's pieces can lie
-///                                  from the node's box, in the seeds' space, mm
-///   double farthest() const        no reach is larger
-///   double growth(const Box&) const   how far solids leave axes in a box of the part's space, mm
-///   double largest_growth() const  ... anywhere
-///   bool avoids(const Box&) const  whether surely no axis of a piece passes through a box of the part's
-///   space const Stretch& stretch() const from the seeds' space to that of pieces and of boxes asked about
+/// How far pieces reach from their axes.
+template <typename T>
+concept PieceExtent = requires(const T& source, const Box& box) {
+    /// Largest distance from an axis to the surface of its piece, in a box of the part's space, mm.
+    { source.growth(box) } -> std::same_as<double>;
+    /// The same anywhere.
+    { source.largest_growth() } -> std::same_as<double>;
+    /// Whether certainly no axis of a piece passes through a box of the part's space.
+    { source.avoids(box) } -> std::same_as<bool>;
+    /// The map from the seeds' space to that of pieces and of queried boxes.
+    { source.stretch() } -> std::same_as<const Stretch&>;
+};
+
+/// Makes the pieces (beams, walls) that a seed owns. Copied for each query that makes some. bounds(piece) and
+/// touches(piece, box) are found by argument.
+template <typename T>
+concept PieceSource = PieceExtent<T> && std::copy_constructible<T> &&
+    requires(T& source, const T& constant, const Box& box, const Seed& own, const SeedBlock& block,
+             std::size_t node, std::vector<typename T::Piece>& pieces) {
+    /// Called before append() for seeds in the box.
+    source.gather(box);
+    /// Appends the pieces of a seed.
+    source.append(own, pieces);
+    /// Largest distance from the node's box to the axes of its pieces, in the seeds' space, mm.
+    { constant.reach(block, node) } -> std::same_as<double>;
+    /// An upper bound of all reaches.
+    { constant.farthest() } -> std::same_as<double>;
+};
+
+/// Answers which pieces of a foam touch a box. Thread-safe; the answers are pure functions of the tree and
+/// the source.
 ///
 /// A unit is a tree node of at most 64 seeds, or one of its eight slabs in z when it has more than 16. It
 /// matters to a query only within its reach and growth.
-template <typename Source>
+template <PieceSource Source>
 class PieceUnits {
   public:
     using Piece = typename Source::Piece;
@@ -94,7 +112,7 @@ class PieceUnits {
     mutable CellCache<Reach> reaches_;
 };
 
-template <typename Source>
+template <PieceSource Source>
 Box PieceUnits<Source>::part_box(const SeedNode& node, int part) {
     const int parts = parts_of(node);
     const double height = (node.box.hi.z - node.box.lo.z) / parts;
@@ -104,7 +122,7 @@ Box PieceUnits<Source>::part_box(const SeedNode& node, int part) {
     return box;
 }
 
-template <typename Source>
+template <PieceSource Source>
 double PieceUnits<Source>::reach(const SeedBlock& block, std::size_t node, double z) const {
     const Box box = block.nodes[node].box;
     const PlaceKey key{block.index.x, block.index.y, block.index.z, static_cast<int>(node), 0};
@@ -117,7 +135,7 @@ double PieceUnits<Source>::reach(const SeedBlock& block, std::size_t node, doubl
     return reaches_.find_or_make(key, z, make)->distance;
 }
 
-template <typename Source>
+template <PieceSource Source>
 std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box) const {
     if (box.empty()) return {};
     const Stretch& stretch = source_.stretch();
@@ -140,7 +158,7 @@ std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box)
 }
 
 /// Goes down to the units within reach of the box. `within` bounds the reach of everything in the node.
-template <typename Source>
+template <PieceSource Source>
 void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double within,
                                Request& request) const {
     const SeedNode& here = block.nodes[node];
@@ -163,7 +181,7 @@ void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double 
 }
 
 /// Appends the pieces of one node's units that touch the box; missing units are made from one gathering.
-template <typename Source>
+template <PieceSource Source>
 void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, double within,
                                  Request& request) const {
     const SeedNode& here = block.nodes[node];
@@ -201,7 +219,7 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
     }
 }
 
-template <typename Source>
+template <PieceSource Source>
 typename PieceUnits<Source>::Unit PieceUnits<Source>::make(const SeedBlock& block, const SeedNode& node,
                                                            const Box& part, double within,
                                                            Request& request) const {
