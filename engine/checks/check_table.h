@@ -41,6 +41,12 @@ struct CheckPass {
     double (*cell_reach)(const LayerCheck& check) = nullptr;
 };
 
+/// A pass of the table, and the check that it made.
+struct ActiveCheck {
+    const CheckPass* pass;
+    std::unique_ptr<LayerCheck> check;
+};
+
 /// Returns all passes, in the order in which they are given a layer. Checks that move out of the layer come
 /// last.
 std::span<const CheckPass> check_passes();

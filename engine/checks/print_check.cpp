@@ -22,12 +22,6 @@ CheckRows check_rows(const Job& job, const PrintCheckOptions& options) {
     return options.lines ? CheckRows(job, *options.lines) : CheckRows(job, options.pitch);
 }
 
-/// A pass that is switched on, and its check.
-struct ActiveCheck {
-    const CheckPass* pass;
-    std::unique_ptr<LayerCheck> check;
-};
-
 /// Whether labels have the rows of a layer, or none where nobody reads them.
 bool are_labels(const LabelledLayer& labels, const RunRows& rows, bool wanted) {
     if (!wanted) return labels.starts.empty();
