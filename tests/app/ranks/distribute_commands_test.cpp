@@ -33,7 +33,7 @@ const std::string held = faulty + "--skin 0.6 --support pillars ";
 
 }  // namespace
 
-TEST_CASE("a check by several processes says what one says", "[ranks][check]") {
+TEST_CASE("a check by several processes says what one says", "[ranks][check][slow]") {
     const Folder folder;
     const std::string page = folder / "page.html";
     const auto check = [&](const std::string& part, const std::vector<int>& sizes) {

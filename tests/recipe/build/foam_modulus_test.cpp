@@ -96,12 +96,15 @@ TEST_CASE("the shipped law of random foam is what others computed", "[elasticity
     }
 }
 
-TEST_CASE("a foam made for a modulus has it when it is homogenised", "[elasticity]") {
+TEST_CASE("a foam made for a modulus has it when it is homogenised", "[elasticity][slow]") {
     const Folder folder;
     for (const double asked : {5.0, 100.0}) {
         for (const std::string& size : {std::string("beam = 0.3\n"), std::string("cell = 3\n")}) {
             write(folder / "foam.toml", fmt::format("{}[foam]\nmodulus = {}\n{}", stuff, asked, size));
-            const Outcome run = run_lamella("homogenize -q --json --rve 96 " + folder / "foam.toml");
+            // Four elements per beam radius at least: stiff foams have thick beams.
+            const std::string elements = asked > 50 ? "64" : "96";
+            const Outcome run =
+                run_lamella("homogenize -q --json --rve " + elements + " " + folder / "foam.toml");
             INFO(run.err);
             REQUIRE(run.code == 0);
             CHECK(Json::parse(run.out)["E"].get<double>() == Approx(asked).epsilon(0.1));
@@ -198,7 +201,7 @@ TEST_CASE("compression tests bend the law, with a band of their own", "[elastici
                   "tests.csv:1: not three positive numbers");
 }
 
-TEST_CASE("a law of one's own is found by what shapes the foam", "[elasticity]") {
+TEST_CASE("a law of one's own is found by what shapes the foam", "[elasticity][slow]") {
     const Folder folder;
     const std::string foam = "[foam]\nkind = \"kelvin\"\njitter = 0.3\nbeam = 0.3\nmodulus = 20\n";
     check_refused(folder, bar + stuff + foam, "there is no stiffness law for this foam (kelvin/jitter=0.3)");
@@ -315,7 +318,7 @@ ElementMask mirrored(const ElementMask& piece) {
 
 }  // namespace
 
-TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity]") {
+TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity][slow]") {
     RecipeDraft draft;
     draft.require_body(false);
     draft.read_text(stuff + "[foam]\nbeam = 0.3\nmodulus = \"20 + 1.5 * x\"\n", "bar.toml");
@@ -325,7 +328,7 @@ TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity]"
         const dvec3 corner{piece * side, 0, 0};
         const ElementMask sample = sample_field(*foam.field, {corner, corner + dvec3(side)}, 56);
         const double found =
-            closest_isotropic(homogenize(mirrored(sample), {2000, law_poisson}, {1e-4}).stiffness).young;
+            closest_isotropic(homogenize(mirrored(sample), {2000, law_poisson}, {1e-3}).stiffness).young;
         const double asked = 20 + 1.5 * (piece + 0.5) * side;
         CHECK(found == Approx(asked).epsilon(0.15));
     }
