@@ -321,8 +321,8 @@ void add_info_command(CLI::App& root) {
                              "contents of a finished job (SL1, GOO, NanoDLP, Ember, folder of masks)");
     options->recipe.add_to(command);
     command.get_option("INPUT")->description(
-        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
-        "masks with a job.json)");
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (.sl1, .sl1s, .goo, .nanodlp, "
+        ".tar.gz, .tgz, or a folder of masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
     command.add_flag("--islands", options->islands,
                      "Survey all layers for pieces that are not connected to the part");
