@@ -25,9 +25,8 @@ void for_runs_meeting(const RunRows& rows, std::size_t line, const Run& stretch,
 
 }  // namespace
 
-ThinFeatureSearch::ThinFeatureSearch(const LayerLattice& lattice, const Thinness& thinness,
-                                     FeatureKind medium)
-    : medium_(medium),
+ThinFeatureSearch::ThinFeatureSearch(const LayerLattice& lattice, const Thinness& thinness, FeatureKind kind)
+    : kind_(kind),
       lines_(lattice.lines),
       margin_(margin_of(thinness, lattice.row_pitch)),
       fitting_(lattice, thinness.radius),
@@ -52,7 +51,7 @@ void ThinFeatureSearch::push_beyond() {
 void ThinFeatureSearch::push_slab(RunRows solid, bool is_judged) {
     const std::size_t index = first_ + slabs_.size();
     RunRows of = complement(solid, -unbounded, unbounded), beside = std::move(solid);
-    if (medium_ == FeatureKind::wall) std::swap(of, beside);
+    if (kind_ == FeatureKind::wall) std::swap(of, beside);
     UndecidedRuns open(of, static_cast<std::int32_t>(index), margin_, is_judged ? lines_ : 0);
     BallCentersByRun centers(of);
     std::vector<NumberedRun> left;

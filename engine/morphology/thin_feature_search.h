@@ -19,7 +19,7 @@ namespace lamella {
 class ThinFeatureSearch {
   public:
     ThinFeatureSearch(const LayerLattice& lattice, const Thinness& thinness,
-                      FeatureKind medium = FeatureKind::wall);
+                      FeatureKind kind = FeatureKind::wall);
     void push(const RunRows& layer);
     void finish() { push_beyond(); }
     bool pop(RunRows& out);
@@ -44,7 +44,7 @@ class ThinFeatureSearch {
     void look_near(std::size_t index, std::span<const NumberedRun> runs, RunDifference& left);
     void thin_of(std::size_t index, RunRows& out);
 
-    FeatureKind medium_;
+    FeatureKind kind_;
     std::size_t lines_, margin_;  // lines of the lattice, and extra ones on either side
     BallLines fitting_, near_;    // balls of `radius`, which must fit, and of `radius` + `slack`
     BallFootprint footprint_;     // of near_

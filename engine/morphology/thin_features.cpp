@@ -38,12 +38,12 @@ std::int32_t cell_scale(const Thinness& thinness) {
 }
 
 /// Returns the part of the solid or of the void that lies in `where`, whose rows include a margin.
-RunRows medium_within(const RunRows& where, const RunRows& rows, std::size_t margin, FeatureKind medium) {
+RunRows kind_within(const RunRows& where, const RunRows& rows, std::size_t margin, FeatureKind kind) {
     RunRows within;
     for (std::size_t l = 0; l < where.lines(); ++l) {
         const bool in_margin = l < margin || l >= margin + rows.lines();
         const std::span<const Run> solid = in_margin ? std::span<const Run>() : rows.line(l - margin);
-        if (medium == FeatureKind::wall) {
+        if (kind == FeatureKind::wall) {
             intersect_line(where.line(l), solid, within);
         } else {
             subtract_line(where.line(l), solid, within);
@@ -79,13 +79,13 @@ struct Candidates {
     std::size_t margin;
 };
 
-Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureKind medium,
+Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureKind kind,
                         const Thinness& thinness, double row_pitch) {
     RowBitmask void_outer = cells.inner;
     void_outer.invert();
     const double reach = thinness.radius + thinness.slack;
     const RowBitmask suspected =
-        medium == FeatureKind::wall
+        kind == FeatureKind::wall
             ? candidate_cells(cells.outer, void_outer, thinness.radius, reach, row_pitch)
             : candidate_cells(void_outer, cells.outer, thinness.radius, reach, row_pitch);
     const std::size_t margin = cells.outer.lattice().margin_lines, lines = row_count + 2 * margin;
@@ -95,7 +95,7 @@ Candidates suspicion_of(const LayerCells& cells, std::size_t row_count, FeatureK
 }
 
 /// Finds candidates with cells of several rows.
-Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Thinness& thinness,
+Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind kind, const Thinness& thinness,
                                double row_pitch) {
     // Rows of two cells may be up to one row of cells nearer or farther than the cells; 1 covers rounding
     // errors.
@@ -103,7 +103,7 @@ Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Th
     const std::int32_t scale = cell_scale(thinness);
     const CoarseCells cells(rows, scale, thinness_reach(thinness), row_pitch);
     const double radius = thinness.radius / scale, reach = (thinness.radius + thinness.slack) / scale;
-    const bool of_solid = medium == FeatureKind::wall;
+    const bool of_solid = kind == FeatureKind::wall;
     const RowBitmask suspected =
         candidate_cells(of_solid ? cells.solid() : cells.voids(), of_solid ? cells.voids() : cells.solid(),
                         radius + rounding_margin, reach - rounding_margin, row_pitch);
@@ -114,28 +114,27 @@ Candidates coarse_suspicion_of(const RunRows& rows, FeatureKind medium, const Th
 }
 
 /// Exact test of the candidates: finds the too thin points of the medium among them.
-void thin_among(const Candidates& suspicion, const RunRows& rows, FeatureKind medium,
-                const Thinness& thinness, double row_pitch, RunRows& out) {
+void thin_among(const Candidates& suspicion, const RunRows& rows, FeatureKind kind, const Thinness& thinness,
+                double row_pitch, RunRows& out) {
     if (suspicion.at.runs().empty()) {
         out = empty_rows(rows.lines());
         return;
     }
     const double reach = thinness.radius + thinness.slack;
     const RunRows about = extents_about(suspicion.near, thinness.radius, row_pitch);
-    const FeatureKind other = medium == FeatureKind::wall ? FeatureKind::gap : FeatureKind::wall;
+    const FeatureKind other = kind == FeatureKind::wall ? FeatureKind::gap : FeatureKind::wall;
     const auto within = [&](const RunRows& where, FeatureKind in) {
-        return medium_within(where, rows, suspicion.margin, in);
+        return kind_within(where, rows, suspicion.margin, in);
     };
     RunRows core, thin;
-    subtract_dilated(within(suspicion.near, medium), within(about, other), thinness.radius, row_pitch, core);
-    subtract_dilated(within(suspicion.at, medium), core, reach, row_pitch, thin);
+    subtract_dilated(within(suspicion.near, kind), within(about, other), thinness.radius, row_pitch, core);
+    subtract_dilated(within(suspicion.at, kind), core, reach, row_pitch, thin);
     without_margin(thin, suspicion.margin, out);
 }
 
-void thin_rows_by_coarse_cells(const RunRows& rows, FeatureKind medium, const Thinness& thinness,
+void thin_rows_by_coarse_cells(const RunRows& rows, FeatureKind kind, const Thinness& thinness,
                                double row_pitch, RunRows& out) {
-    thin_among(coarse_suspicion_of(rows, medium, thinness, row_pitch), rows, medium, thinness, row_pitch,
-               out);
+    thin_among(coarse_suspicion_of(rows, kind, thinness, row_pitch), rows, kind, thinness, row_pitch, out);
 }
 
 }  // namespace
@@ -157,23 +156,22 @@ double reach_of_cells(const Thinness& thinness) {
     return cell_scale(thinness) > 1 ? 0 : thinness_reach(thinness);
 }
 
-void thin_rows(const RunRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
+void thin_rows(const RunRows& rows, FeatureKind kind, const Thinness& thinness, double row_pitch,
                RunRows& out) {
-    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, kind, thinness, row_pitch, out);
     const LayerCells cells(rows, {extent_of(rows), rows.lines(), thinness_reach(thinness), row_pitch});
-    thin_rows(rows, cells, medium, thinness, row_pitch, out);
+    thin_rows(rows, cells, kind, thinness, row_pitch, out);
 }
 
-void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
+void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind kind, const Thinness& thinness,
                double row_pitch, RunRows& out) {
-    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, medium, thinness, row_pitch, out);
-    thin_among(suspicion_of(cells, rows.lines(), medium, thinness, row_pitch), rows, medium, thinness,
-               row_pitch, out);
+    if (cell_scale(thinness) > 1) return thin_rows_by_coarse_cells(rows, kind, thinness, row_pitch, out);
+    thin_among(suspicion_of(cells, rows.lines(), kind, thinness, row_pitch), rows, kind, thinness, row_pitch,
+               out);
 }
 
-ThinFeatureStream::ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness,
-                                     FeatureKind medium)
-    : medium_(medium),
+ThinFeatureStream::ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness, FeatureKind kind)
+    : kind_(kind),
       lines_(lattice.lines),
       margin_(margin_of(thinness, lattice.row_pitch)),
       beyond_(lattice.layers_within(thinness.radius) +
@@ -197,7 +195,7 @@ void ThinFeatureStream::push(const RunRows& layer) {
 
 void ThinFeatureStream::push_wide(RunRows layer) {
     RunRows voids = void_of(layer);
-    if (medium_ == FeatureKind::gap) std::swap(layer, voids);
+    if (kind_ == FeatureKind::gap) std::swap(layer, voids);
     of_.push_back(layer);
     core_.push(std::move(layer), std::move(voids));
     carry_on();

@@ -30,13 +30,13 @@ RunRows widened(const RunRows& rows, std::size_t margin);
 
 /// Finds the points of a layer's solid, or of its void, that are too thin within the layer. `out` gets as
 /// many rows as `rows`. `row_pitch` in run units.
-void thin_rows(const RunRows& rows, FeatureKind medium, const Thinness& thinness, double row_pitch,
+void thin_rows(const RunRows& rows, FeatureKind kind, const Thinness& thinness, double row_pitch,
                RunRows& out);
 /// Returns how far beyond a layer's rows (run units) the cells passed to the thin_rows below must extend. 0
 /// if that function does not read them, because coarser cells that it makes itself are good enough.
 double reach_of_cells(const Thinness& thinness);
 /// Does the same with cells made beforehand, to share them between checks. They extend to reach_of_cells.
-void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium, const Thinness& thinness,
+void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind kind, const Thinness& thinness,
                double row_pitch, RunRows& out);
 
 /// Finds the too thin points of a stream of layers, with a ball that extends across layers. Outside the given
@@ -45,7 +45,7 @@ void thin_rows(const RunRows& rows, const LayerCells& cells, FeatureKind medium,
 class ThinFeatureStream {
   public:
     ThinFeatureStream(const LayerLattice& lattice, const Thinness& thinness,
-                      FeatureKind medium = FeatureKind::wall);
+                      FeatureKind kind = FeatureKind::wall);
     void push(const RunRows& layer);
     void finish();
     bool pop(RunRows& out);
@@ -55,7 +55,7 @@ class ThinFeatureStream {
     void push_beyond();
     void carry_on();
 
-    FeatureKind medium_;
+    FeatureKind kind_;
     std::size_t lines_, margin_;    // lines of the lattice, and extra ones on either side
     std::size_t beyond_;            // empty layers added below the first and above the last
     std::size_t to_drop_;           // empty layers below the first that have not come out yet

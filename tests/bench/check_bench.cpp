@@ -99,7 +99,7 @@ void check_cells(benchmark::State& state) {
     state.counters["runs"] = static_cast<double>(runs);
 }
 
-void check_thickness(benchmark::State& state, FeatureKind medium, double thickness) {
+void check_thickness(benchmark::State& state, FeatureKind kind, double thickness) {
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, 0);
     const Thinness measure{ball.radius, 1.5 * ball.radius + run_unit};
     std::vector<LayerCells> all_cells;
@@ -110,7 +110,7 @@ void check_thickness(benchmark::State& state, FeatureKind medium, double thickne
         auto cells = all_cells.begin();
         RunRows thin;
         for (const RunRows& rows : layers()) {
-            thin_rows(rows, *cells++, medium, measure, run_unit, thin);
+            thin_rows(rows, *cells++, kind, measure, run_unit, thin);
             found += thin.total_length();
         }
     }
@@ -118,14 +118,14 @@ void check_thickness(benchmark::State& state, FeatureKind medium, double thickne
 }
 
 template <typename Thin>
-void thickness_across_layers(benchmark::State& state, FeatureKind medium, double thickness) {
+void thickness_across_layers(benchmark::State& state, FeatureKind kind, double thickness) {
     layers();
     const oneapi::tbb::global_control one_core(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     const SampledBall ball = sampled_ball(grid().band, layer_height, thickness, thickness);
     std::int64_t found = 0;
     for (auto _ : state) {
         found = 0;
-        Thin thin(ball.lattice, {ball.radius, 1.5 * ball.radius + run_unit}, medium);
+        Thin thin(ball.lattice, {ball.radius, 1.5 * ball.radius + run_unit}, kind);
         RunRows rows;
         const auto take = [&] {
             while (thin.pop(rows)) found += rows.total_length();
@@ -140,12 +140,12 @@ void thickness_across_layers(benchmark::State& state, FeatureKind medium, double
     state.counters["volume"] = grid().volume(found);
 }
 
-void check_thickness_up(benchmark::State& state, FeatureKind medium, double thickness) {
-    thickness_across_layers<ThinFeatureSearch>(state, medium, thickness);
+void check_thickness_up(benchmark::State& state, FeatureKind kind, double thickness) {
+    thickness_across_layers<ThinFeatureSearch>(state, kind, thickness);
 }
 /// As necks have it, for comparison.
-void check_thickness_up_by_all(benchmark::State& state, FeatureKind medium, double thickness) {
-    thickness_across_layers<ThinFeatureStream>(state, medium, thickness);
+void check_thickness_up_by_all(benchmark::State& state, FeatureKind kind, double thickness) {
+    thickness_across_layers<ThinFeatureStream>(state, kind, thickness);
 }
 
 void check_pieces(benchmark::State& state) {

@@ -60,8 +60,7 @@ Stack without_what_is_near(const Stack& from, const Stack& taken, const BallLine
 }
 
 /// By definition, with void all about.
-Stack all_thin(const Stack& stack, const LayerLattice& lattice, const Thinness& thinness,
-               FeatureKind medium) {
+Stack all_thin(const Stack& stack, const LayerLattice& lattice, const Thinness& thinness, FeatureKind kind) {
     const BallLines fitting(lattice, thinness.radius), near(lattice, thinness.radius + thinness.slack);
     const auto rows = static_cast<std::size_t>(fitting.rows() + near.rows()),
                layers = static_cast<std::size_t>(fitting.layers() + near.layers());
@@ -74,7 +73,7 @@ Stack all_thin(const Stack& stack, const LayerLattice& lattice, const Thinness& 
     }
     solid.resize(solid.size() + layers, empty_rows(lattice.lines + 2 * rows));
     for (const RunRows& layer : solid) voids.push_back(complement(layer, -unbounded, unbounded));
-    if (medium == FeatureKind::gap) std::swap(solid, voids);
+    if (kind == FeatureKind::gap) std::swap(solid, voids);
     const Stack thin = without_what_is_near(solid, without_what_is_near(solid, voids, fitting), near);
     Stack inner(stack.size());
     for (std::size_t z = 0; z < stack.size(); ++z)
@@ -112,18 +111,18 @@ std::int64_t length_of(const Stack& stack) {
 TEST_CASE("layers of a foam are thin where no place near has room for the ball", "[morphology]") {
     for (const double beam_radius : {0.3, 0.4, 0.5}) {
         const Stack stack = foam(beam_radius);
-        for (const auto& [medium, thickness] : {std::pair{FeatureKind::wall, 0.8}, {FeatureKind::gap, 0.5}}) {
-            INFO("beams of " << beam_radius << ", medium " << static_cast<int>(medium));
+        for (const auto& [kind, thickness] : {std::pair{FeatureKind::wall, 0.8}, {FeatureKind::gap, 0.5}}) {
+            INFO("beams of " << beam_radius << ", kind " << static_cast<int>(kind));
             const RowBand band = rows_over({{0, 0}, {9, 8}}, 0.1);
             const SampledBall ball = sampled_ball(band, 0.05, thickness, thickness);
             const Thinness thinness{ball.radius, 1.5 * ball.radius + run_unit};
-            const Stack thin = through(ThinFeatureSearch(ball.lattice, thinness, medium), stack);
-            const Stack expected = all_thin(stack, ball.lattice, thinness, medium);
+            const Stack thin = through(ThinFeatureSearch(ball.lattice, thinness, kind), stack);
+            const Stack expected = all_thin(stack, ball.lattice, thinness, kind);
             REQUIRE(thin.size() == expected.size());
             for (std::size_t z = 0; z < thin.size(); ++z) CHECK(thin[z] == expected[z]);
-            if (medium == FeatureKind::wall && beam_radius < 0.35)
+            if (kind == FeatureKind::wall && beam_radius < 0.35)
                 CHECK(length_of(thin) > length_of(stack) / 4);
-            if (medium == FeatureKind::gap) CHECK(length_of(thin) > 0);
+            if (kind == FeatureKind::gap) CHECK(length_of(thin) > 0);
             CHECK(length_of(thin) < length_of(stack));
         }
     }
@@ -145,13 +144,13 @@ TEST_CASE("layers at random are thin where no place near has room for the ball",
                 layer.end_line();
             }
         }
-        for (const FeatureKind medium : {FeatureKind::wall, FeatureKind::gap}) {
+        for (const FeatureKind kind : {FeatureKind::wall, FeatureKind::gap}) {
             for (const double radius : {1.2, 1.7, 2.6}) {
                 for (const double layer_pitch : {0.9, 100.0}) {  // balls that reach some layers, or none
                     const LayerLattice lattice{1.1 * run_unit, layer_pitch * run_unit, 20};
                     const Thinness thinness{radius * run_unit, 1.3 * run_unit};
-                    const Stack thin = through(ThinFeatureSearch(lattice, thinness, medium), stack);
-                    CHECK(thin == all_thin(stack, lattice, thinness, medium));
+                    const Stack thin = through(ThinFeatureSearch(lattice, thinness, kind), stack);
+                    CHECK(thin == all_thin(stack, lattice, thinness, kind));
                     CHECK(length_of(thin) > 0);
                 }
             }

@@ -164,9 +164,9 @@ TEST_CASE("what is thin beside many rows is what a ball without height finds", "
                 const Thinness thinness{radius * run_unit, slack * radius * run_unit};
                 const LayerLattice flat{pitch * run_unit, 1000.0 * run_unit, rows_across};
                 RunRows found;
-                for (const FeatureKind medium : {FeatureKind::wall, FeatureKind::gap}) {
-                    thin_rows(rows, medium, thinness, flat.row_pitch, found);
-                    CHECK(found == through(ThinFeatureStream(flat, thinness, medium), Stack{rows}).front());
+                for (const FeatureKind kind : {FeatureKind::wall, FeatureKind::gap}) {
+                    thin_rows(rows, kind, thinness, flat.row_pitch, found);
+                    CHECK(found == through(ThinFeatureStream(flat, thinness, kind), Stack{rows}).front());
                     if (slack == 0) CHECK(found.total_length() > 0);
                 }
             }
