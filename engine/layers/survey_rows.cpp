@@ -18,7 +18,7 @@ constexpr double max_pitches = 1 << 20;  // along a side of the job
 Interval survey_pitch_range(const Job& job) {
     const dvec3 size = job.bounds.size();
     if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
-        throw InputError("island survey: the part's bounds are empty or infinite");
+        throw InputError("survey: the part's bounds are empty or infinite");
     return {std::max(size.x, size.y) / max_pitches, max_layers_in_a_pitch * job.layer_height};
 }
 

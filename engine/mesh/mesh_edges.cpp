@@ -2,7 +2,8 @@
 #include "engine/mesh/mesh_edges.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "engine/base/disjoint_sets.h"
 
 namespace lamella {
 
@@ -48,26 +49,17 @@ std::size_t MeshEdges::odd_edges() const {
 
 std::vector<std::uint32_t> MeshEdges::bodies(std::size_t& body_count) const {
     const std::size_t triangle_count = halves_.size() / 3;
-    std::vector<std::uint32_t> root(triangle_count);
-    std::iota(root.begin(), root.end(), 0U);
-    const auto find = [&](std::uint32_t t) {
-        for (; root[t] != t; t = root[t]) root[t] = root[root[t]];
-        return t;
-    };
+    DisjointSets connected(triangle_count);
     for (const Edge& edge : edges_) {
-        const std::uint32_t first = find(halves_[edge.begin] / 3);
-        std::uint32_t least = first;
-        for (const std::uint32_t half : half_edges(edge)) {
-            const std::uint32_t other = find(half / 3);
-            root[std::max(least, other)] = std::min(least, other);
-            least = std::min(least, other);
-        }
+        const std::uint32_t first = halves_[edge.begin] / 3;
+        for (const std::uint32_t half : half_edges(edge)) connected.join(first, half / 3);
     }
-    // A root is the lowest triangle of its body, so it has its number before the other triangles need it.
+    // A representative is the lowest triangle of its body, so it has its number before the other triangles
+    // need it.
     std::vector<std::uint32_t> number(triangle_count);
     body_count = 0;
     for (std::uint32_t t = 0; t < triangle_count; ++t) {
-        const std::uint32_t r = find(t);
+        const std::uint32_t r = connected.find(t);
         number[t] = r == t ? static_cast<std::uint32_t>(body_count++) : number[r];
     }
     return number;

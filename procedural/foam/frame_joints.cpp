@@ -17,24 +17,13 @@ constexpr double reach_in_steps = 1.8;    // from a component to its first latti
 
 }  // namespace
 
-std::size_t FrameJoints::point(dvec3 p) {
-    const auto [entry, fresh] = points_.try_emplace(p, places_.size());
+std::uint32_t FrameJoints::point(dvec3 p) {
+    const auto [entry, fresh] = points_.try_emplace(p, static_cast<std::uint32_t>(places_.size()));
     if (fresh) {
-        parents_.push_back(places_.size());
+        connected_.add();
         places_.push_back(p);
     }
     return entry->second;
-}
-
-std::size_t FrameJoints::root(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-}
-
-void FrameJoints::unite(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parents_[std::max(a, b)] = std::min(a, b);
 }
 
 /// Adds the parts of the cell's edges inside the body. An edge is in the rings of two faces, so it is visited
@@ -48,12 +37,12 @@ void FrameJoints::add_edges(std::span<const CellFaces::Face> faces, SurfaceTrace
             if (!seen.insert({a, b}).second) continue;
             const std::vector<dvec3> ends = tracer.inside(a, b);
             for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-                const std::size_t first = point(ends[k]);
+                const std::uint32_t first = point(ends[k]);
                 for (int step = 1; step < SurfaceTracer::steps; ++step) {
                     const double t = static_cast<double>(step) / SurfaceTracer::steps;
-                    unite(first, point(ends[k] + (ends[k + 1] - ends[k]) * t));
+                    connected_.join(first, point(ends[k] + (ends[k + 1] - ends[k]) * t));
                 }
-                unite(first, point(ends[k + 1]));
+                connected_.join(first, point(ends[k + 1]));
             }
         }
     }
@@ -63,7 +52,7 @@ void FrameJoints::collect_components() {
     components_.clear();
     component_roots_.clear();
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        const std::size_t r = root(i);
+        const std::uint32_t r = connected_.find(static_cast<std::uint32_t>(i));
         const auto found = std::find(component_roots_.begin(), component_roots_.end(), r);
         if (found == component_roots_.end()) {
             component_roots_.push_back(r);
@@ -79,10 +68,8 @@ void FrameJoints::join(std::vector<Candidate>& candidates, std::vector<SurfaceCu
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
     for (Candidate& candidate : candidates) {
-        const std::size_t a = component_roots_[candidate.a], b = component_roots_[candidate.b];
-        if (root(a) == root(b)) continue;
-        unite(a, b);
-        joints.push_back(std::move(candidate.path));
+        if (connected_.join(component_roots_[candidate.a], component_roots_[candidate.b]))
+            joints.push_back(std::move(candidate.path));
     }
 }
 
@@ -282,11 +269,11 @@ std::vector<SurfaceCurve> FrameJoints::joints(std::span<const CellFaces::Face> f
                                               const Stretch& stretch) {
     points_.clear();
     places_.clear();
-    parents_.clear();
+    connected_ = DisjointSets();
     std::vector<SurfaceCurve> joints;
     for (const SurfaceCurve& curve : curves) {
-        const std::size_t first = point(curve.front());
-        for (const dvec3& p : curve) unite(first, point(p));
+        const std::uint32_t first = point(curve.front());
+        for (const dvec3& p : curve) connected_.join(first, point(p));
     }
     if (edges_hold_) add_edges(faces, tracer);
     collect_components();

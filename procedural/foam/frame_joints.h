@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/disjoint_sets.h"
 #include "procedural/foam/cell_faces.h"
 #include "procedural/foam/surface_curves.h"
 
@@ -39,9 +40,7 @@ class FrameJoints {
     };
     struct Lattice;
 
-    std::size_t point(dvec3 p);
-    std::size_t root(std::size_t i);
-    void unite(std::size_t a, std::size_t b);
+    std::uint32_t point(dvec3 p);
     void add_edges(std::span<const CellFaces::Face> faces, SurfaceTracer& tracer);
     void collect_components();
     void join(std::vector<Candidate>& candidates, std::vector<SurfaceCurve>& joints);
@@ -53,11 +52,11 @@ class FrameJoints {
 
     NodeRadius radius_;
     bool edges_hold_;
-    std::map<dvec3, std::size_t, PlaceOrder> points_;
+    std::map<dvec3, std::uint32_t, PlaceOrder> points_;
     std::vector<dvec3> places_;
-    std::vector<std::size_t> parents_;
+    DisjointSets connected_;  // of places_
     std::vector<std::vector<dvec3>> components_;
-    std::vector<std::size_t> component_roots_;
+    std::vector<std::uint32_t> component_roots_;
 };
 
 }  // namespace lamella
