@@ -65,13 +65,16 @@ TEST_CASE("names are identifiers of their own") {
         CHECK(mentions(complaint(sphere + grading(bad, "x")),
                        "test.toml:4: grading.name: \"" + bad + "\" is not a valid name"));
     }
-    CHECK(mentions(complaint(sphere + grading("z", "x")), "`z` is a coordinate in formulas"));
+    CHECK(mentions(complaint(sphere + grading("z", "x")),
+                   "`z` is reserved: it means a coordinate in formulas"));
     CHECK(mentions(complaint(sphere + grading("d", "x")),
                    "`d` is reserved: it means the depth below the surface in formulas"));
     CHECK(mentions(complaint(sphere + grading("cell", "x")),
                    "`cell` is reserved: it means the size of the foam's cell"));
-    CHECK(mentions(complaint(sphere + grading("clamp", "x")), "`clamp` is a function in formulas"));
-    CHECK(mentions(complaint(sphere + grading("pi", "x")), "`pi` is a constant in formulas"));
+    CHECK(mentions(complaint(sphere + grading("clamp", "x")),
+                   "`clamp` is reserved: it means a function in formulas"));
+    CHECK(mentions(complaint(sphere + grading("pi", "x")),
+                   "`pi` is reserved: it means a constant in formulas"));
     CHECK(
         mentions(complaint(sphere + grading("a", "x") + grading("a", "y")),
                  "test.toml:8: grading.name: `a` is the name of another [[grading]] (test.toml:4: grading)"));

@@ -324,7 +324,7 @@ TEST_CASE("contradictions are refused") {
                    "test.toml:6: foam.beam: 0.5 mm fills cells of 1 mm"));
     CHECK(mentions(complaint("[part]\nshape = \"torus\"\nradius = 2\ntube = 2\n"), "closes the hole"));
     CHECK(mentions(complaint("[part]\nshape = \"capsule\"\nradius = 2\nheight = 3\n"),
-                   "test.toml:4: part.height: 3 mm is less"));
+                   "test.toml:4: part.height: 3 mm is too short"));
     CHECK(mentions(complaint(sphere + "name = \"../up\"\n"), "test.toml:4: part.name"));
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("shards that do not fit are refused with what is wrong", "[shard]") {
     CHECK_THAT(told(a + " " + b, "--beam 0.31"), Catch::Contains("is of another job"));
     CHECK_THAT(told(a + " " + b, "--printer generic-8k"), Catch::Contains("is of another job"));
     CHECK_THAT(told(a + " " + b, "-o " + folder / "x.cli"), Catch::Contains("other outputs or printer"));
-    CHECK_THAT(told(a + " " + b, "--layers 0:3"), Catch::Contains("all layers are joined"));
+    CHECK_THAT(told(a + " " + b, "--layers 0:3"), Catch::Contains("join always uses all layers"));
     CHECK_THAT(told(folder / "none"), Catch::Contains("cannot be opened"));
     write(folder / "text", "solid ascii\n");
     CHECK_THAT(told(folder / "text"), Catch::Contains("is no shard"));

@@ -94,7 +94,8 @@ TEST_CASE("a recipe cannot ask for supports cut out of sheets") {
     const std::string supports = "[support]\nkind = \"bridges\"\n[printer]\nprofile = \"svg\"\n";
     CHECK(complaint(supports).empty());
     CHECK_THAT(complaint(supports + "kerf = 0.1\n"),
-               Catch::Contains("support.kind") && Catch::Contains("not cut"));
+               Catch::Contains("support.kind") &&
+                   Catch::Contains("a printer that cuts sheets cannot make supports"));
 }
 
 }  // namespace place_dowels_test
