@@ -46,3 +46,20 @@ install(FILES ${PROJECT_BINARY_DIR}/lamellaConfig.cmake ${PROJECT_BINARY_DIR}/la
               cmake/Dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lamella)
 install(TARGETS lamella_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# Completion of shells and manual pages, which the command writes when it is installed. One that was built for another
+# machine cannot be run here.
+if(NOT CMAKE_CROSSCOMPILING)
+    set(made_share ${PROJECT_BINARY_DIR}/share)
+    install(CODE "
+        file(MAKE_DIRECTORY \"${made_share}/man1\")
+        execute_process(COMMAND \"$<TARGET_FILE:lamella_command>\" completion bash
+                        OUTPUT_FILE \"${made_share}/lamella\" COMMAND_ERROR_IS_FATAL ANY)
+        execute_process(COMMAND \"$<TARGET_FILE:lamella_command>\" completion zsh
+                        OUTPUT_FILE \"${made_share}/_lamella\" COMMAND_ERROR_IS_FATAL ANY)
+        execute_process(COMMAND \"$<TARGET_FILE:lamella_command>\" man -o \"${made_share}/man1\"
+                        COMMAND_ERROR_IS_FATAL ANY)")
+    install(FILES ${made_share}/lamella DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${made_share}/_lamella DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(DIRECTORY ${made_share}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} FILES_MATCHING PATTERN "*.1")
+endif()

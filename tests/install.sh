@@ -65,3 +65,6 @@ tail -n 1 "$scratch/box.areas" |
 "$scratch/prefix/bin/lamella" --version
 # Needs the module for images, which must be found from where the program was installed to.
 env -u LD_LIBRARY_PATH "$scratch/prefix/bin/lamella" preview --shape sphere --shape-radius 5 --size 64 -q -o "$scratch/ball.png"
+
+echo "install: completion of shells, and manual pages"
+bash tests/completion.sh "$scratch/prefix"

@@ -72,6 +72,13 @@ std::string without_values(std::string text) {
 
 }  // namespace
 
+std::string exit_codes_line() {
+    std::string line;
+    for (const ExitCode& code : exit_codes)
+        line += fmt::format("{}{} {}", line.empty() ? "Exit codes: " : ", ", code.code, code.meaning);
+    return line + ".";
+}
+
 std::string help_text(CLI::App& command, HelpExtent extent) {
     const bool is_root = command.get_parent() == nullptr;
     if (extent == HelpExtent::common) {

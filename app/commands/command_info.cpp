@@ -321,8 +321,8 @@ void add_info_command(CLI::App& root) {
                              "finished job (SL1, GOO, NanoDLP, Ember, folder of masks) holds");
     options->recipe.add_to(command);
     command.get_option("INPUT")->description(
-        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (SL1, GOO, NanoDLP, Ember, folder of "
-        "masks with a job.json)");
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (.sl1, .sl1s, .goo, .nanodlp, "
+        ".tar.gz, .tgz, or a folder of masks with a job.json)");
     command.add_flag("--json", options->json, "As JSON");
     command.add_flag("--islands", options->islands, "Survey all layers for what floats free of the part");
     command.add_option("--threads", options->threads, "Threads the memory is reckoned for; 0: one a core")

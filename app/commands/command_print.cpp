@@ -211,6 +211,8 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
     CLI::App& command =
         *root.add_subcommand("print", "Compute layers and print them at the same time, over a serial line");
     options->recipe.add_to(command);
+    command.get_option("INPUT")->description(
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or ready G-code (.gcode, .gco, .g, .nc, .ngc)");
     add_link_options(command, *options);
     add_job_options(command, *options);
     command.add_flag("--resume", options->resume, "Go on with a print that was stopped");

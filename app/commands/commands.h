@@ -26,5 +26,7 @@ void add_homogenize_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_materials_command(CLI::App& root);
 void add_keys_command(CLI::App& root);
+void add_completion_command(CLI::App& root);
+void add_man_command(CLI::App& root);
 
 }  // namespace lamella

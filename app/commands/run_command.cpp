@@ -59,9 +59,8 @@ int run_command(const std::vector<std::string>& arguments) {
             "  lamella slice insole.toml -o insole/\n"
             "  lamella slice model.stl --cell 3 --beam 0.5 --skin 0.8 --printer png -o out/\n"
             "  lamella slice --help      the options of one command; --help-all: with all keys of a recipe\n"
-            "  lamella keys foam         the keys of one section of a recipe; lamella keys: of all\n"
-            "Exit codes: 0 done, 1 a constraint is violated, 2 bad input, 3 a fault while running, "
-            "130 interrupted.");
+            "  lamella keys foam         the keys of one section of a recipe; lamella keys: of all\n" +
+                exit_codes_line());
         add_slice_command(root, arguments);
         add_join_command(root, arguments);
         add_print_command(root, arguments);
@@ -78,6 +77,8 @@ int run_command(const std::vector<std::string>& arguments) {
         add_printers_command(root);
         add_materials_command(root);
         add_keys_command(root);
+        add_completion_command(root);
+        add_man_command(root);
         return parse_and_run(root, arguments);
     } catch (...) {
         return report_exception();

@@ -26,7 +26,7 @@ void add_part(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.mesh; }>(
         "part", "mesh", "--mesh",
         {.fallback = "a mesh, a shape or a field must be given",
-         .help = "Mesh file (STL, OBJ, PLY, 3MF); in a recipe, relative to the recipe's folder.",
+         .help = "Mesh file (.stl, .obj, .ply, .3mf); in a recipe, relative to the recipe's folder.",
          .is_path = true}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.field; }>(
         "part", "field", "--field",
