@@ -110,12 +110,13 @@ press "lamella print --dry" "--dry-run"
 
 # Pages have no date: the same program makes the same page.
 pages=("$prefix"/share/man/man1/lamella*.1)
-[ ${#pages[@]} -eq $(($("$prefix/bin/lamella" man | grep -c '^.fBlamella.*(1)$') + 1)) ] || fail "a command has no page"
+commands=$("$prefix/bin/lamella" man | sed -n '/^\.SH COMMANDS/,/^\.SH OPTIONS/p' | grep -c '^.TP')
+[ ${#pages[@]} -eq $((commands + 1)) ] || fail "$commands commands and the program have ${#pages[@]} pages"
 if mandoc -T lint -W warning "${pages[@]}" | grep -v 'missing date, using ""'; then
     fail "mandoc warns of the pages"
 fi
+page=$(mandoc -T ascii "$prefix/share/man/man1/lamella-slice.1" | col -b)
 for words in "--no-drop-islands" "Recipe [foam]" "lamella slice insole.toml -o insole/"; do
-    mandoc -T ascii "$prefix/share/man/man1/lamella-slice.1" | col -b | grep -qF -e "$words" ||
-        fail "the page of slice does not show $words"
+    grep -qF -e "$words" <<<"$page" || fail "the page of slice does not show $words"
 done
 echo "completion: bash and zsh complete, ${#pages[@]} manual pages"

@@ -51,7 +51,7 @@ std::string in_roff(const std::string& name) {
 }
 
 bool has_word(std::string text, const std::string& word) {
-    for (char& c : text) c = std::string_view("'\"{},=[()").find(c) == std::string_view::npos ? c : ' ';
+    for (char& c : text) c = std::string_view("'\"{},=[()*").find(c) == std::string_view::npos ? c : ' ';
     std::istringstream words(text);
     for (std::string each; words >> each;) {
         if (each == word) return true;
