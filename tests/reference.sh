@@ -8,7 +8,7 @@ made=$(mktemp -d)
 trap 'rm -rf "$made"' EXIT
 "$lamella" keys --markdown >"$made/recipe.md"
 {
-    printf '# Commands\n\nMade by `tests/reference.sh --update` from the help of each command. Options that stand for\n'
+    printf '# Commands\n\nMade by `tests/reference.sh LAMELLA --update` from the help of each command. Options that stand for\n'
     printf 'keys of a recipe are in [recipe.md](recipe.md).\n'
     for command in $("$lamella" --help | sed -n '/^Subcommands:/,$p' | awk '/^  [a-z]/ && !/lamella/ { print $1 }'); do
         printf '\n## lamella %s\n\n```text\n' "$command"

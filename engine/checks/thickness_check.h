@@ -10,8 +10,9 @@
 
 namespace lamella {
 
-/// The number of row pitches in the least thickness that a check looks for. An odd number finds most: with
-/// five, every wall of up to four pitches, in any direction.
+/// The number of row pitches in the least thickness that a check looks for. An odd number finds most: a ball
+/// of an even number of pitches between rows just misses the next row. With five, every wall of up to 3.4
+/// pitches is found in any direction, and of up to four along the rows.
 inline constexpr double pitches_in_a_thickness = 5;
 
 /// Finds walls thinner, or gaps narrower, than a ball. A limit within the layer is checked layer by layer, in

@@ -17,10 +17,10 @@ struct SampledBall {
 };
 
 /// Returns the ball for a thickness (mm) within layers and a thickness along z (mm). Sampled by rows, a wall
-/// may seem thinner by up to the distance of two rows, and sampled by layers by up to a layer height: the
+/// may seem thinner by up to one row pitch, and sampled by layers by up to a layer height: the
 /// ball's diameters are reduced by these. If no more than a layer's height is asked for along z, the ball
 /// becomes a disc within its layer (infinite layer pitch). Throws InputError when `thickness` does not exceed
-/// the distance of two rows.
+/// the row pitch.
 SampledBall sampled_ball(const RowBand& band, double layer_height, double thickness, double thickness_up);
 
 }  // namespace lamella

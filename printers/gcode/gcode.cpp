@@ -388,7 +388,7 @@ class Gcode : public Backend {
     const FilamentProfile& filament_;
     const GcodeProfile& gcode_;
     std::unique_ptr<GcodeOutput> output_;
-    std::optional<NeighbourLayers> neighbours_;  // set by begin
+    std::optional<NeighbourLayers> neighbours_;  // set by open
     double height_ = 0;
     int layer_count_ = 0;
     LayerRange range_;

@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace lamella {
-namespace {}  // namespace
 
 std::shared_ptr<NeighbourLayers::Entry> NeighbourLayers::entry(int index) const {
     std::shared_ptr<Entry> entry;

@@ -219,7 +219,7 @@ TEST_CASE("a fin thinner than a bead is too thin, and one as thick is not, which
     CHECK(fault.at.x < 39);
     CHECK(fault.first_layer == 0);
     CHECK(fault.end_layer == 30);
-    // Of the seven millimetres that stand out, the slack of half a radius and a pitch is not counted.
+    // Of the seven millimetres that stand out, the slack is not counted.
     CHECK(fault.size == Approx(0.2 * 6 * (7 - 0.4)).epsilon(0.25));
     check_others_pass(check(with(brick(), fin(0.2, 0)), filament()), {Check::thickness});
     for (const double turn : {-60.0, -45.0, -13.0, 0.0, 5.0, 30.0, 45.0, 71.0}) {

@@ -21,7 +21,7 @@ std::shared_ptr<const SeedTree> uniform(std::uint64_t seed) {
     return std::make_shared<const SeedTree>(std::make_shared<const ConstantDensity>(1.0), 4.0, seed);
 }
 
-bool same_place(const Beam& beam, const Segment& s) {
+bool same_place(const Beam& beam, const VoronoiEdge& s) {
     const auto near = [](dvec3 p, dvec3 q) { return glm::distance(p, q) < 1e-9; };
     return (near(beam.a, s.first) && near(beam.b, s.second)) ||
            (near(beam.a, s.second) && near(beam.b, s.first));
@@ -46,13 +46,13 @@ TEST_CASE("the beams that touch a box are those found by brute force", "[cell_un
         // ends them within thrice.
         const Box core = grown(box, reach + radius);
         const auto seeds = tree->seeds_in(grown(box, 3 * reach + radius));
-        std::vector<Segment> expected;
-        for (const Segment& s : brute_voronoi_edges(seeds, core)) {
+        std::vector<VoronoiEdge> expected;
+        for (const VoronoiEdge& s : brute_voronoi_edges(seeds, core)) {
             if (touches({s.first, radius, s.second, radius}, box)) expected.push_back(s);
         }
         const auto beams = units.touching(box);
         CHECK(beams.size() == expected.size());
-        for (const Segment& s : expected) {
+        for (const VoronoiEdge& s : expected) {
             CHECK(std::count_if(beams.begin(), beams.end(),
                                 [&](const Beam& b) { return same_place(b, s); }) == 1);
         }

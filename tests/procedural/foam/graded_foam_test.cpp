@@ -73,8 +73,8 @@ struct Gaps {
 
 /// The edges of the inner seeds, clipped by seeds within a margin of the box, which grows until no seed
 /// beyond it can matter: what ends an edge lies no farther from its end than the edge's own seeds.
-std::vector<Segment> edges_of(const VoronoiFoam& foam, const std::vector<dvec3>& inner, const Box& box,
-                              double margin) {
+std::vector<VoronoiEdge> edges_of(const VoronoiFoam& foam, const std::vector<dvec3>& inner, const Box& box,
+                                  double margin) {
     for (;;) {
         const auto edges = brute_voronoi_edges(foam.seeds_in(grown(box, margin)), inner, box.center());
         double needed = 0;
@@ -90,7 +90,7 @@ std::vector<Segment> edges_of(const VoronoiFoam& foam, const std::vector<dvec3>&
     }
 }
 
-bool same_place(const Beam& beam, const Segment& s) {
+bool same_place(const Beam& beam, const VoronoiEdge& s) {
     const auto near = [](dvec3 p, dvec3 q) { return glm::distance(p, q) < 1e-7; };
     return (near(beam.a, s.first) && near(beam.b, s.second)) ||
            (near(beam.a, s.second) && near(beam.b, s.first));
@@ -122,13 +122,13 @@ TEST_CASE("in 50 graded boxes the beams are those found by brute force", "[grade
             }
             if (inner.size() <= 60) break;
         }
-        std::vector<Segment> expected;
-        for (const Segment& s : edges_of(foam, inner, box, 2 * reach)) {
+        std::vector<VoronoiEdge> expected;
+        for (const VoronoiEdge& s : edges_of(foam, inner, box, 2 * reach)) {
             if (touches(Beam{s.first, radius, s.second, radius}, box)) expected.push_back(s);
         }
         const auto beams = foam.beams_touching(box);
         CHECK(beams.size() == expected.size());
-        for (const Segment& s : expected) {
+        for (const VoronoiEdge& s : expected) {
             CHECK(std::count_if(beams.begin(), beams.end(),
                                 [&](const Beam& b) { return same_place(b, s); }) == 1);
         }

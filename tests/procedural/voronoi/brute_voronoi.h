@@ -10,18 +10,18 @@
 
 namespace lamella {
 
-using Segment = std::pair<dvec3, dvec3>;
+using VoronoiEdge = std::pair<dvec3, dvec3>;
 
 /// Edges of positive length whose three seeds are `inner`, clipped by all of `seeds`. Unbounded ones are left
 /// out.
-inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds,
-                                                const std::vector<dvec3>& inner, dvec3 middle) {
+inline std::vector<VoronoiEdge> brute_voronoi_edges(const std::vector<Seed>& seeds,
+                                                    const std::vector<dvec3>& inner, dvec3 middle) {
     std::vector<dvec3> all;
     for (const Seed& seed : seeds) all.push_back(seed.position);
     // The order does not change the result; seeds near the middle end most intervals soonest.
     std::sort(all.begin(), all.end(),
               [&](dvec3 a, dvec3 b) { return glm::distance(a, middle) < glm::distance(b, middle); });
-    std::vector<Segment> edges;
+    std::vector<VoronoiEdge> edges;
     for (std::size_t i = 0; i < inner.size(); ++i) {
         for (std::size_t j = i + 1; j < inner.size(); ++j) {
             for (std::size_t k = j + 1; k < inner.size(); ++k) {
@@ -55,7 +55,7 @@ inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds,
 }
 
 /// The same for the seeds in a box.
-inline std::vector<Segment> brute_voronoi_edges(const std::vector<Seed>& seeds, const Box& core) {
+inline std::vector<VoronoiEdge> brute_voronoi_edges(const std::vector<Seed>& seeds, const Box& core) {
     std::vector<dvec3> inner;
     for (const Seed& seed : seeds) {
         if (core.contains(seed.position)) inner.push_back(seed.position);
