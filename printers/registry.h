@@ -24,7 +24,8 @@ enum class OutputKind : unsigned char { file, folder, file_or_folder };
 /// The content of a written layer: pixels of a display, those of a grid about the part, contours or beads.
 enum class LayerContent : unsigned char { pixels, voxels, contours, beads };
 
-/// A back-end: everything about it that other code needs to know. This row is the only place that names it.
+/// A back-end: everything about it that other code needs to know. No other code than its reader
+/// asks for it by name.
 struct BackendInfo {
     const char* name;         ///< PrinterProfile::backend
     const char* description;  ///< one line
