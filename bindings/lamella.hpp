@@ -1,5 +1,5 @@
-// Everything of Lamella that C++ programs build on. Installed as <lamella/lamella.hpp>; each header below can be
-// included alone, as <lamella/engine/field/field.h>.
+// Everything of Lamella that C++ programs build on. Installed as <lamella/lamella.hpp>; each header below can
+// be included alone, as <lamella/engine/field/field.h>.
 //
 //     using namespace lamella;
 //     Job job;

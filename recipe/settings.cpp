@@ -396,12 +396,12 @@ std::string settings_markdown() {
     for (const Section& section : sections()) {
         text += fmt::format(
             "\n"
-        "## {}\n"
-        "\n"
-        "{}\n"
-        "\n"
-        "| key | what it is | accepts | default | flag |\n"
-        "|---|---|---|---|---|\n",
+            "## {}\n"
+            "\n"
+            "{}\n"
+            "\n"
+            "| key | what it is | accepts | default | flag |\n"
+            "|---|---|---|---|---|\n",
             section.title(), section.help);
         for (const Setting& s : settings()) {
             if (s.section != section.name) continue;

@@ -66,8 +66,8 @@ BuiltJob build_job(const Recipe& recipe) {
     built.regions = build_regions(recipe, job.bounds, gradings);
     if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
     set_layers(recipe, job);
-    job.part =
-        with_regions(fill_body(recipe, built, gradings), built.body, recipe.foam || recipe.skin, built.regions);
+    job.part = with_regions(fill_body(recipe, built, gradings), built.body, recipe.foam || recipe.skin,
+                            built.regions);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});
