@@ -11,7 +11,7 @@ enum class SkinSide : std::uint8_t { inside, outside, centred };
 
 /// Returns a field that, inside the body, is solid exactly where the surface is at most `thickness` mm away
 /// (true 3D distance). Outside the body it may be solid too: intersect it with the body. Throws InputError
-/// when the body has no closed-form offset.
+/// when the body has neither a closed form of it (Field::shell) nor an exact metric.
 FieldPtr make_shell(const FieldPtr& body, double thickness);
 
 /// Returns a shell whose thickness varies, mm, clamped to limits (0 <= lo <= hi, hi > 0; where the grading is
@@ -22,8 +22,8 @@ FieldPtr make_shell(const FieldPtr& body, double thickness);
 FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval thickness_limits);
 
 /// Returns the outer counterpart: a field that, outside the body, is solid exactly where the surface is at
-/// most `thickness` mm away. Inside the body it may be solid too. Throws InputError when the body has no
-/// closed-form offset.
+/// most `thickness` mm away. Inside the body it may be solid too. Throws InputError when the body has
+/// neither a closed-form offset nor an exact metric.
 FieldPtr make_outer_shell(const FieldPtr& body, double thickness);
 
 /// Returns the outer counterpart with a varying thickness, read and limited as in make_shell, with the same

@@ -1,4 +1,4 @@
-// Patterns of the skin, a line each, and holes as cylinders.
+// Windows by pattern, one row each, and holes as cylinders.
 #include "recipe/build/build_skin.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// From the recipe's [skin] and [[hole]] to a shell with windows and holes.
+// Windows and holes of a skin, from the recipe's [skin] and [[hole]]. fill_body.h makes the skin itself.
 #pragma once
 
 #include <optional>
