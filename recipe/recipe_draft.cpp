@@ -331,10 +331,12 @@ Recipe RecipeDraft::assemble() {
     for (std::size_t i = 0; i < recipe.regions.size(); ++i)
         recipe.regions[i].where = where_begins("region", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
-    if (recipe.skin && recipe.skin->thickness == GradedNumber{}) recipe.skin.reset();
+    // A skin of no thickness is none, unless a region gives it one: its other keys hold there.
     const auto makes_skin = [](const RegionRecipe& region) { return region.make == RegionMake::skin; };
-    if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin) && !recipe.skin) {
-        recipe.skin.emplace();
+    if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin)) {
+        if (!recipe.skin) recipe.skin.emplace();
+    } else if (recipe.skin && recipe.skin->thickness == GradedNumber{}) {
+        recipe.skin.reset();
     }
     PartRecipe& part = recipe.part;
     if (part.mesh.empty() && part.shape == Shape::none && part.field.empty() && recipe.fields.size() == 1) {

@@ -55,6 +55,15 @@ TEST_CASE("keys that belong to another kind of region are refused by name") {
                    "region.thickness: missing, required by make skin"));
 }
 
+TEST_CASE("the keys of a skin without thickness hold where a region gives it one") {
+    const std::string skin = "[skin]\nthickness = 0\nside = \"outside\"\nthickness_max = 0.5\n";
+    const Recipe recipe = recipe_of(block + foam + skin + region("heel", "\"skin\"\nthickness = 2"));
+    REQUIRE(recipe.skin);
+    CHECK(recipe.skin->side == SkinSide::outside);
+    CHECK(recipe.skin->thickness_max == 0.5);
+    CHECK(!recipe_of(block + foam + skin).skin);
+}
+
 TEST_CASE("a region of foam needs a foam, a number, and one that this foam has") {
     CHECK(mentions(complaint(region("heel", "\"foam\"\ncell = 2")),
                    "there is none; accepted: a section [foam]"));

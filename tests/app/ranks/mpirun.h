@@ -41,14 +41,16 @@ inline std::optional<int> wait_for_launcher(pid_t launcher) {
 
 /// Runs mpirun with these arguments (a shell's words). The output goes to the folder's files `out` and `err`.
 /// A launcher that hangs after its processes have ended is started again: that of OpenMPI 4.1 with PMIx 4.2
-/// does so once in some thousand runs (a deadlock in PMIx_server_finalize).
+/// does so once in some thousand runs (a deadlock in PMIx_server_finalize). So is one that dies of a signal
+/// of its own: how its processes ended it tells by an exit code.
 inline Outcome mpirun(const std::string& arguments, const Folder& folder) {
     const std::string line =
         "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " LAMELLA_MPIRUN
         " --oversubscribe " +
         arguments + " >" + folder / "out" + " 2>" + folder / "err" + " </dev/null";
     std::optional<int> status;
-    for (int attempt = 0; attempt < 3 && !status; ++attempt) status = wait_for_launcher(start_shell(line));
+    for (int attempt = 0; attempt < 3 && !(status && WIFEXITED(*status)); ++attempt)
+        status = wait_for_launcher(start_shell(line));
     const bool exited = status && WIFEXITED(*status);
     return {exited ? WEXITSTATUS(*status) : -1, contents(folder / "out"), contents(folder / "err")};
 }
