@@ -83,7 +83,7 @@ std::string bash_value_branches(const ProgramReference& reference) {
             if (first != "kind=free") add(first, "*:" + name);
             continue;
         }
-        for (const auto& [command, value] : commands) add(value, command + ":" + name);
+        for (const auto& [command, value] : commands) add(value, fmt::format("{}:{}", command, name));
     }
     std::string text;
     for (const auto& [value, patterns] : values)

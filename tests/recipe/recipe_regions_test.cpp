@@ -57,7 +57,7 @@ TEST_CASE("keys that belong to another kind of region are refused by name") {
 
 TEST_CASE("the keys of a skin without thickness hold where a region gives it one") {
     const std::string skin = "[skin]\nthickness = 0\nside = \"outside\"\nthickness_max = 0.5\n";
-    const Recipe recipe = recipe_of(block + foam + skin + region("heel", "\"skin\"\nthickness = 2"));
+    const Recipe recipe = recipe_of(block + foam + skin + region("heel", "\"skin\"\nthickness = 0.4"));
     REQUIRE(recipe.skin);
     CHECK(recipe.skin->side == SkinSide::outside);
     CHECK(recipe.skin->thickness_max == 0.5);
