@@ -91,8 +91,8 @@ class CoverageRow {
                 do {
                     std::uint32_t count = 0;
                     for (std::uint32_t i = 0; i < at_once; ++i) {
-                        constexpr std::uint64_t any = std::uint64_t{1}
-                                                      << 63;  // placeholder when no bit is left
+                        // Once no bit is left, a top bit that count leaves out keeps the shift in range.
+                        constexpr std::uint64_t any = std::uint64_t{1} << 63;
                         next[i] = first + static_cast<std::uint32_t>(std::countr_zero(bits | any));
                         count += bits != 0;
                         bits &= bits - 1;
