@@ -1,6 +1,8 @@
 // The table of checks. A new one is a file of its own and its rows here.
 #include "engine/checks/check_table.h"
 
+#include <array>
+
 #include "engine/checks/layer_checks.h"
 #include "engine/checks/neck_check.h"
 #include "engine/checks/overhang_check.h"
@@ -52,12 +54,6 @@ std::unique_ptr<LayerCheck> make_gap_check(const CheckContext& context) {
     return std::make_unique<ThicknessCheck>(context, FeatureKind::gap);
 }
 
-double reach_of_thickness(const LayerCheck& check) {
-    return static_cast<const ThicknessCheck&>(check).cell_reach();
-}
-
-double no_reach(const LayerCheck& /*check*/) { return 0; }
-
 constexpr std::array sheets{Check::sheets}, empty_layers{Check::empty_layers},
     build_volume{Check::build_volume}, walls{Check::thickness}, gaps{Check::gaps}, necks{Check::necks},
     pieces{Check::connectivity};
@@ -69,14 +65,13 @@ constexpr std::array passes{
     CheckPass{.finds = empty_layers, .make = make<EmptyCheck>},
     CheckPass{.finds = build_volume, .make = make<ReachCheck>},
     CheckPass{.finds = voids, .make = make<VoidCheck>},
-    CheckPass{.finds = walls, .make = make_wall_check, .cell_reach = reach_of_thickness},
-    CheckPass{.finds = gaps, .make = make_gap_check, .cell_reach = reach_of_thickness},
+    CheckPass{.finds = walls, .make = make_wall_check},
+    CheckPass{.finds = gaps, .make = make_gap_check},
     CheckPass{.finds = necks, .make = make<NeckCheck>},
     CheckPass{.finds = overhangs,
               .make = make<OverhangCheck>,
               .reads_part_labels = true,
-              .reads_printed_labels = true,
-              .cell_reach = no_reach},
+              .reads_printed_labels = true},
     CheckPass{.finds = pieces, .make = make<PieceCheck>, .reads_part_labels = true},
 };
 

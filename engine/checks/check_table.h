@@ -1,7 +1,6 @@
 // The table of checks: one row a kind of fault, and one a class that finds some.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 
@@ -31,14 +30,12 @@ struct CheckContext {
     std::size_t max_faults = 10;  ///< of each kind that are kept
 };
 
-/// A class that finds faults of some kinds, and the parts of a LayerSample that it reads besides the rows.
+/// A class that finds faults of some kinds, and the labels of a LayerSample that it reads.
 struct CheckPass {
     std::span<const Check> finds;
     std::unique_ptr<LayerCheck> (*make)(const CheckContext& context);
     bool reads_part_labels = false;
     bool reads_printed_labels = false;
-    /// Returns how far it dilates the layer's cells, run units; null: it reads no cells.
-    double (*cell_reach)(const LayerCheck& check) = nullptr;
 };
 
 /// A pass of the table, and the check that it made.

@@ -57,6 +57,8 @@ struct PreparedRows {
 class LayerCheck {
   public:
     virtual ~LayerCheck() = default;
+    /// Returns how far the check dilates the cells of a layer, run units; empty: it reads no cells.
+    virtual std::optional<double> cell_reach() const { return {}; }
     /// Computes rows that one layer alone decides. Thread-safe, pure, called for several layers at once.
     virtual PreparedRows prepare(const LayerSample& /*layer*/) const { return {}; }
     /// Whether rows that another process prepared belong to this check, for layers of so many lines.

@@ -23,6 +23,7 @@ class OverhangCheck : public LayerCheck {
   public:
     explicit OverhangCheck(const CheckContext& context);
 
+    std::optional<double> cell_reach() const override { return 0; }
     /// Reads the labels and cells of the layer, and moves its rows and cells away.
     void add(LayerSample& layer, PreparedRows prepared) override;
     void finish() override;

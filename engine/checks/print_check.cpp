@@ -28,6 +28,11 @@ bool are_labels(const LabelledLayer& labels, const RunRows& rows, bool wanted) {
     return labels.starts.size() == rows.lines() + 1 && labels.owners.size() == rows.runs().size();
 }
 
+/// Whether a check reads labels of some kind.
+bool any_reads(const std::vector<ActiveCheck>& checks, bool CheckPass::*labels) {
+    return std::ranges::any_of(checks, [&](const ActiveCheck& active) { return active.pass->*labels; });
+}
+
 /// What the checks need of one layer.
 struct CheckedLayer : LayerProduct {
     CheckedLayer(const std::vector<ActiveCheck>& given, std::size_t line_count)
@@ -47,18 +52,16 @@ struct CheckedLayer : LayerProduct {
     std::vector<PreparedRows> prepared;  ///< by check
 
   private:
-    bool reads(bool CheckPass::*labels) const {
-        return std::ranges::any_of(checks, [&](const ActiveCheck& active) { return active.pass->*labels; });
-    }
     /// Whether the unpacked rows can be compared with other layers.
     bool fits() const {
         const LayerFootprint& rows = layer.rows;
         if (rows.part.lines() != lines || rows.supports.lines() != lines || rows.printed().lines() != lines)
             return false;
-        if (!are_labels(layer.part, rows.part, reads(&CheckPass::reads_part_labels))) return false;
+        if (!are_labels(layer.part, rows.part, any_reads(checks, &CheckPass::reads_part_labels)))
+            return false;
         const bool has_supports = !rows.supports.runs().empty();
         if (!are_labels(layer.part_with_supports, rows.part_with_supports,
-                        has_supports && reads(&CheckPass::reads_printed_labels)))
+                        has_supports && any_reads(checks, &CheckPass::reads_printed_labels)))
             return false;
         for (std::size_t i = 0; i < checks.size(); ++i)
             if (!checks[i].check->accepts(prepared[i], lines)) return false;
@@ -110,19 +113,14 @@ struct PrintCheck::State {
           grid{rows.band(), job.z0(), job.layer_height},
           layer_count(job.layer_count) {
         const CheckContext context{grid, layer_count, given.limits, given.max_places};
-        double cell_reach = 0;
+        std::optional<double> reach;
         for (const CheckPass& pass : check_passes()) {
             const auto wants = [&](Check check) { return given.limits.wants(check); };
             if (std::ranges::none_of(pass.finds, wants)) continue;
             checks.push_back({&pass, pass.make(context)});
-            reads_part_labels |= pass.reads_part_labels;
-            reads_printed_labels |= pass.reads_printed_labels;
-            reads_cells |= pass.cell_reach != nullptr;
-            if (pass.cell_reach != nullptr)
-                cell_reach = std::max(cell_reach, pass.cell_reach(*checks.back().check));
+            reach = std::max(reach, checks.back().check->cell_reach());  // empty is least
         }
-        cells.emplace(Run{0, grid.band.hi * run_unit}, static_cast<std::size_t>(grid.band.lines()),
-                      cell_reach, run_unit);
+        if (reach) cells.emplace(Run{0, grid.band.hi * run_unit}, lines(), *reach, run_unit);
     }
 
     std::size_t lines() const { return static_cast<std::size_t>(grid.band.lines()); }
@@ -134,8 +132,7 @@ struct PrintCheck::State {
     CheckGrid grid;
     int layer_count;
     std::vector<ActiveCheck> checks;
-    bool reads_part_labels = false, reads_printed_labels = false, reads_cells = false;
-    std::optional<CellLattice> cells;
+    std::optional<CellLattice> cells;  // where a check reads cells
     CheckReport report;
 };
 
@@ -180,15 +177,16 @@ std::unique_ptr<LayerProduct> PrintCheck::render(const Layer& layer) const {
     sample.rows.part = state.rows.part_rows(layer, scratch);
     const RunRows& part = sample.rows.part;
     product->area = state.grid.area(part.total_length());
-    if (state.reads_part_labels) sample.part = label_layer(part, layer.index(), Growth{});
-    if (state.reads_cells) sample.cells.emplace(part, *state.cells);
+    if (any_reads(state.checks, &CheckPass::reads_part_labels))
+        sample.part = label_layer(part, layer.index(), Growth{});
+    if (state.cells) sample.cells.emplace(part, *state.cells);
     for (const ActiveCheck& active : state.checks) product->prepared.push_back(active.check->prepare(sample));
     sample.rows.supports = state.rows.support_rows(layer, scratch);
     const RunRows& supports = sample.rows.supports;
     product->support_area = state.grid.area(supports.total_length());
     if (!supports.runs().empty()) {
         sample.rows.part_with_supports = united(part, supports);
-        if (state.reads_printed_labels)
+        if (any_reads(state.checks, &CheckPass::reads_printed_labels))
             sample.part_with_supports = label_layer(sample.rows.part_with_supports, layer.index(), Growth{});
     }
     return product;
@@ -204,7 +202,7 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     LayerSample& sample = checked.layer;
     sample.index = layer.index();
     state.report.volume += checked.area * state.grid.layer_height;
-    if (state.reads_cells && !sample.cells) sample.cells.emplace(sample.rows.part, *state.cells);
+    if (state.cells && !sample.cells) sample.cells.emplace(sample.rows.part, *state.cells);
     Scratch scratch;
     sample.rows_in = [&](const RowBand& band) { return printed_rows(layer, band, scratch); };
     for (std::size_t i = 0; i < state.checks.size(); ++i)

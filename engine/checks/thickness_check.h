@@ -24,7 +24,7 @@ class ThicknessCheck : public LayerCheck {
 
     /// Returns how far the layer's cells are dilated, run units; 0 if layers are compared with their
     /// neighbours.
-    double cell_reach() const { return neighbours_ ? 0 : reach_of_cells(measure_); }
+    std::optional<double> cell_reach() const override { return neighbours_ ? 0 : reach_of_cells(measure_); }
     /// Finds the faults of a layer that are known without its neighbours.
     PreparedRows prepare(const LayerSample& layer) const override;
     bool accepts(const PreparedRows& prepared, std::size_t lines) const override;
