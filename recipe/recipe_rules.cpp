@@ -6,7 +6,6 @@
 
 #include "printers/gcode/gcode_script.h"
 #include "printers/registry.h"
-#include "procedural/foam/nearest_foam.h"
 #include "procedural/lattice/tpms.h"
 #include "recipe/base_material.h"
 #include "recipe/build/build_foam.h"
@@ -23,23 +22,23 @@ void RecipeDraft::check_stretch(const FoamRecipe& foam) {
                fmt::format("{}: has no effect without a stretch; accepted: foam.stretch / --stretch as well",
                            where("foam", "turn")));
     }
-    if (foam.kind == "k-nearest") {
+    if (const auto& factors = builder_of(foam).traits.graded_stretch) {
         for (const GradedNumber& factor : foam.stretch) {
-            if (factor.is_formula() || nearest_factors.contains(factor.number())) continue;
-            refuse(0, fmt::format("{}: {} is too {} for kind k-nearest; accepted: {} to {}",
-                                  where("foam", "stretch"), factor.number(),
-                                  factor.number() < nearest_factors.lo ? "small" : "large",
-                                  nearest_factors.lo, nearest_factors.hi));
+            if (factor.is_formula() || factors->contains(factor.number())) continue;
+            refuse(0,
+                   fmt::format("{}: {} is too {} for kind {}; accepted: {} to {}", where("foam", "stretch"),
+                               factor.number(), factor.number() < factors->lo ? "small" : "large", foam.kind,
+                               factors->lo, factors->hi));
         }
         return;
     }
     for (const auto& [key, given] : {std::pair("stretch", stretch), std::pair("turn", constant(foam.turn))}) {
         if (given) continue;
-        refuse(
-            0,
-            fmt::format(
-                "{}: must be constant for kind {}; accepted: three numbers, or kind k-nearest with formulas",
-                where("foam", key), foam.kind));
+        refuse(0, fmt::format(
+                      "{}: must be constant for kind {}; accepted: three numbers, or kind {} with formulas",
+                      where("foam", key), foam.kind,
+                      fmt::join(foams_with([](const FoamTraits& t) { return t.graded_stretch.has_value(); }),
+                                ", ")));
     }
 }
 
@@ -82,7 +81,7 @@ void RecipeDraft::check_modulus(const Recipe& recipe) {
                                      where("foam", "law")));
     }
     const std::string member = member_of(foam);
-    const bool closed = entry("foam", "wall") && member == "beam";
+    const bool is_closed = builder_of(foam).traits.is_closed;
     const bool has_cell = entry("foam", "cell") != nullptr, has_member = entry("foam", member) != nullptr;
     if (has_cell && has_member) {
         refuse(
@@ -90,14 +89,14 @@ void RecipeDraft::check_modulus(const Recipe& recipe) {
             fmt::format(
                 "{}: conflicts with the given cells and members, which determine the modulus; accepted: {}",
                 where("foam", "modulus"),
-                foam.kind == "closed" ? "foam.modulus without foam.cell"
-                                      : "foam.modulus with foam.cell or foam." + member + ", not both"));
+                is_closed ? "foam.modulus without foam.cell"
+                          : "foam.modulus with foam.cell or foam." + member + ", not both"));
     } else if (!has_cell && !has_member) {
         refuse(0, fmt::format("{}: determines cells or members from the other one, and neither is given; "
                               "accepted: foam.{} / --{} as well{}",
                               where("foam", "modulus"), member, member,
-                              foam.kind == "closed" ? "" : ", or foam.cell / --cell"));
-    } else if (foam.kind == "closed" && (has_cell || !closed)) {
+                              is_closed ? "" : ", or foam.cell / --cell"));
+    } else if (is_closed && (has_cell || !entry("foam", "wall"))) {
         refuse(0, fmt::format("{}: determines the size of closed cells from their beams and walls; accepted: "
                               "foam.beam and foam.wall as well, and no foam.cell",
                               where("foam", "modulus")));
@@ -131,16 +130,13 @@ void RecipeDraft::check_material(const Recipe& recipe) {
 
 void RecipeDraft::check_frame(const Recipe& recipe) {
     const FrameRecipe& frame = *recipe.frame;
-    const std::vector<std::string> with_faces{"voronoi", "kelvin", "closed"};
-    const bool follows =
-        recipe.foam && std::find(with_faces.begin(), with_faces.end(), recipe.foam->kind) != with_faces.end();
-    if (!follows) {
+    if (!recipe.foam || !builder_of(*recipe.foam).traits.has_faces) {
         refuse(0,
                fmt::format(
                    "{}: a frame needs a foam whose cells have faces, and {}; accepted: foam.kind = one of {}",
                    where("frame", "beam"),
                    recipe.foam ? "kind " + recipe.foam->kind + " has none" : "there is no foam",
-                   fmt::join(with_faces, ", ")));
+                   fmt::join(foams_with(&FoamTraits::has_faces), ", ")));
     }
     check_limits("frame", "beam", frame.beam, frame.beam_min, frame.beam_max);
 }
@@ -222,8 +218,8 @@ void RecipeDraft::check_drains(const Recipe& recipe) {
                    fmt::format("{}: has no effect without drains; accepted: skin.drains / --drains as well",
                                where("skin", key)));
         }
-    } else if (recipe.foam && recipe.foam->kind == "closed" && !recipe.foam->window.is_formula() &&
-               recipe.foam->window.number() == 0) {
+    } else if (recipe.foam && builder_of(*recipe.foam).traits.is_closed &&
+               !recipe.foam->window.is_formula() && recipe.foam->window.number() == 0) {
         refuse(0, fmt::format("{}: each cell of a closed foam is a separate cavity, too many to drain; "
                               "accepted: an open-cell foam, foam.window / --window above 0, or no drains",
                               where("skin", "drains")));

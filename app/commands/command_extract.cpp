@@ -1,5 +1,6 @@
 // `lamella extract`: writes the masks of a print job as a folder of PNG files.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -118,7 +119,8 @@ void add_extract_command(CLI::App& root) {
         *root.add_subcommand("extract", "Write the masks of a print job as PNG files with a job.json");
     command
         .add_option("JOB", options->job,
-                    "SL1, GOO or NanoDLP file, Ember tar.gz, or folder of masks with a job.json")
+                    fmt::format("Finished job: {}, or a folder of masks with a job.json",
+                                fmt::join(job_endings(), ", ")))
         ->type_name("")
         ->required();
     command.add_option("-o,--output", options->output, "Folder to write")->type_name("DIR")->required();

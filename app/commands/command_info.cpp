@@ -1,5 +1,6 @@
 // `lamella info`: describes the job of a recipe before it is made, or a finished job file.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -50,6 +51,7 @@ Json graded_json(const GradedNumber& number) {
 
 Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bounds) {
     const FoamStatistics sums = foam_statistics(foam, bounds);
+    const FoamBuilder& kind = builder_of(recipe);
     Json json{{"kind", recipe.kind}};
     const auto add = [&](const char* key, const GradedNumber& number) {
         if (number.is_formula() || number.number() > 0) json[key] = graded_json(number);
@@ -58,8 +60,8 @@ Json foam_json(const FoamRecipe& recipe, const BuiltFoam& foam, const Box& bound
     add("beam_mm", recipe.beam);
     add("wall_mm", recipe.wall);
     add("modulus_MPa", recipe.modulus);
-    if (recipe.kind == "closed") json["window"] = graded_json(recipe.window);
-    if (recipe.kind == "k-nearest") json["neighbours"] = recipe.neighbours;
+    if (kind.takes("window")) json["window"] = graded_json(recipe.window);
+    if (kind.takes("neighbours")) json["neighbours"] = recipe.neighbours;
     if (foam.seeds_in) {
         json["seed"] = recipe.seed;
         json["expected_seeds_in_bounds"] = std::floor(sums.seeds + 0.5);
@@ -318,11 +320,12 @@ void add_info_command(CLI::App& root) {
     CLI::App& command =
         *root.add_subcommand("info",
                              "Describe what a recipe will make: size, layers, foam, mesh, memory; or the "
-                             "contents of a finished job (SL1, GOO, NanoDLP, Ember, folder of masks)");
+                             "contents of a finished job of masks");
     options->recipe.add_to(command);
-    command.get_option("INPUT")->description(
-        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job (.sl1, .sl1s, .goo, .nanodlp, "
-        ".tar.gz, .tgz, or a folder of masks with a job.json)");
+    command.get_option("INPUT")->description(fmt::format(
+        "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or finished job ({}, or a folder of masks with a "
+        "job.json)",
+        fmt::join(job_endings(), ", ")));
     command.add_flag("--json", options->json, "As JSON");
     command.add_flag("--islands", options->islands,
                      "Survey all layers for pieces that are not connected to the part");

@@ -2,8 +2,6 @@
 #include "app/reports/job_report.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "app/console/progress.h"
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 
 namespace lamella {
 
@@ -52,13 +51,13 @@ AreaSummary measure_areas(const JobFile& job, int threads, bool quiet) {
     constexpr int block = 32;  // layers between two drawings of the progress
     std::vector<double> areas(static_cast<std::size_t>(job.layers()));
     ProgressDisplay display(quiet, "areas: ");
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    ThreadArena arena(threads);
     for (int first = 0; first < job.layers(); first += block) {
         const int last = std::min(first + block, job.layers());
         try {
             arena.execute([&] {
-                tbb::parallel_for(first, last, [&](int layer) {
-                    areas[static_cast<std::size_t>(layer)] = lit_pixels(job.layer(layer));
+                parallel_for(last - first, [&](int i) {
+                    areas[static_cast<std::size_t>(first + i)] = lit_pixels(job.layer(first + i));
                 });
             });
         } catch (const InputError&) {

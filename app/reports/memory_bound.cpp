@@ -1,12 +1,11 @@
 // Estimates memory from foam statistics, plate area and look-ahead.
 #include "app/reports/memory_bound.h"
 
-#include <tbb/info.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "app/reports/foam_statistics.h"
+#include "engine/base/parallel.h"
 #include "printers/registry.h"
 
 namespace lamella {
@@ -41,7 +40,7 @@ std::int64_t picture_bytes(const Recipe& recipe, dvec3 size) {
 }  // namespace
 
 MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int threads) {
-    const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
+    const int workers = thread_count(threads);
     const dvec3 size = built.job.bounds.size();
     MemoryBound bound;
     bound.layers_in_flight = std::min(2 * workers, built.job.layer_count);

@@ -12,7 +12,6 @@ namespace lamella {
 class Scratch;
 class SliceContext;
 class Field;
-class Grading;
 using FieldPtr = std::shared_ptr<const Field>;
 
 /// Relation of a field's value to the distance from its surface.
@@ -82,16 +81,6 @@ class Field : public std::enable_shared_from_this<Field> {
     /// Returns the solid dilated (d > 0) or eroded (d < 0) by |d| mm in true 3D distance; null when there is
     /// no closed form.
     virtual FieldPtr offset(double d) const;
-    /// Returns a field that, inside this solid, is solid exactly within `thickness` mm of the surface
-    /// (outside this solid it may be anything); null when there is no closed form. The default subtracts the
-    /// inward offset.
-    virtual FieldPtr shell(double thickness) const;
-    /// Returns a shell whose thickness varies (mm, >= 0, with a finite range); null when there is no closed
-    /// form, as by default.
-    virtual FieldPtr graded_shell(const Grading& thickness) const;
-    /// Returns the outer counterpart: a field that, outside this solid, is solid exactly within a thickness
-    /// that varies over the surface (inside it may be anything).
-    virtual FieldPtr graded_outer_shell(const Grading& thickness) const;
     /// Returns the solid in the plane at height z, owned by the context. The default samples `value`. Call
     /// SliceContext::slice instead, which computes each pair (field, z) only once.
     virtual const SliceField& slice(SliceContext& context, double z) const;

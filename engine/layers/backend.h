@@ -35,6 +35,9 @@ struct LayerRange {
     int count() const { return last - first; }
 };
 
+/// Throws InputError unless `range` is a valid range of the job's layers, with at least one.
+void check_range(const Job& job, const LayerRange& range);
+
 /// A pass over a job's layers. `render` is called for several layers at once; the rest comes from one thread,
 /// in order: `write` for each layer by ascending index, then `finish`.
 class LayerPass {

@@ -3,7 +3,6 @@
 #include "engine/layers/layer_stream.h"
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 
 namespace lamella {
 namespace {
@@ -34,13 +34,6 @@ struct Rejoin {
         const std::lock_guard lock(in_order);
     }
 };
-
-void check_range(const Job& job, const LayerRange& range) {
-    if (range.first < 0 || range.last > job.layer_count || range.first >= range.last) {
-        throw InputError("layers " + std::to_string(range.first) + ":" + std::to_string(range.last) +
-                         " are not in this job; it has layers 0:" + std::to_string(job.layer_count));
-    }
-}
 
 /// One stream of layers: indices in order, layers rendered in parallel, products written in order. At most
 /// `look_ahead` layers are in flight and they leave in order, so layer k's slot is free again when
@@ -141,23 +134,7 @@ class LayerStream {
     bool stopped_ = false;
 };
 
-int thread_count(int asked) { return asked > 0 ? asked : oneapi::tbb::info::default_concurrency(); }
-
 }  // namespace
-
-std::string pack(LayerProduct& product) {
-    Archive parcel;
-    parcel(product.area, product.support_area);
-    product.serialize(parcel);
-    return parcel.bytes();
-}
-
-void unpack(std::string bytes, LayerProduct& product) {
-    Archive parcel(std::move(bytes));
-    parcel(product.area, product.support_area);
-    product.serialize(parcel);
-    parcel.finish();
-}
 
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options) {
     check_range(job, options.range);

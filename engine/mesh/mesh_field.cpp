@@ -11,6 +11,7 @@
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
+#include "engine/solids/shell.h"
 
 namespace lamella {
 namespace {
@@ -106,7 +107,7 @@ class GradedMeshShell : public Field {
     GrownMesh grown_;
 };
 
-class MeshField : public Field {
+class MeshField : public Field, public ShellMaker {
   public:
     explicit MeshField(MeshDataPtr data) : data_(std::move(data)) {}
 

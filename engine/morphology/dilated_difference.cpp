@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/parallel_strips.h"
+#include "engine/base/parallel.h"
 
 namespace lamella {
 namespace {
@@ -122,7 +122,7 @@ bool DilatedDifferenceStream::pop(RunRows& out) {
     };
     constexpr std::size_t lines_at_once = 64;
     std::vector<RunRows> strips((from.lines() + lines_at_once - 1) / lines_at_once);
-    for_all_strips(strips.size(), [&](std::size_t s) {
+    isolated_parallel_for(strips.size(), [&](std::size_t s) {
         const std::size_t first = s * lines_at_once;
         append_remainder(from, layer_at, ball_, first, std::min(first + lines_at_once, from.lines()),
                          strips[s]);

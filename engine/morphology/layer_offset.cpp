@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/parallel_strips.h"
+#include "engine/base/parallel.h"
 #include "engine/morphology/brute_force_dilation.h"
 #include "engine/morphology/pruned_dilation.h"
 #include "engine/runs/row_sets.h"
@@ -118,7 +118,7 @@ std::vector<RunRows> grow_blocks(const LayerStack& stack, const LayerLattice& la
     oneapi::tbb::enumerable_thread_specific<Grower> growers(lattice, std::cref(reaches), extent,
                                                             static_cast<std::int32_t>(std::min(high, count)),
                                                             max_weight_of(stack));
-    for_all_strips(strips.size(), [&](std::size_t s) {
+    isolated_parallel_for(strips.size(), [&](std::size_t s) {
         Grower& grower = growers.local();
         std::vector<RunRows>& layers = strips[s];
         layers.resize(count);
@@ -226,12 +226,12 @@ bool DilationStream::pop(RunRows& out) {
 }
 
 void DilationStream::limit_sights() {
-    for_all_strips(layers_.size() - limited_, [&](std::size_t i) {
+    isolated_parallel_for(layers_.size() - limited_, [&](std::size_t i) {
         WeightedRows& layer = layers_[limited_ + i];
         layer.begin_sights();
         sight_limits_.limit(layer);
     });
-    for_all_strips(strips_of(lattice_), [&](std::size_t s) {
+    isolated_parallel_for(strips_of(lattice_), [&](std::size_t s) {
         const std::size_t first = s * strip_lines, end = std::min(first + strip_lines, lattice_.lines);
         for (std::size_t z = std::max<std::size_t>(limited_, 1); z < layers_.size(); ++z)
             sight_limits_.limit(layers_[z - 1], layers_[z], first, end);

@@ -190,24 +190,19 @@ GradingPtr thickness_within(const FieldPtr& body, const GradingPtr& thickness, I
     return make_clamped_grading(thickness, limits);
 }
 
+const ShellMaker* shell_maker(const FieldPtr& body) { return dynamic_cast<const ShellMaker*>(body.get()); }
+
 [[noreturn]] void refuse_skin() {
     throw InputError("this shape has no exact 3D offset, so it cannot be given a skin of a stated thickness");
 }
 
 }  // namespace
 
-FieldPtr Field::graded_shell(const Grading& /*thickness*/) const { return nullptr; }
-FieldPtr Field::graded_outer_shell(const Grading& /*thickness*/) const { return nullptr; }
-
-FieldPtr Field::shell(double thickness) const {
-    FieldPtr core = offset(-thickness);
-    return core ? make_difference(shared_from_this(), std::move(core)) : nullptr;
-}
-
 FieldPtr make_shell(const FieldPtr& body, double thickness) {
     if (!(thickness > 0) || !std::isfinite(thickness))
         throw InputError("a skin needs a positive, finite thickness");
-    if (FieldPtr shell = body->shell(thickness)) return shell;
+    if (const auto* maker = shell_maker(body)) return maker->shell(thickness);
+    if (FieldPtr core = body->offset(-thickness)) return make_difference(body, std::move(core));
     if (body->metric() != Metric::exact) refuse_skin();
     return make_difference(body, make_offset(body, -thickness));
 }
@@ -217,7 +212,7 @@ FieldPtr make_shell(const FieldPtr& body, const GradingPtr& thickness, Interval 
     const Interval asked = clamped->range(body->bounds());
     if (asked.hi == 0) return make_empty();
     if (asked.width() == 0) return make_shell(body, asked.hi);
-    if (FieldPtr shell = body->graded_shell(*clamped)) return shell;
+    if (const auto* maker = shell_maker(body)) return maker->graded_shell(*clamped);
     if (body->metric() != Metric::exact) refuse_skin();
     return std::make_shared<GradedShell>(body, clamped);
 }
@@ -234,7 +229,7 @@ FieldPtr make_outer_shell(const FieldPtr& body, const GradingPtr& thickness, Int
     const GradingPtr clamped = thickness_within(body, thickness, limits);
     if (const auto constant = clamped->constant())
         return *constant > 0 ? make_outer_shell(body, *constant) : make_empty();
-    if (FieldPtr shell = body->graded_outer_shell(*clamped)) return shell;
+    if (const auto* maker = shell_maker(body)) return maker->graded_outer_shell(*clamped);
     if (body->metric() != Metric::exact) refuse_skin();
     const Interval asked = thickness_about(body->bounds(), *clamped, limits);
     if (asked.hi == 0) return make_empty();

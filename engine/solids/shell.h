@@ -6,12 +6,27 @@
 
 namespace lamella {
 
+/// A field that makes shells of its solid better than by subtracting its offset. Meshes do: their distance is
+/// one of surfaces, wherever triangles lie inside the solid.
+class ShellMaker {
+  public:
+    virtual ~ShellMaker() = default;
+    /// Returns a field that, inside the solid, is solid exactly within `thickness` mm of the surface; outside
+    /// the solid it may be anything.
+    virtual FieldPtr shell(double thickness) const = 0;
+    /// Returns a shell whose thickness varies over the surface, mm, >= 0, with a finite range.
+    virtual FieldPtr graded_shell(const Grading& thickness) const = 0;
+    /// Returns the outer counterpart: outside the solid it is solid exactly within the thickness, inside it
+    /// may be anything.
+    virtual FieldPtr graded_outer_shell(const Grading& thickness) const = 0;
+};
+
 /// Position of a body's skin: under its surface, on it, or half and half.
 enum class SkinSide : std::uint8_t { inside, outside, centred };
 
 /// Returns a field that, inside the body, is solid exactly where the surface is at most `thickness` mm away
 /// (true 3D distance). Outside the body it may be solid too: intersect it with the body. Throws InputError
-/// when the body has neither a closed form of it (Field::shell) nor an exact metric.
+/// when the body has neither a closed form of it (ShellMaker, Field::offset) nor an exact metric.
 FieldPtr make_shell(const FieldPtr& body, double thickness);
 
 /// Returns a shell whose thickness varies, mm, clamped to limits (0 <= lo <= hi, hi > 0; where the grading is

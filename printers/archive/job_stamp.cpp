@@ -41,11 +41,4 @@ void check_same_job(const nlohmann::ordered_json& found, const JobStamp& wanted,
     }
 }
 
-void check_range(const Job& job, LayerRange range) {
-    if (range.first < 0 || range.first >= range.last || range.last > job.layer_count) {
-        throw InputError(fmt::format("layers {}:{} do not exist: the part has layers 0:{}", range.first,
-                                     range.last, job.layer_count));
-    }
-}
-
 }  // namespace lamella

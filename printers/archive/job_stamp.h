@@ -22,7 +22,4 @@ nlohmann::ordered_json to_json(const JobStamp& stamp);
 void check_same_job(const nlohmann::ordered_json& found, const JobStamp& wanted,
                     const std::filesystem::path& where);
 
-/// Throws InputError unless `range` is a valid range of the job's layers.
-void check_range(const Job& job, LayerRange range);
-
 }  // namespace lamella

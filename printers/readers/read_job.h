@@ -55,6 +55,9 @@ class JobFile {
     JobFacts facts_;
 };
 
+/// Returns the endings of file names that promise a job, with their dots.
+std::vector<std::string> job_endings();
+
 /// Opens `path` if its content is a job: an SL1 archive, a GOO file, a NanoDLP archive, an Ember archive, or
 /// a folder of masks with a job.json. Returns null for anything that may be something else, such as a model
 /// or a recipe. Throws InputError with the file and the fault for a damaged job, and for a file that is named

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "procedural/elasticity/node_blocks.h"
 
 namespace lamella {
@@ -105,7 +106,7 @@ ElasticMultigrid::Elements ElasticMultigrid::Elements::summed(
         larger.kind[e] = same;
     }
     larger.kinds.resize(of.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t k) {
+    parallel_for(of.size(), [&](std::size_t k) {
         const int x = static_cast<int>(of[k]) % size.x, y = static_cast<int>(of[k]) / size.x % size.y,
                   z = static_cast<int>(of[k]) / (size.x * size.y);
         larger.kinds[k] = {};

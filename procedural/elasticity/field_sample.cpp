@@ -1,11 +1,10 @@
 // Marks elements plane by plane, from the runs of their rows.
 #include "procedural/elasticity/field_sample.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "engine/field/slice_context.h"
 
 namespace lamella {
@@ -51,7 +50,7 @@ ElementMask sample_field(const Field& field, const Box& box, int along_x) {
     sample.present.assign(static_cast<std::size_t>(sample.size.x) * static_cast<std::size_t>(sample.size.y) *
                               static_cast<std::size_t>(sample.size.z),
                           0);
-    oneapi::tbb::parallel_for(0, sample.size.z, [&](int z) { mark_plane(field, box, edge, z, sample); });
+    parallel_for(sample.size.z, [&](int z) { mark_plane(field, box, edge, z, sample); });
     return sample;
 }
 

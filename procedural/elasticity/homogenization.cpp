@@ -1,12 +1,11 @@
 // Conjugate gradients for six load cases side by side; the tensor follows from the elastic energy.
 #include "procedural/elasticity/homogenization.h"
 
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "procedural/elasticity/elastic_multigrid.h"
 #include "procedural/elasticity/node_blocks.h"
 
@@ -198,7 +197,7 @@ Homogenized homogenize(const ElementMask& sample, const IsotropicMaterial& mater
     const auto volume = static_cast<double>(sample.present.size());
     const ElasticTensor stiffness = stiffness_of(material);
     const HexElement element = make_hex_element(stiffness);
-    oneapi::tbb::task_arena arena(options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic);
+    ThreadArena arena(options.threads);
     return arena.execute([&] {
         ElasticMultigrid multigrid(sample, element);
         const Structure structure(multigrid.grid(), element);

@@ -1,12 +1,11 @@
 // Parallel loops over nodes, and sums over nodes whose result does not depend on the number of threads.
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "procedural/elasticity/elastic_grid.h"
 
 namespace lamella {
@@ -17,7 +16,7 @@ inline constexpr std::size_t nodes_in_a_block = 512;
 template <typename Work>
 void for_each_node(std::size_t nodes, const Work& work) {
     const std::size_t blocks = (nodes + nodes_in_a_block - 1) / nodes_in_a_block;
-    oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    parallel_for(blocks, [&](std::size_t b) {
         const std::size_t end = std::min((b + 1) * nodes_in_a_block, nodes);
         for (std::size_t node = b * nodes_in_a_block; node < end; ++node) work(node);
     });
@@ -30,7 +29,7 @@ using CaseNumbers = std::array<double, load_cases>;
 template <typename Add>
 CaseNumbers sum_over_nodes(std::size_t nodes, const Add& add) {
     std::vector<CaseNumbers> parts((nodes + nodes_in_a_block - 1) / nodes_in_a_block, CaseNumbers{});
-    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t b) {
+    parallel_for(parts.size(), [&](std::size_t b) {
         const std::size_t end = std::min((b + 1) * nodes_in_a_block, nodes);
         for (std::size_t node = b * nodes_in_a_block; node < end; ++node) add(node, parts[b]);
     });

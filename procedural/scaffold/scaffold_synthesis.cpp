@@ -2,10 +2,6 @@
 // is taken from the queue. Once a bar is made, only the elements near it are updated.
 #include "procedural/scaffold/scaffold_synthesis.h"
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +10,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "procedural/scaffold/bridge_sweep.h"
 #include "procedural/scaffold/support_router.h"
 
@@ -89,7 +86,7 @@ class Synthesis {
           legs_(space_, shape),
           sweep_(shape),
           options_(options),
-          arena_(options.threads > 0 ? options.threads : oneapi::tbb::info::default_concurrency()) {
+          arena_(options.threads) {
         scaffold_.shape = shape;
         scaffold_.points.assign(points.begin(), points.end());
     }
@@ -112,7 +109,7 @@ class Synthesis {
     template <typename Work>
     void in_parallel(std::size_t count, const Work& work) {
         arena_.execute([&] {
-            oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+            parallel_for(count, [&](std::size_t i) {
                 if (!cancelled()) work(i);
             });
         });
@@ -137,7 +134,7 @@ class Synthesis {
     SupportRouter legs_;
     BridgeSweep sweep_;
     SynthesisOptions options_;
-    oneapi::tbb::task_arena arena_;
+    ThreadArena arena_;
     Scaffold scaffold_;
     std::vector<std::optional<Leg>> leg_of_;  ///< by element
     std::vector<Anchor> anchors_;             ///< index: element * directions + direction

@@ -134,27 +134,36 @@ void lattice(FoamBuildContext& making) {
 
 /// Returns a kind with the limits of its cells and members added to its optional keys.
 FoamBuilder kind(std::string word, std::string member, std::vector<std::string> needs,
-                 std::vector<std::string> takes, void (*make)(FoamBuildContext&)) {
+                 std::vector<std::string> takes, void (*make)(FoamBuildContext&), FoamTraits traits = {}) {
     needs.insert(needs.begin(), {"cell", member});
     takes.insert(takes.end(), {"cell_min", "cell_max", member + "_min", member + "_max"});
-    return {{std::move(word), std::move(needs), std::move(takes)}, std::move(member), make};
+    return {{std::move(word), std::move(needs), std::move(takes)}, std::move(member), make, traits};
 }
 
 }  // namespace
 
 std::span<const FoamBuilder> foam_builders() {
     static const std::vector<FoamBuilder> list{
-        kind("voronoi", "beam", {}, {"seed", "stretch", "turn"}, voronoi),
-        kind("kelvin", "beam", {}, {"seed", "jitter", "stretch", "turn"}, kelvin),
+        kind("voronoi", "beam", {}, {"seed", "stretch", "turn"}, voronoi, {.has_faces = true}),
+        kind("kelvin", "beam", {}, {"seed", "jitter", "stretch", "turn"}, kelvin, {.has_faces = true}),
         kind("closed", "beam", {"wall"}, {"wall_min", "wall_max", "window", "seed", "stretch", "turn"},
-             closed),
-        kind("k-nearest", "beam", {}, {"neighbours", "seed", "stretch", "turn"}, nearest_seeds),
+             closed, {.has_faces = true, .is_closed = true}),
+        kind("k-nearest", "beam", {}, {"neighbours", "seed", "stretch", "turn"}, nearest_seeds,
+             {.graded_stretch = nearest_factors}),
         kind("gyroid", "wall", {}, {"network"}, periodic<TpmsKind::gyroid>),
         kind("schwarz-p", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_p>),
         kind("schwarz-d", "wall", {}, {"network"}, periodic<TpmsKind::schwarz_d>),
         kind("neovius", "wall", {}, {"network"}, periodic<TpmsKind::neovius>),
         kind("lattice", "beam", {"unit_cell|struts"}, {}, lattice)};
     return list;
+}
+
+std::vector<std::string> foams_with(const std::function<bool(const FoamTraits&)>& has) {
+    std::vector<std::string> words;
+    for (const FoamBuilder& builder : foam_builders()) {
+        if (has(builder.traits)) words.push_back(builder.kind.word);
+    }
+    return words;
 }
 
 const FoamBuilder& builder_of(const FoamRecipe& foam) {

@@ -1,10 +1,13 @@
 // Makes the foam of a recipe's [foam]; the registry of its kinds.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/solids/beam.h"
@@ -45,13 +48,30 @@ struct FoamBuildContext {
     BuiltFoam& built;
 };
 
-/// A kind of foam: its keys and its factory.
+/// Properties of a kind of foam that rules between keys depend on.
+struct FoamTraits {
+    bool has_faces = false;  ///< its cells have faces: it may have a [frame] where they meet the surface
+    /// Its cells are closed by walls beside the beams: its law holds for one proportion of the two, and its
+    /// cavities are apart unless walls have windows.
+    bool is_closed = false;
+    /// Range of stretch factors that may vary in space; empty: stretch and turn are the same everywhere.
+    std::optional<Interval> graded_stretch{};
+};
+
+/// A kind of foam: its keys, its factory and its properties.
 struct FoamBuilder {
     Kind kind;
     std::string member;  ///< key of the thickness of its members: "beam" or "wall"
     void (*make)(FoamBuildContext&);
+    FoamTraits traits;
+
+    /// Returns true if the key is an optional key of the kind.
+    bool takes(std::string_view key) const { return std::ranges::find(kind.takes, key) != kind.takes.end(); }
 };
 std::span<const FoamBuilder> foam_builders();
+
+/// Returns the words of the kinds with a property.
+std::vector<std::string> foams_with(const std::function<bool(const FoamTraits&)>& has);
 
 /// Returns the kind of a foam. Throws InputError when it is unknown.
 const FoamBuilder& builder_of(const FoamRecipe& foam);

@@ -54,16 +54,15 @@ std::optional<FoamLawTable> known_law(const FoamRecipe& foam) {
 }
 
 std::string law_name(const FoamRecipe& foam) {
-    const Kind& kind = builder_of(foam).kind;
-    const auto has = [&](const char* key) { return std::ranges::find(kind.takes, key) != kind.takes.end(); };
+    const FoamBuilder& kind = builder_of(foam);
     std::string name = foam.kind;
-    if (has("jitter")) name += fmt::format("/jitter={}", foam.jitter);
-    if (has("neighbours")) name += fmt::format("/neighbours={}", foam.neighbours);
-    if (has("window")) {
+    if (kind.takes("jitter")) name += fmt::format("/jitter={}", foam.jitter);
+    if (kind.takes("neighbours")) name += fmt::format("/neighbours={}", foam.neighbours);
+    if (kind.takes("window")) {
         name += fmt::format("/wall={:.4g}beam/window={}", foam.wall.number() / foam.beam.number(),
                             foam.window.number());
     }
-    if (has("network") && foam.network) name += "/network";
+    if (kind.takes("network") && foam.network) name += "/network";
     if (!foam.unit_cell.empty()) name += "/" + foam.unit_cell;
     if (!foam.struts.empty()) {
         Fnv128 hash;
@@ -106,7 +105,7 @@ GradedUse solved(const std::string& key, GradingPtr asked, Interval limits) {
 
 /// Returns true if beams, walls and windows of closed cells keep one proportion, as their law requires.
 bool is_proportioned(const FoamRecipe& foam, const Gradings& gradings) {
-    if (foam.kind != "closed") return true;
+    if (!builder_of(foam).traits.is_closed) return true;
     const bool same = !foam.beam.is_formula() && !foam.wall.is_formula() && !foam.window.is_formula();
     const auto overridden = [&](const char* key) { return !gradings.overrides(key).empty(); };
     return same && !overridden("foam.beam") && !overridden("foam.wall") && !overridden("foam.window");

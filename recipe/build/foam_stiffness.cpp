@@ -2,12 +2,12 @@
 #include "recipe/build/foam_stiffness.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "procedural/elasticity/field_sample.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/foam_modulus.h"
@@ -63,7 +63,7 @@ double thinnest_radius(const BuiltFoam& foam) {
 }
 
 ElementMask sample_of(const BuiltFoam& foam, double period, int elements, int threads) {
-    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
+    ThreadArena arena(threads);
     return arena.execute([&] { return sample_field(*foam.field, {dvec3(0), dvec3(period)}, elements); });
 }
 

@@ -2,13 +2,11 @@
 // for ambient light.
 #include "recipe/output/preview_render.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/parallel.h"
 #include "engine/solids/csg.h"
 #include "recipe/output/voxel_grid.h"
 
@@ -325,11 +323,11 @@ class Painter {
     }
 
     Picture render() {
-        tbb::parallel_for(0, height_, [&](int j) {
+        parallel_for(height_, [&](int j) {
             for (int i = 0; i < width_; ++i) pixels_[at(i, j)] = encoded(sample(i + 0.5, j + 0.5));
         });
         Picture image{width_, height_, std::vector<std::uint8_t>(pixels_.size() * 3)};
-        tbb::parallel_for(0, height_, [&](int j) {
+        parallel_for(height_, [&](int j) {
             for (int i = 0; i < width_; ++i) {
                 const dvec3 c = on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)];
                 for (int k = 0; k < 3; ++k) {
@@ -380,7 +378,7 @@ Picture render_preview(const FieldPtr& part, const FieldPtr& supports, const Box
                        const PreviewOptions& options) {
     constexpr int max_cells = 512;
     const FieldPtr all = supports ? make_union({part, supports}) : part;
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    ThreadArena arena(options.threads);
     return arena.execute([&] {
         Camera camera = frame(bounds, options);
         const CutAway cut = cut_away(bounds, camera, options);

@@ -2,11 +2,10 @@
 // light.
 #include "recipe/output/voxel_grid.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "engine/field/slice_context.h"
 
 namespace lamella {
@@ -48,7 +47,7 @@ VoxelGrid::VoxelGrid(const Field& part, const Box& bounds, int cells, Mark mark)
     nz_ = count(size.z);
     words_ = static_cast<std::size_t>(nx_ + 63) / 64;
     bits_.assign(words_ * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_), 0);
-    tbb::parallel_for(0, nz_, [&](int z) { mark_plane(part, bounds, z, mark); });
+    parallel_for(nz_, [&](int z) { mark_plane(part, bounds, z, mark); });
     build_pyramid();
 }
 
@@ -100,7 +99,7 @@ VoxelGrid::Level VoxelGrid::first_level() const {
     Level level((nx_ + 1) / 2, (ny_ + 1) / 2, (nz_ + 1) / 2, 0.5);
     const std::vector<std::uint64_t> beyond(words_, 0);
     const auto words = [&](int y, int z) { return y < ny_ && z < nz_ ? &bits_[row(y, z)] : beyond.data(); };
-    tbb::parallel_for(0, level.nz, [&](int z) {
+    parallel_for(level.nz, [&](int z) {
         for (int y = 0; y < level.ny; ++y) {
             const std::uint64_t* const rows[4] = {words(2 * y, 2 * z), words(2 * y + 1, 2 * z),
                                                   words(2 * y, 2 * z + 1), words(2 * y + 1, 2 * z + 1)};
@@ -124,7 +123,7 @@ VoxelGrid::Level VoxelGrid::first_level() const {
 
 VoxelGrid::Level VoxelGrid::level_above(const Level& below) {
     Level level((below.nx + 1) / 2, (below.ny + 1) / 2, (below.nz + 1) / 2, below.per_cell / 2);
-    tbb::parallel_for(0, level.nz, [&](int z) {
+    parallel_for(level.nz, [&](int z) {
         for (int y = 0; y < level.ny; ++y) {
             for (int x = 0; x < level.nx; ++x) {
                 unsigned sum = 0;
