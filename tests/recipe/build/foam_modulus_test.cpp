@@ -207,13 +207,13 @@ TEST_CASE("a law of one's own is found by what shapes the foam", "[elasticity][s
     check_refused(folder, bar + stuff + foam, "there is no stiffness law for this foam (kelvin/jitter=0.3)");
     const Outcome table = run_lamella(
         "homogenize -q --foam kelvin --jitter 0.3 --cell 1 --beam 0.1 --table --rve 32 "
-        "--samples 1 --ratios 0.08,0.12,0.18 -o " +
+        "--samples 1 --ratios 0.1,0.18 -o " +
         folder / "mine.csv" + " --plot " + folder / "mine.svg");
     REQUIRE(table.code == 0);
     // Sizes do not matter, nor does a modulus that would choose them.
     const Outcome again = run_lamella(
         "homogenize -q --foam kelvin --jitter 0.3 --cell 2 --modulus 5 --material pla --table --rve 32 "
-        "--samples 1 --ratios 0.08,0.12,0.18");
+        "--samples 1 --ratios 0.1,0.18");
     CHECK(again.out == contents(folder / "mine.csv"));
     check_refused_table(folder);
     CHECK(mentions(contents(folder / "mine.svg"), "the foam's law"));
@@ -322,11 +322,11 @@ TEST_CASE("a bar that is to stiffen evenly does, piece by piece", "[elasticity][
     RecipeDraft draft;
     draft.require_body(false);
     draft.read_text(stuff + "[foam]\nbeam = 0.3\nmodulus = \"20 + 1.5 * x\"\n", "bar.toml");
-    const double side = 18;
+    const double side = 14;
     const BuiltFoam foam = build_foam_alone(draft.finish(), {dvec3(0), {3 * side, side, side}});
     for (int piece = 0; piece < 3; ++piece) {
         const dvec3 corner{piece * side, 0, 0};
-        const ElementMask sample = sample_field(*foam.field, {corner, corner + dvec3(side)}, 56);
+        const ElementMask sample = sample_field(*foam.field, {corner, corner + dvec3(side)}, 44);
         const double found =
             closest_isotropic(homogenize(mirrored(sample), {2000, law_poisson}, {1e-3}).stiffness).young;
         const double asked = 20 + 1.5 * (piece + 0.5) * side;
