@@ -17,7 +17,7 @@ namespace {
 
 using namespace lamella;
 
-constexpr double edge = 40;  // mm
+constexpr double cube_edge = 40;  // mm
 
 FieldPtr solid(std::int64_t kind) {
     if (kind == 1) return make_round_cone(Beam{{0, 0, -8}, 10, {0, 0, 8}, 10});
@@ -25,27 +25,27 @@ FieldPtr solid(std::int64_t kind) {
         TpmsSettings settings;
         settings.period = make_constant_grading(8);
         settings.thickness = make_constant_grading(0.8);
-        settings.region = {dvec3(-edge / 2), dvec3(edge / 2)};
+        settings.region = {dvec3(-cube_edge / 2), dvec3(cube_edge / 2)};
         return make_intersection({make_sphere(dvec3(0), 18), make_tpms(settings)});
     }
     FoamSettings settings;
     settings.cell = 4;
     settings.beam_radius = 0.3;
     settings.seed = 1;
-    settings.region = {dvec3(-edge / 2), dvec3(edge / 2)};
+    settings.region = {dvec3(-cube_edge / 2), dvec3(cube_edge / 2)};
     return make_voronoi_foam(settings);
 }
 
 /// Layer z of n^3 dexels.
 RunRows dexel_layer(const Field& field, int n, int z) {
     RowBand band;
-    band.along_pitch = band.across_pitch = edge / n;
-    band.along_origin = band.across_origin = -edge / 2;
+    band.along_pitch = band.across_pitch = cube_edge / n;
+    band.along_origin = band.across_origin = -cube_edge / 2;
     band.count = band.hi = n;
     SliceContext context;
     Scratch scratch;
     RunRows layer;
-    context.slice(field, -edge / 2 + (z + 0.5) * edge / n).runs(band, scratch, layer);
+    context.slice(field, -cube_edge / 2 + (z + 0.5) * cube_edge / n).runs(band, scratch, layer);
     return layer;
 }
 
