@@ -1,7 +1,7 @@
 // Sections through the C interface: against closed forms, and against the engine asked from inside.
 #include <cmath>
+#include <future>
 #include <random>
-#include <thread>
 
 #include "engine/contours/coverage.h"
 #include "engine/field/slice_context.h"
@@ -220,11 +220,9 @@ TEST_CASE("threads with contexts of their own cut one job", "[bindings]") {
         return list;
     };
     const std::vector<double> expected = areas(3);
-    std::vector<std::vector<double>> found(4);
-    std::vector<std::thread> threads;
-    for (auto& list : found) threads.emplace_back([&] { list = areas(3); });
-    for (std::thread& thread : threads) thread.join();
-    for (const auto& list : found) CHECK(list == expected);
+    std::vector<std::future<std::vector<double>>> threads;
+    for (int i = 0; i < 4; ++i) threads.push_back(std::async(std::launch::async, areas, 3));
+    for (auto& thread : threads) CHECK(thread.get() == expected);
 }
 
 TEST_CASE("rasters that are none are refused", "[bindings]") {
