@@ -10,4 +10,5 @@ build=(cmake --build "build/$preset")
 [ -t 1 ] || build+=(-- --quiet)  # a terminal shows in one line how far it is
 "${build[@]}"
 export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp}
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tests/lsan.supp:print_suppressions=0}
 ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
