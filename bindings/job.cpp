@@ -58,7 +58,10 @@ const lamella_job& job_of(const lamella_job* job) { return wanted(job, "job"); }
 }  // namespace
 
 std::int32_t lamella_cancel_create(lamella_context* context, lamella_cancel** cancel) {
-    return guarded(context, [&] { wanted(cancel, "cancel") = new lamella_cancel; });
+    return guarded(context, [&] {
+        lamella_cancel*& made = wanted(cancel, "cancel");
+        made = new lamella_cancel;
+    });
 }
 
 void lamella_cancel_destroy(lamella_cancel* cancel) { delete cancel; }

@@ -41,7 +41,10 @@ const Setting& setting_of(const std::string& key) {
 }  // namespace
 
 std::int32_t lamella_recipe_create(lamella_context* context, lamella_recipe** recipe) {
-    return guarded(context, [&] { wanted(recipe, "recipe") = new lamella_recipe; });
+    return guarded(context, [&] {
+        lamella_recipe*& made = wanted(recipe, "recipe");
+        made = new lamella_recipe;
+    });
 }
 
 void lamella_recipe_destroy(lamella_recipe* recipe) { delete recipe; }
