@@ -19,6 +19,34 @@ inline int thread_count(int requested) {
     return requested > 0 ? requested : oneapi::tbb::info::default_concurrency();
 }
 
+/// Shows race detectors that one thread's work happened before another's. They do not see the synchronisation
+/// inside TBB's library.
+class HandOver {
+  public:
+    void give() { count_.fetch_add(1, std::memory_order_release); }
+    void take() { count_.load(std::memory_order_acquire); }
+    /// Returns the work between a hand-over from the thread that waits for it and one back.
+    template <typename Work>
+    auto around(const Work& work) {
+        return [&](auto... arguments) {
+            const Turn turn(*this);
+            work(arguments...);
+        };
+    }
+
+  private:
+    /// Also gives back when the work throws.
+    struct Turn {
+        explicit Turn(HandOver& over) : hand_over(over) { hand_over.take(); }
+        ~Turn() { hand_over.give(); }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+        HandOver& hand_over;
+    };
+
+    std::atomic<std::size_t> count_{0};
+};
+
 /// Threads that the loops inside execute() run on.
 class ThreadArena {
   public:
@@ -39,7 +67,15 @@ class ThreadArena {
 /// that have begun end; others may never begin.
 template <typename Index, typename Work>
 void parallel_for(Index count, const Work& work) {
-    oneapi::tbb::parallel_for(Index{0}, count, work);
+    HandOver hand_over;
+    hand_over.give();
+    try {
+        oneapi::tbb::parallel_for(Index{0}, count, hand_over.around(work));
+    } catch (...) {
+        hand_over.take();
+        throw;
+    }
+    hand_over.take();
 }
 
 /// Calls work(i) for each i in [0, count), in parallel. Runs all of them even when the enclosing stream is
@@ -47,16 +83,10 @@ void parallel_for(Index count, const Work& work) {
 template <typename Work>
 void isolated_parallel_for(std::size_t count, const Work& work) {
     oneapi::tbb::task_group_context own(oneapi::tbb::task_group_context::isolated);
-    // Race detectors do not see the synchronisation inside TBB's library; they see this.
-    std::atomic<std::size_t> handed_over{0};
-    const auto watched = [&](std::size_t i) {
-        handed_over.load(std::memory_order_acquire);
-        work(i);
-        handed_over.fetch_add(1, std::memory_order_release);
-    };
-    handed_over.store(0, std::memory_order_release);
-    oneapi::tbb::parallel_for(std::size_t{0}, count, watched, own);
-    handed_over.load(std::memory_order_acquire);
+    HandOver hand_over;
+    hand_over.give();
+    oneapi::tbb::parallel_for(std::size_t{0}, count, hand_over.around(work), own);
+    hand_over.take();
 }
 
 }  // namespace lamella
