@@ -24,6 +24,7 @@ class PlaneIndex {
     /// Calls visit(item, lines) for each item whose rectangle meets the band, with the lines that it meets.
     template <typename Visit>
     void visit(const RowBand& band, const LineRange& lines, const Visit& visit) const;
+    const Rect& rect(std::uint32_t item) const { return rects_[item]; }
     /// Returns the bounding rectangle of all rectangles.
     const Rect& bounds() const { return bounds_; }
 

@@ -108,7 +108,7 @@ void clip_prism(const LineFrame& frame, const PrismInPlane& prism, int count, st
     const int lanes = static_cast<int>(hn::Lanes(d));
     for (int i = 0; i < count; i += lanes) {
         const auto y = positions(frame, lane, i);
-        auto from = hn::Neg(far), to = far;
+        auto from = hn::Set(d, prism.low), to = hn::Set(d, prism.high);
         for (std::size_t k = 0; k < prism.nx.size(); ++k) {
             const float nx = prism.nx[k];
             const auto room = hn::Sub(hn::Set(d, prism.limit[k]), hn::Mul(hn::Set(d, prism.ny[k]), y));

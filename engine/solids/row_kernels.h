@@ -32,9 +32,10 @@ struct BeamInPlane {
 };
 
 /// A triangle dilated along its normal, cut by a plane: along * nx + across * ny <= limit for five
-/// half-planes.
+/// half-planes, and low <= along <= high.
 struct PrismInPlane {
     std::array<float, 5> nx, ny, limit;
+    float low, high;
 };
 
 /// Write begin and end of the runs on `count` lines; begin >= end where the line misses the shape. They may

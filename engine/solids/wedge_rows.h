@@ -28,7 +28,7 @@ class WedgeRows {
     std::size_t size() const { return wedges_.size(); }
 
   private:
-    void collect_wedge(const Wedge& wedge, const RowBand& band, const LineRange& lines,
+    void collect_wedge(std::uint32_t number, const RowBand& band, const LineRange& lines,
                        RunCollector& runs) const;
 
     std::vector<Wedge> wedges_;
