@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "engine/base/error.h"
-#include "printers/registry.h"
+#include "engine/base/text.h"
 #include "recipe/settings.h"
 
 namespace lamella {
@@ -120,19 +121,21 @@ dvec2 plate_size(const PrinterProfile& printer) {
     return {infinity, infinity};
 }
 
+std::vector<std::string> output_endings(const BackendInfo& backend) {
+    std::vector<std::string> endings;
+    std::istringstream words(backend.endings);
+    for (std::string ending; words >> ending;) endings.push_back(ending);
+    return endings;
+}
+
 std::string backend_of_ending(const std::string& path, const std::string& preferred) {
-    const std::string name = std::filesystem::path(path).filename().string();
+    const std::string name = lower_case(std::filesystem::path(path).filename().string());
     std::string found;
     for (const BackendInfo& backend : backends()) {
-        const std::string_view endings = backend.endings;
-        for (std::size_t at = 0; at < endings.size();) {
-            const std::size_t end = std::min(endings.find(' ', at), endings.size());
-            const std::string_view ending = endings.substr(at, end - at);
-            if (name.size() > ending.size() && name.ends_with(ending)) {
-                if (backend.name == preferred) return preferred;
-                if (found.empty()) found = backend.name;
-            }
-            at = end + 1;
+        for (const std::string& ending : output_endings(backend)) {
+            if (name.size() <= ending.size() || !name.ends_with(ending)) continue;
+            if (backend.name == preferred) return preferred;
+            if (found.empty()) found = backend.name;
         }
     }
     return found;
@@ -143,9 +146,9 @@ std::string default_output(const PrinterProfile& printer, const std::string& par
     const bool folder =
         kind == OutputKind::folder ||
         (kind == OutputKind::file_or_folder && !(printer.vector.one_file && printer.cutting.sheet.empty()));
-    if (folder) return part_name + ".layers";
-    const std::string_view endings = find_backend(printer.backend).endings;
-    return part_name + std::string(endings.substr(0, endings.find(' ')));
+    if (folder) return part_name + default_folder_ending;
+    const std::vector<std::string> endings = output_endings(find_backend(printer.backend));
+    return part_name + (endings.empty() ? "" : endings.front());
 }
 
 std::string printers_listing(const MachineProfiles& profiles) {

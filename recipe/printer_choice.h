@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/geometry.h"
+#include "printers/registry.h"
 #include "recipe/machine_profiles.h"
 
 namespace lamella {
@@ -15,10 +16,15 @@ std::vector<std::string> backend_words();
 /// Returns the printable size of the machine's plate, x and y in mm; infinite when it has no bounds.
 dvec2 plate_size(const PrinterProfile& printer);
 
-/// Returns the back-end for this path's ending, `preferred` if several share it and it is one of them; empty
-/// when no back-end uses the ending.
+/// Returns the endings of a back-end's files, with their dots; the first is the default.
+std::vector<std::string> output_endings(const BackendInfo& backend);
+
+/// Returns the back-end for this path's ending in any case, `preferred` if several share it and it is one of
+/// them; empty when no back-end uses the ending.
 std::string backend_of_ending(const std::string& path, const std::string& preferred);
 
+/// Ending of the folder of a run without -o.
+inline constexpr const char* default_folder_ending = ".layers";
 /// Returns the output path of a run without -o: the part's name with the back-end's default ending.
 std::string default_output(const PrinterProfile& printer, const std::string& part_name);
 /// Returns a listing of back-ends and profiles, with the mistakes of profiles that cannot be used.

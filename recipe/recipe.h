@@ -289,6 +289,7 @@ struct Recipe {
     PlateRecipe plate;
     OutputRecipe output;
     PrinterProfile printer;
+    std::string machine;  ///< name of the profile that [printer] names; empty: the default
 };
 
 /// Returns the length of one unit, mm.

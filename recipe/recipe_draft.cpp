@@ -310,6 +310,8 @@ void RecipeDraft::check_printer() {
 Recipe RecipeDraft::assemble() {
     Recipe recipe;
     recipe.printer = machine_;
+    if (const Entry* named = entry("printer", "profile"))
+        recipe.machine = std::get<std::string>(*named->value);
     for (const auto& [place, given] : entries_) {
         const Setting& setting = *find_setting(place.section, place.key);
         if (given.value && setting.name() != "printer.profile") {

@@ -133,6 +133,26 @@ std::string failures_text(const std::vector<CheckOutcome>& checks) {
     return text.empty() ? text : text + "all layers have been written nevertheless";
 }
 
+/// Returns the likely reason why a whole job printed nothing; empty if it printed something.
+std::string emptiness_text(const Recipe& recipe, const BuiltJob& built, const std::vector<Output>& outputs,
+                           const StreamReport& report, LayerRange range) {
+    // Printers from outside may leave areas out.
+    if (std::ranges::any_of(outputs, [](const Output& output) { return static_cast<bool>(output.open); }))
+        return "";
+    if (report.layers_kept > 0 || range.count() < built.job.layer_count) return "";
+    if (report.volume > 0 || report.support_volume > 0) return "";
+    const dvec3 size = built.job.bounds.size();
+    const std::string found = fmt::format(
+        "nothing is printed: the part, {:.4g} x {:.4g} x {:.4g} mm, leaves no trace in {} {} of {} mm; ",
+        size.x, size.y, size.z, built.job.layer_count, built.job.layer_count == 1 ? "layer" : "layers",
+        built.job.layer_height);
+    constexpr double smallest_likely = 2;  // mm
+    if (!recipe.part.mesh.empty() && std::max({size.x, size.y, size.z}) < smallest_likely)
+        return found +
+               "accepted: --unit m or --unit inch, if the model is in metres or inches; or a larger --scale";
+    return found + "accepted: a part thicker than half a layer and wider than a pixel or a bead";
+}
+
 std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
     std::vector<OutsideBackend> plugins;
     plugins.reserve(options.plugins.size());
@@ -233,7 +253,8 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
     summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
-    return failures_text(checks);
+    const std::string empty = emptiness_text(recipe, built, outputs, report, stream.range);
+    return empty.empty() ? failures_text(checks) : empty;
 }
 
 /// The work of ranks other than 0. Rank 0 finds the same mistakes and reports them.

@@ -16,6 +16,9 @@ constexpr bool is_space(char c) {
 /// Returns the text without white space at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// Returns the text with the letters A to Z in lower case.
+std::string lower_case(std::string text);
+
 std::string grouped(std::size_t n);  ///< "1,360"
 /// Returns a count with its noun: "1 triangle", "1,360 triangles".
 std::string counted(std::size_t n, std::string_view noun);

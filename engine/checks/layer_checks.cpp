@@ -27,11 +27,7 @@ void EmptyCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
     if (begin_ < 0) begin_ = layer.index;
 }
 
-void EmptyCheck::finish() {
-    // The last layer's plane may lie above a part whose height is no multiple of a layer's.
-    if (begin_ == layer_count_ - 1 && layer_count_ > 1) begin_ = -1;
-    end_gap(layer_count_);
-}
+void EmptyCheck::finish() { end_gap(layer_count_); }
 
 void EmptyCheck::end_gap(int end) {
     if (begin_ < 0) return;

@@ -102,19 +102,23 @@ Halves divide(const Open& open, const Bound& bound) {
     return best;
 }
 
-/// Returns an upper bound of sign * grading over the box, close to the supremum.
-double upper_bound(const Grading& grading, const Box& box, double sign) {
+/// Returns an upper bound of sign * grading over the box, or over the body's points in it, close to the
+/// supremum.
+double upper_bound(const Grading& grading, const Field* body, const Box& box, double sign, int divisions) {
     const auto bound = [&](const Box& b) {
+        if (body != nullptr && body->range(b).lo > 0) return -infinity;
         const Interval r = grading.range(b);
         return sign > 0 ? r.hi : -r.lo;
     };
     std::priority_queue<Open> open;
     open.push({bound(box), box});
     double most = -infinity, least = infinity;
-    for (int i = 0; i < max_divisions; ++i) {
+    for (int i = 0; i < divisions; ++i) {
         const Open worst = open.top();
-        const double number = sign * grading.at(worst.box.center());
-        if (!std::isnan(number)) {
+        if (worst.bound == -infinity) break;
+        const dvec3 center = worst.box.center();
+        const double number = sign * grading.at(center);
+        if (!std::isnan(number) && (body == nullptr || body->value(center) <= 0)) {
             most = std::max(most, number);
             least = std::min(least, number);
         }
@@ -137,7 +141,15 @@ GradingPtr make_clamped_grading(GradingPtr grading, Interval limits) {
 }
 
 Interval tight_range(const Grading& grading, const Box& box) {
-    return {-upper_bound(grading, box, -1), upper_bound(grading, box, 1)};
+    return {-upper_bound(grading, nullptr, box, -1, max_divisions),
+            upper_bound(grading, nullptr, box, 1, max_divisions)};
+}
+
+Interval range_in(const Field& body, const Grading& grading) {
+    // The distance to a mesh is dear.
+    constexpr int divisions = 1000;
+    const Box box = body.bounds();
+    return {-upper_bound(grading, &body, box, -1, divisions), upper_bound(grading, &body, box, 1, divisions)};
 }
 
 Interval positive_range(const Grading& length, const Box& region, const std::string& what) {

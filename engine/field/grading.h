@@ -77,6 +77,10 @@ GradingPtr make_clamped_grading(GradingPtr grading, Interval limits);
 /// these numbers, or after 4,000 divisions.
 Interval tight_range(const Grading& grading, const Box& box);
 
+/// Returns a tight interval that encloses the numbers at the points of a body, as tight_range does with fewer
+/// divisions; empty when the body has no points.
+Interval range_in(const Field& body, const Grading& grading);
+
 /// Returns an interval that encloses a length over the region, as tight_range does. Throws InputError
 /// ("<what> ... mm; it must be positive") when it is not positive, not finite or undefined somewhere.
 Interval positive_range(const Grading& length, const Box& region, const std::string& what);

@@ -5,13 +5,12 @@
 
 namespace lamella {
 
-int count_layers(double part_height, double h) {
+int count_layers(double part_height, double h, double lowest_plane) {
     if (!(part_height > 0) || !std::isfinite(part_height))
         throw InputError("the part has no height to cut into layers");
     if (!(h > 0) || !std::isfinite(h)) throw InputError("the layer height must be positive");
-    // A part whose height is a whole number of layers, up to rounding, gets no extra layer on top.
-    constexpr double share_of_layer = 1e-6;
-    const double count = std::ceil(part_height / h - share_of_layer);
+    constexpr double rounding = 1e-6;  // layers
+    const double count = std::ceil(part_height / h - lowest_plane - rounding);
     constexpr double max_layers = 10'000'000;
     if (count > max_layers)
         throw InputError("the layer height is too small for the part: more than 10 million layers");

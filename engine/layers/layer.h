@@ -35,10 +35,11 @@ struct Job {
     double plane(int i) const { return z0() + (i + 0.5) * layer_height; }
 };
 
-/// Returns the number of layers of height `h` (mm) that a part of this height (mm) needs; a remainder below a
-/// millionth of a layer adds none. Throws InputError when a height is not positive and finite, or when there
-/// would be more than 10 million layers.
-int count_layers(double part_height, double h);
+/// Returns the number of layers of height `h` (mm) that hold some of a part of this height (mm): those whose
+/// lowest cutting plane, at this share of the layer, lies below the part's top by more than a millionth of a
+/// layer; at least one. Throws InputError when a height is not positive and finite, or when there would be
+/// more than 10 million layers.
+int count_layers(double part_height, double h, double lowest_plane = 0.5);
 
 /// A layer in flight. Its contents depend on the job and the index alone. Used by one thread at a time.
 class Layer {

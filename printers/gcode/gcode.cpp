@@ -102,7 +102,11 @@ class Gcode : public Backend {
         append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
         append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
         product->islands_left_out = paths.islands_left_out;
-        if (!paths.beads.empty()) lay(paths, layer, *product);
+        if (paths.beads.empty()) {
+            product->area = product->support_area = 0;  // sections too small for a bead
+        } else {
+            lay(paths, layer, *product);
+        }
         return product;
     }
 

@@ -10,15 +10,11 @@
 #include <span>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "printers/readers/job_readers.h"
 
 namespace lamella {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
-}
 
 /// Returns the first bytes of a file; empty if it cannot be read, which a later reader reports.
 std::string first_bytes(const std::string& path) {
@@ -98,7 +94,7 @@ std::vector<std::string> job_endings() {
 }
 
 std::unique_ptr<JobFile> open_if_job(const std::string& path) {
-    const std::string name = lower(path);
+    const std::string name = lower_case(path);
     Candidate candidate = look_at(path, name);
     for (const JobFormat& format : job_formats()) {
         if (format.fits(candidate)) return format.read(candidate);

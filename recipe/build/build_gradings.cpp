@@ -202,7 +202,15 @@ GradedUse graded(const std::string& key, const GradedNumber& number, Interval li
     use.made = use.asked;
     if (!number.is_formula() && gradings.overrides(key).empty()) return use;
     if (gradings.body()) use.limits.hi = greatest_of(use, where, *gradings.body());
-    use.made = make_clamped_grading(use.asked, use.limits);
+    Interval applied = use.limits;
+    if (gradings.body()) {
+        // A foam's cells reach out of the part; there a formula may give what it gives nowhere inside.
+        const Interval inside = range_in(*gradings.body(), *use.asked);
+        const Interval asked{std::clamp(inside.lo, applied.lo, applied.hi),
+                             std::clamp(inside.hi, applied.lo, applied.hi)};
+        if (!asked.empty()) applied = asked;
+    }
+    use.made = make_clamped_grading(use.asked, applied);
     return use;
 }
 

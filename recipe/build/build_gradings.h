@@ -28,7 +28,7 @@ struct GradedFormula {
 struct GradedUse {
     std::string key;  ///< "foam.cell"
     GradingPtr asked;
-    GradingPtr made;  ///< clamped to the limits
+    GradingPtr made;  ///< clamped to the limits, and to the range in the part of what was asked
     Interval limits;
     std::string unit;  ///< of the numbers and limits: "mm"; empty for dimensionless ones
 };
@@ -72,11 +72,11 @@ class Gradings {
     std::map<std::string, std::vector<RegionalNumber>> overrides_;
 };
 
-/// Returns a graded number with the overrides of regions, clamped to its limits; constants have been checked
-/// with the recipe. Where a formula is undefined, the result is the upper limit if the recipe states one
-/// (below that of the settings table for `key`_max). Otherwise a formula that is undefined at a sampled point
-/// of the body is an InputError; a formula that may be undefined between the samples gets twice the greatest
-/// value found there.
+/// Returns a graded number with the overrides of regions, clamped to its limits and to its range in the part;
+/// constants have been checked with the recipe. Where a formula is undefined, the result is the upper limit
+/// if the recipe states one (below that of the settings table for `key`_max). Otherwise a formula that is
+/// undefined at a sampled point of the body is an InputError; a formula that may be undefined between the
+/// samples gets twice the greatest value found there.
 GradedUse graded(const std::string& key, const GradedNumber& number, Interval limits, Gradings& gradings,
                  const std::map<std::string, GradingPtr>& more = {});
 

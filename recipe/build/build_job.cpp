@@ -19,21 +19,23 @@ namespace {
 
 constexpr int max_layers = 10'000'000;
 
-int layers_of(double height, double layer_height) {
+int layers_of(double height, double layer_height, double lowest_plane) {
     if (height / layer_height > max_layers) {
         throw InputError(
             fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
                         "layers; accepted: {} mm or more",
                         layer_height, height, max_layers, height / max_layers));
     }
-    return count_layers(height, layer_height);
+    return count_layers(height, layer_height, lowest_plane);
 }
 
 /// Cuts the designed part's bounds into layers.
 void set_layers(const Recipe& recipe, Job& job) {
     job.layer_height = designed_layer_height(recipe);
-    job.layer_count =
-        layers_of(job.bounds.size().z * (recipe.layer_height / job.layer_height), recipe.layer_height);
+    // Masks that average several planes of a layer begin with the lowest of them.
+    const double lowest_plane = 0.5 / std::max(1, recipe.printer.image.sub_layers);
+    job.layer_count = layers_of(job.bounds.size().z * (recipe.layer_height / job.layer_height),
+                                recipe.layer_height, lowest_plane);
 }
 
 /// The least that a graded number of the foam becomes in the part's box.
