@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "printers/common/profile_texts.h"
 #include "printers/registry.h"
 #include "recipe/printer_choice.h"
@@ -36,6 +37,21 @@ MachineProfile plain(const std::string& backend) {
 }
 
 std::string shown(const std::string& name) { return name.substr(0, 64); }
+
+/// Returns the names that contain a word of three letters and more, in any case, at most five of them, as
+/// "a` or `b"; empty for none.
+std::string join_alike(const std::string& word, const std::vector<std::string>& names) {
+    constexpr std::size_t shortest = 3;
+    constexpr int most = 5;
+    std::string list;
+    int count = 0;
+    for (const std::string& name : names) {
+        if (word.size() < shortest || name.find(lower_case(word)) == std::string::npos || ++count > most)
+            continue;
+        list += (list.empty() ? "" : "` or `") + name;
+    }
+    return list;
+}
 
 }  // namespace
 
@@ -97,7 +113,8 @@ std::string MachineProfiles::unknown(const std::string& name) const {
     const std::vector<std::string> known = names();
     std::string listing;
     for (const std::string& word : known) listing += (listing.empty() ? "" : ", ") + word;
-    const std::string near = nearest(name, known);
+    std::string near = nearest(name, known);
+    if (near.empty()) near = join_alike(name, known);
     return fmt::format("\"{}\" is unknown{}; accepted: one of {}, or the path of a profile's .toml file",
                        shown(name), near.empty() ? "" : ", did you mean `" + near + "`?", listing);
 }

@@ -352,6 +352,16 @@ Recipe RecipeDraft::assemble() {
     return recipe;
 }
 
+/// Returns false where a mistake hides the name of a [[grading]], which formulas may well use.
+bool RecipeDraft::knows_all_gradings() const {
+    const std::size_t gradings = count(*find_section("grading"));
+    for (std::size_t i = 0; i < gradings; ++i) {
+        const Entry* name = entry("grading", "name", i);
+        if (name == nullptr || !name->value) return false;
+    }
+    return true;
+}
+
 Recipe RecipeDraft::finish() {
     drop_overridden_body();
     check_structure();
@@ -362,6 +372,8 @@ Recipe RecipeDraft::finish() {
         check_numbers(recipe);
         for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
         for (std::string& mistake : region_mistakes(recipe)) refuse(0, std::move(mistake));
+    } else if (knows_all_gradings()) {
+        for (std::string& mistake : formula_text_mistakes(recipe)) refuse(0, std::move(mistake));
     }
     throw_mistakes();
     return recipe;

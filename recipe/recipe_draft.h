@@ -107,6 +107,7 @@ class RecipeDraft {
     void check_need(const Part& part, const std::string& need, const std::string& why);
     void check_structure();
     void check_printer();
+    bool knows_all_gradings() const;
     void check_pixels();
     void throw_mistakes();
     Recipe assemble();

@@ -78,6 +78,11 @@ class FormulaCheck {
         return std::move(mistakes_);
     }
 
+    std::vector<std::string> run_on_texts() {
+        check_formulas();
+        return std::move(mistakes_);
+    }
+
   private:
     void refuse(const std::string& where, const std::string& wrong, const std::string& right) {
         mistakes_.push_back(fmt::format("{}: {}; accepted: {}", where, wrong, right));
@@ -305,5 +310,9 @@ std::string unused_entries(const Recipe& recipe) {
 }
 
 std::vector<std::string> formula_mistakes(const Recipe& recipe) { return FormulaCheck(recipe).run(); }
+
+std::vector<std::string> formula_text_mistakes(const Recipe& recipe) {
+    return FormulaCheck(recipe).run_on_texts();
+}
 
 }  // namespace lamella

@@ -25,6 +25,10 @@ inline constexpr int deepest_grading = 16;
 /// syntax errors; unknown names; gradings that depend on themselves; depths used before the surface exists.
 std::vector<std::string> formula_mistakes(const Recipe& recipe);
 
+/// Returns the messages for syntax errors and unknown names in formulas alone, for a recipe with other
+/// mistakes.
+std::vector<std::string> formula_text_mistakes(const Recipe& recipe);
+
 /// Returns a sentence that lists the [[grading]] and [[field]] entries that nothing uses; empty when there
 /// are none.
 std::string unused_entries(const Recipe& recipe);
