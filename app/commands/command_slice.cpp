@@ -21,6 +21,7 @@
 #include "engine/base/error.h"
 #include "engine/layers/layer_stream.h"
 #include "printers/archive/shard_file.h"
+#include "printers/archive/unfinished_folder.h"
 #include "printers/registry.h"
 #include "recipe/base_material.h"
 #include "recipe/build/repair_job.h"
@@ -168,6 +169,19 @@ std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe
     return outputs;
 }
 
+/// Takes the outputs that are complete out of a resumed run's, and says so: a run repeated until it succeeds
+/// ends well. Returns false when none is left.
+bool leave_complete(const SliceOptions& options, std::vector<Output>& outputs) {
+    if (!options.resume || options.force || !options.shard.empty()) return true;
+    std::erase_if(outputs, [&](const Output& output) {
+        const bool complete = is_finished_output(output.path);
+        if (complete && !options.quiet)
+            std::fputs((output.path + ": complete already; --force makes it anew\n").c_str(), stderr);
+        return complete;
+    });
+    return !outputs.empty();
+}
+
 /// Throws InputError for options that conflict with layers on standard output.
 void check_standard_output(const SliceOptions& options) {
     if (options.json) {
@@ -220,7 +234,8 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
-    const std::vector<Output> outputs = outputs_of(options, recipe);
+    std::vector<Output> outputs = outputs_of(options, recipe);
+    if (!leave_complete(options, outputs)) return "";
     if (options.check && !options.layers.empty()) {
         throw InputError(
             "--check: needs all layers, and --layers leaves some out; accepted: --check or --layers, not "
@@ -264,7 +279,8 @@ void run_worker(const SliceOptions& given, Ranks& ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     const Recipe recipe = options.recipe.read();
-    const std::vector<Output> outputs = outputs_of(options, recipe);
+    std::vector<Output> outputs = outputs_of(options, recipe);
+    if (!leave_complete(options, outputs)) return;
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     const Job& job = prepared.built.job;
     OutputChecks checking;

@@ -42,6 +42,15 @@ std::string journal_line(double area, double support_area) {
 
 }  // namespace
 
+bool is_finished_output(const fs::path& path) {
+    const fs::path named = path.filename().empty() ? path.parent_path() : path;  // "out/" means "out"
+    fs::path partial = named;
+    partial += ".partial";
+    if (is_present(partial)) return false;
+    std::error_code ignored;
+    return fs::is_directory(named, ignored) ? is_ours_whole(named) : fs::is_regular_file(named, ignored);
+}
+
 UnfinishedFolder::UnfinishedFolder(fs::path path, std::string extension, bool force)
     : path_(std::move(path)), extension_(std::move(extension)), force_(force) {
     if (path_.filename().empty()) path_ = path_.parent_path();  // "out/" means "out"

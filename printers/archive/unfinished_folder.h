@@ -14,6 +14,10 @@
 
 namespace lamella {
 
+/// Returns true if a path holds a finished output, a folder of layers or a file, and no unfinished one stands
+/// beside it. Files do not say which job they are of.
+bool is_finished_output(const std::filesystem::path& path);
+
 /// Writes NAME.partial/00000.png and so on, each file complete or absent, a journal with the layers' areas
 /// beside them, and job.json at the end. Files are numbered by layer index, so that the folders of two ranges
 /// together hold the files of the whole job.
