@@ -1,6 +1,8 @@
 // Drains of meshes: every closed cavity gets a way out, whatever the shells of the mesh do.
 #include "recipe/build/place_drains.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <random>
 
