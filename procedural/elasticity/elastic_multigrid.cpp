@@ -121,8 +121,9 @@ ElasticMultigrid::Elements ElasticMultigrid::Elements::summed(
 }
 
 struct ElasticMultigrid::Level {
-    explicit Level(const ElementMask& mask) : grid(mask) {}
+    Level(const ElementMask& mask, const CancelToken* stop) : cancel(stop), grid(mask) {}
 
+    const CancelToken* cancel;
     ElasticGrid grid;
     std::vector<NodeStencil<float>> stencils;
     /// estimated upper bound of the eigenvalues of D^-1 K, D being the diagonal blocks
@@ -149,6 +150,7 @@ struct ElasticMultigrid::Level {
 };
 
 void ElasticMultigrid::Level::find_rest(const float* right, const float* at) {
+    stop_if_cancelled(cancel);
     for_each_node(grid.nodes(), [&](std::size_t node) {
         std::array<float, node_numbers> force{};
         add_forces(stencil_of(node), grid.neighbours(node), at, force.data());
@@ -205,6 +207,7 @@ void ElasticMultigrid::Level::smooth(const float* right, float* at, bool from_ze
         }
         const auto keep = static_cast<float>(first ? 0 : rho / sigma),
                    take = static_cast<float>(first ? 1 / middle : 2 * rho / half);
+        stop_if_cancelled(cancel);
         for_each_node(grid.nodes(), [&](std::size_t node) {
             const Block& inverse = inverses[static_cast<std::size_t>(stencil[node])];
             const std::size_t base = node * node_numbers;
@@ -257,7 +260,8 @@ void ElasticMultigrid::Level::solve_directly(const float* right, float* at) cons
 }
 
 void ElasticMultigrid::add_level(const ElementMask& mask, const Elements& elements) {
-    auto level = std::make_unique<Level>(mask);
+    stop_if_cancelled(cancel_);
+    auto level = std::make_unique<Level>(mask, cancel_);
     const ElasticGrid& grid = level->grid;
     const glm::ivec3 size = mask.size;
     // With one kind of element, nodes with the same elements around them share a stencil.
@@ -326,13 +330,16 @@ bool can_halve(glm::ivec3 size) {
 
 }  // namespace
 
-ElasticMultigrid::ElasticMultigrid(const ElementMask& fine, const HexElement& element) {
+ElasticMultigrid::ElasticMultigrid(const ElementMask& fine, const HexElement& element,
+                                   const CancelToken* cancel)
+    : cancel_(cancel) {
     ElementMask mask = fine;
     Elements elements;
     elements.kinds.push_back(element.stiffness);
     for (const std::uint8_t present : mask.present) elements.kind.push_back(present != 0 ? 0 : -1);
     add_level(mask, elements);
     while (can_halve(mask.size)) {
+        stop_if_cancelled(cancel_);
         Coarser coarse = coarsened(mask);
         Elements larger = elements.summed(mask, coarse.mask.size, coarse.children);
         mask = std::move(coarse.mask);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/cancel_token.h"
 #include "procedural/elasticity/elastic_grid.h"
 
 namespace lamella {
@@ -15,8 +16,10 @@ namespace lamella {
 /// precision; it is symmetric and positive definite.
 class ElasticMultigrid {
   public:
-    /// Coarsens as long as all sides are even and at least four elements.
-    ElasticMultigrid(const ElementMask& elements, const HexElement& element);
+    /// Coarsens as long as all sides are even and at least four elements. Building and solving throw
+    /// Interrupted within a sweep over the nodes once `cancel` (may be null) is set.
+    ElasticMultigrid(const ElementMask& elements, const HexElement& element,
+                     const CancelToken* cancel = nullptr);
     ~ElasticMultigrid();
 
     const ElasticGrid& grid() const;
@@ -30,6 +33,7 @@ class ElasticMultigrid {
     void add_level(const ElementMask& mask, const Elements& elements);
     void cycle(std::size_t level);
 
+    const CancelToken* cancel_;
     std::vector<std::unique_ptr<Level>> levels_;
 };
 

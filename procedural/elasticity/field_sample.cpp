@@ -34,7 +34,7 @@ void mark_plane(const Field& field, const Box& box, double edge, int z, ElementM
 
 }  // namespace
 
-ElementMask sample_field(const Field& field, const Box& box, int along_x) {
+ElementMask sample_field(const Field& field, const Box& box, int along_x, const CancelToken* cancel) {
     const dvec3 size = box.size();
     if (box.empty() || !std::isfinite(size.x + size.y + size.z) || along_x < 1)
         throw InputError("a sample needs a box with a volume and elements in it");
@@ -50,7 +50,10 @@ ElementMask sample_field(const Field& field, const Box& box, int along_x) {
     sample.present.assign(static_cast<std::size_t>(sample.size.x) * static_cast<std::size_t>(sample.size.y) *
                               static_cast<std::size_t>(sample.size.z),
                           0);
-    parallel_for(sample.size.z, [&](int z) { mark_plane(field, box, edge, z, sample); });
+    parallel_for(sample.size.z, [&](int z) {
+        stop_if_cancelled(cancel);
+        mark_plane(field, box, edge, z, sample);
+    });
     return sample;
 }
 

@@ -116,8 +116,7 @@ int Solution::solve(const HomogenizationOptions& options) {
         const double share = largest(squares);
         if (options.on_progress) options.on_progress(i, share);
         if (share <= options.tolerance) return i;
-        if (options.cancel != nullptr && options.cancel->cancelled())
-            throw Interrupted("stopped while a structure was homogenised");
+        stop_if_cancelled(options.cancel);
         const CaseNumbers scale = ease(squares, options.tolerance);
         CaseNumbers now = products(nodes(), rest_.data(), eased_.data()), keep{};
         for (std::size_t l = 0; l < load_cases; ++l) {
@@ -130,6 +129,7 @@ int Solution::solve(const HomogenizationOptions& options) {
                 way_[k] = scale[l] * static_cast<double>(eased_[k]) + keep[l] * way_[k];
             }
         });
+        stop_if_cancelled(options.cancel);
         structure_.multiply(way_.data(), force_.data());
         const CaseNumbers work = products(nodes(), way_.data(), force_.data());
         CaseNumbers step{};
@@ -198,8 +198,8 @@ Homogenized homogenize(const ElementMask& sample, const IsotropicMaterial& mater
     const ElasticTensor stiffness = stiffness_of(material);
     const HexElement element = make_hex_element(stiffness);
     ThreadArena arena(options.threads);
-    return arena.execute([&] {
-        ElasticMultigrid multigrid(sample, element);
+    const auto work = [&] {
+        ElasticMultigrid multigrid(sample, element, options.cancel);
         const Structure structure(multigrid.grid(), element);
         Solution solution(structure, multigrid);
         Homogenized result;
@@ -208,7 +208,12 @@ Homogenized homogenize(const ElementMask& sample, const IsotropicMaterial& mater
         result.nodes = structure.nodes();
         result.stiffness = tensor_of(structure, solution, stiffness, result.density, volume);
         return result;
-    });
+    };
+    try {
+        return arena.execute(work);
+    } catch (const Interrupted&) {
+        throw Interrupted("stopped while a structure was homogenised");
+    }
 }
 
 }  // namespace lamella

@@ -62,16 +62,18 @@ double thinnest_radius(const BuiltFoam& foam) {
     return radius;
 }
 
-ElementMask sample_of(const BuiltFoam& foam, double period, int elements, int threads) {
-    ThreadArena arena(threads);
-    return arena.execute([&] { return sample_field(*foam.field, {dvec3(0), dvec3(period)}, elements); });
+ElementMask sample_of(const BuiltFoam& foam, double period, int elements, const StiffnessOptions& options) {
+    ThreadArena arena(options.threads);
+    return arena.execute([&] {
+        return sample_field(*foam.field, {dvec3(0), dvec3(period)}, elements, options.cancel);
+    });
 }
 
-int suited_elements(const BuiltFoam& foam, double period, int threads) {
+int suited_elements(const BuiltFoam& foam, double period, const StiffnessOptions& options) {
     const double wanted = elements_in_a_radius * period / thinnest_radius(foam);
     const int steps = static_cast<int>(std::ceil(std::min(wanted, 1e6) / elements_step));
     constexpr int coarse = 64;
-    const double share = std::max(sample_of(foam, period, coarse, threads).share(), 1e-4);
+    const double share = std::max(sample_of(foam, period, coarse, options).share(), 1e-4);
     const int bearable = static_cast<int>(std::cbrt(max_solid_elements / share) / elements_step);
     return std::clamp(std::min(steps, bearable) * elements_step, min_elements, max_elements);
 }
@@ -198,14 +200,14 @@ SolvedSample solve_sample(const Recipe& given, const StiffnessSolve& solve, Stif
     solved.period = period_of(recipe);
     const auto fine_elements = [&](int sample) {
         if (options.elements > 0) return options.elements;
-        return suited_elements(foam_of(recipe, sample, solved.period), solved.period, options.threads);
+        return suited_elements(foam_of(recipe, sample, solved.period), solved.period, options);
     };
     // A coarse sample is at most as fine as the last fine sample of the law's point.
     solved.elements = solve.coarse ? std::min(fine_elements(samples_of(*recipe.foam, options) - 1),
                                               coarse_elements(*recipe.foam, solved.period))
                                    : fine_elements(solve.sample);
     const BuiltFoam foam = foam_of(recipe, solve.sample, solved.period);
-    const ElementMask mask = sample_of(foam, solved.period, solved.elements, options.threads);
+    const ElementMask mask = sample_of(foam, solved.period, solved.elements, options);
     solved.found = homogenized(mask, options);
     return solved;
 }
