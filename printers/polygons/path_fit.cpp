@@ -30,20 +30,31 @@ PathPiece straight(std::span<const dvec2> points, std::size_t first, std::size_t
             run_between(points, first, last)};
 }
 
+/// Returns the inner point of a stretch that is farthest from its line, if that is farther than the
+/// tolerance. Where the stretch returns to where it began, a loop smaller than the tolerance keeps its
+/// farthest point: it would have no length otherwise. 0: none.
+std::size_t point_to_keep(std::span<const dvec2> points, std::size_t first, std::size_t last,
+                          double tolerance) {
+    constexpr double no_length = 2e-3;  // mm; G-code has three decimals
+    const bool returns = length(points[last] - points[first]) < no_length;
+    std::size_t farthest = 0;
+    double most = returns ? std::min(tolerance, no_length) : tolerance;
+    for (std::size_t i = first + 1; i < last; ++i) {
+        const double d = distance_to_segment(points[i], points[first], points[last]);
+        if (d > most) {
+            most = d;
+            farthest = i;
+        }
+    }
+    return farthest;
+}
+
 /// Appends straight pieces from one point to another, with as few points between as the tolerance permits.
 void append_merged(std::span<const dvec2> points, std::size_t first, std::size_t last, double tolerance,
                    std::vector<PathPiece>& out) {
     std::vector<std::size_t> ends{last};  // ends of stretches to be examined, the next one last
     while (!ends.empty()) {
-        std::size_t farthest = 0;
-        double most = tolerance;
-        for (std::size_t i = first + 1; i < ends.back(); ++i) {
-            const double d = distance_to_segment(points[i], points[first], points[ends.back()]);
-            if (d > most) {
-                most = d;
-                farthest = i;
-            }
-        }
+        const std::size_t farthest = point_to_keep(points, first, ends.back(), tolerance);
         if (farthest > 0) {
             ends.push_back(farthest);
             continue;

@@ -21,7 +21,8 @@ struct PathPiece {
 std::vector<PathPiece> straight_pieces(std::span<const dvec2> points);
 
 /// Returns straight pieces through fewer points. No omitted point lies farther than `tolerance` from the new
-/// path (Douglas and Peucker 1973).
+/// path (Douglas and Peucker 1973). No piece returns to its start, unless all of its points are nearer to it
+/// than 2 micrometres.
 std::vector<PathPiece> merged_pieces(std::span<const dvec2> points, double tolerance);
 
 /// Fits arcs where four or more points lie on one. The search is greedy: from each point the longest arc is

@@ -116,6 +116,11 @@ TEST_CASE("points that are left out lie within the tolerance", "[path_fit]") {
     }
     CHECK(merged_pieces(std::vector<dvec2>{{0, 0}, {1, 0}, {2, 0}, {9, 0}}, 1e-6).size() == 1);
     CHECK(merged_pieces(std::vector<dvec2>{{0, 0}}, 0.1).empty());
+    // A loop smaller than the tolerance has the length of its way there and back.
+    const auto loop =
+        merged_pieces(std::vector<dvec2>{{0, 0}, {0.02, 0}, {0.02, 0.02}, {0, 0.02}, {0, 0}}, 0.1);
+    REQUIRE(loop.size() == 2);
+    for (const PathPiece& piece : loop) CHECK(piece.length == Approx(0.02 * std::sqrt(2.0)));
     // Out and back again: the turning point stays, though it lies on the line through the others.
     const std::vector<dvec2> back{{0, 0}, {5, 0}, {1, 0}};
     CHECK(merged_pieces(back, 0.1).size() == 2);
