@@ -62,6 +62,7 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
     int next = stamp.range.first;
     std::uint64_t size = 0;
     if (is_present(partial_)) {
+        lock_.take(partial_);
         if (resume) {
             resumed_ = read_journal(stamp, next, size);
         } else if (!force_) {
@@ -79,6 +80,7 @@ int UnfinishedFile::begin(const JobStamp& stamp, bool resume) {
     const std::string journal = to_json(stamp).dump() + "\n" + std::exchange(records_, {});
     write_whole_file(journal_path_, journal);
     file_ = OutputFile::continue_at(partial_, size);
+    lock_.take(partial_);
     journal_ = OutputFile::continue_at(journal_path_, journal.size());
     return next;
 }

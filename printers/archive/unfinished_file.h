@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "printers/archive/job_stamp.h"
 #include "printers/archive/output_file.h"
+#include "printers/archive/output_lock.h"
 
 namespace lamella {
 
@@ -62,6 +63,7 @@ class UnfinishedFile {
     std::string records_;  // records of the resumed journal
     OutputFile file_;
     OutputFile journal_;
+    OutputLock lock_;
 };
 
 }  // namespace lamella

@@ -116,6 +116,7 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     if (is_present(path_)) check_replaceable();
     // A run that died after removing its stamp and before renaming the folder leaves a job.json. The folder
     // is made anew.
+    if (is_present(partial_)) lock_.take(partial_);
     if (resume && !is_present(partial_ / stamp_file) && is_ours_whole(partial_)) remove_ours(partial_);
     if (is_present(partial_) && !holds_nothing(partial_)) {
         if (resume) {
@@ -133,6 +134,7 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     std::error_code error;
     fs::create_directories(partial_, error);
     if (error) throw FaultError("cannot make the folder " + partial_.string() + ": " + error.message());
+    lock_.take(partial_);
     stamp_ = stamp;
     note(state);
     return state;

@@ -11,6 +11,7 @@
 
 #include "printers/archive/job_stamp.h"
 #include "printers/archive/output_file.h"
+#include "printers/archive/output_lock.h"
 
 namespace lamella {
 
@@ -58,6 +59,7 @@ class UnfinishedFolder {
     std::string extension_;
     bool force_;
     OutputFile journal_;
+    OutputLock lock_;
     std::vector<double> areas_, support_areas_;  ///< of the layers written so far, mm^2
     OutputFile pipe_;                            ///< standard output, if the path is "-"
     JobStamp stamp_;
