@@ -141,7 +141,8 @@ void add_gradings(std::vector<Setting>& t) {
         {.fallback = "false", .help = "Interpolate a table's rows smoothly instead of linearly."});
     add_grading_row<&G::attribute>(
         t, "attribute",
-        {.fallback = "required by attribute", .help = "Property of a PLY's vertices: red, quality, ..."});
+        {.fallback = "required by attribute",
+         .help = "Property of a PLY's vertices: red, quality, ...; colours are 0 to 1."});
     add_grading_row<&G::points>(t, "points",
                                 {.unit = "mm",
                                  .limits = place_limits,
