@@ -91,6 +91,10 @@ std::optional<std::string> script_mistake(std::string_view script, Flavour flavo
         const std::string text = expand_line(line, longest_values, mistake);
         if (std::ranges::any_of(line, [](char c) { return c < ' ' || c > '~'; })) {
             mistake = "a character is not printable ASCII; accepted: letters, digits and signs of ASCII";
+        } else if (flavour == Flavour::grbl && line.find_first_of("!~?") != std::string_view::npos) {
+            mistake = fmt::format(
+                "GRBL acts on {} as soon as it arrives, even in a comment; accepted: lines without ! ~ ?",
+                line[line.find_first_of("!~?")]);
         } else if (mistake.empty() && text.size() > longest_line(flavour)) {
             mistake =
                 fmt::format("it has up to {} bytes; accepted: at most {}, which is what the firmware reads",
