@@ -8,9 +8,11 @@
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
 #include "app/console/interrupt.h"
+#include "app/console/print_texts.h"
 #include "app/console/print_view.h"
 #include "app/console/text_output.h"
 #include "engine/base/error.h"
+#include "printers/archive/output_file.h"
 #include "printers/gcode/gcode.h"
 #include "printers/registry.h"
 #include "printers/serial/serial_output.h"
@@ -26,6 +28,7 @@ struct PrintOptions : JobOptions {
     std::optional<double> z;
     bool dry_run = false;
     bool force = false;
+    bool stop_on_hangup = false;
     std::string repeat;  ///< the command line that continues this print
 };
 
@@ -55,29 +58,37 @@ void say(const PrintOptions& options, const std::string& text) {
 
 /// Prints layers as they are computed, or a ready file.
 void produce(const PrintOptions& options, const std::optional<Recipe>& recipe,
-             const std::optional<PreparedJob>& prepared, std::unique_ptr<GcodeOutput> output,
-             const CancelToken& cancel) {
+             const std::optional<PreparedJob>& prepared, std::unique_ptr<GcodeOutput> output) {
     if (!recipe) {
-        send_gcode_file(options.recipe.input(), *output, options.resume, &cancel);
+        send_gcode_file(options.recipe.input(), *output, options.resume, options.link);
         return;
     }
     const auto backend = make_gcode(recipe->printer, std::move(output));
-    stream_layers(prepared->built.job, *backend, prepared->stream);
+    const StreamReport report = stream_layers(prepared->built.job, *backend, prepared->stream);
+    if (report.layers_kept == 0 && report.volume == 0 && report.support_volume == 0) {
+        throw InputError(
+            fmt::format("the job is empty: none of its {} layers holds anything to print; accepted: a part "
+                        "that is thicker "
+                        "than a layer and a line, with its size in millimetres",
+                        report.layers_written));
+    }
     for (const std::string& note : backend->notes()) say(options, "note: " + note);
 }
 
 void dry_run(const PrintOptions& options, const std::optional<Recipe>& recipe,
-             const std::optional<PreparedJob>& prepared, const CancelToken& cancel) {
+             const std::optional<PreparedJob>& prepared) {
     DryRun report;
-    produce(options, recipe, prepared, make_dry_run(options.link, report), cancel);
+    produce(options, recipe, prepared, make_dry_run(options.link, report));
     const double wire = static_cast<double>(report.bytes) * 10 / options.link.baud;
     TextOutput out("");
     out.write(fmt::format(
-        "{} lines, {} bytes: {:.0f} s of motion at the speeds asked for, {:.0f} s on a wire of {} baud\n"
+        "{} lines, {} bytes: {:.0f} s of motion at the speeds asked for, {:.0f} s with acceleration, {:.0f} "
+        "s on "
+        "a wire of {} baud\n"
         "at its densest {:.0f} lines/s and {:.0f} bytes/s of {:.0f}\n"
         "sent to a machine that answers at once: {:.0f} lines/s\n",
-        report.lines, report.bytes, report.seconds, wire, options.link.baud, report.need.lines,
-        report.need.bytes, options.link.baud / 10.0,
+        report.lines, report.bytes, report.seconds, report.model_seconds, wire, options.link.baud,
+        report.need.lines, report.need.bytes, options.link.baud / 10.0,
         report.sending_seconds > 0 ? static_cast<double>(report.lines) / report.sending_seconds : 0));
     out.close();
     if (const std::string warning = link_warning(report.need, options.link.baud); !warning.empty())
@@ -85,20 +96,23 @@ void dry_run(const PrintOptions& options, const std::optional<Recipe>& recipe,
 }
 
 void print(const PrintOptions& options, const std::optional<Recipe>& recipe,
-           const std::optional<PreparedJob>& prepared, const CancelToken& cancel) {
+           const std::optional<PreparedJob>& prepared) {
+    const TerminalGuard terminal(options.stop_on_hangup);
     const auto link = std::make_shared<PrintLink>(options.link);
-    PrintView view(link, prepared ? prepared->built.job.layer_count : 0, options.quiet);
+    PrintView view(link, prepared ? prepared->stream.range.last : 0, options.quiet);
     SerialOutputOptions output{options.force, options.z,
                                [&](const std::string& text) { view.show_message(text); }};
     const auto go_on = [&] {
-        return link->status().lines_answered > 0 ? ". To go on: " + options.repeat : std::string();
+        // Before the first layer is done there is nothing to go on from.
+        const bool kept = link->status().resumable || is_present(options.link.journal);
+        return kept ? ". To go on: " + options.repeat : std::string();
     };
     const auto sum_up = [&] {
         view.close();
         if (link->status().connected) say(options, summary_text(link->status()));
     };
     try {
-        produce(options, recipe, prepared, make_serial_output(link, options.link, output), cancel);
+        produce(options, recipe, prepared, make_serial_output(link, options.link, output));
     } catch (const Interrupted&) {
         const std::string words = link->end_words();
         sum_up();
@@ -133,13 +147,16 @@ void run(PrintOptions options) {
         const FilamentProfile& bed = recipe->printer.filament;
         options.link.park_y = bed.bed_y;
         options.link.highest = bed.bed_z;
+        const GcodeProfile& gcode = recipe->printer.gcode;
+        options.link.motion.acceleration = options.link.motion.travel_acceleration = gcode.acceleration;
+        options.link.motion.junction_deviation = gcode.junction_deviation;
         prepared = prepare_job(options, *recipe, cancel);
     }
     options.link.grbl = is_grbl(options, recipe);
     if (!options.park.empty()) options.link.park_x = options.park[0], options.link.park_y = options.park[1];
     if (options.link.journal.empty()) options.link.journal = name + ".print.journal";
-    if (options.dry_run) return dry_run(options, recipe, prepared, cancel);
-    print(options, recipe, prepared, cancel);
+    if (options.dry_run) return dry_run(options, recipe, prepared);
+    print(options, recipe, prepared);
 }
 
 void list_ports() {
@@ -232,9 +249,14 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
         "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or ready G-code (.gcode, .gco, .g, .nc, .ngc)");
     add_link_options(command, *options);
     add_job_options(command, *options);
-    command.add_flag("--resume", options->resume, "Continue a stopped print");
+    CLI::Option* resume = command.add_flag("--resume", options->resume, "Continue a stopped print");
+    command.get_option("--resume-z")->needs(resume);
     command.add_flag("--dry-run", options->dry_run, "Send everything to a simulated machine, and report");
     command.add_flag("--force", options->force, "Discard the journal of a stopped print");
+    command
+        .add_flag("--stop-on-hangup", options->stop_on_hangup,
+                  "Stop the print when the terminal is closed; without it the print goes on without its view")
+        ->group("Printer");
     command.add_flag("-q,--quiet", options->quiet, "No progress on standard error");
     finish_command(
         command,
@@ -245,10 +267,12 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella print engraving.nc --port /dev/ttyUSB0 --baud 115200 --firmware grbl\n"
         "Keys: p pauses, r resumes or tells a waiting printer that you are done, 1 to 9 press a button of "
         "what\n"
-        "it asks, s stops, x halts at once. Ctrl-C stops the print and switches its heaters off; the same\n"
-        "command with --resume goes on with the first layer that was not done: it heats, homes X and Y, and\n"
-        "takes Z from the journal. Exit codes: 0 printed, 2 bad input, 3 the printer or the line failed,\n"
-        "130 stopped.");
+        "it asks, s stops, x halts at once. A closed terminal ends the view, not the print. Ctrl-C stops "
+        "the\n"
+        "print and switches its heaters off; the same command with --resume goes on with the first layer "
+        "that\n"
+        "was not done: it heats, homes X and Y, and takes Z from the journal. Without keys, kill -USR1 does\n"
+        "what r does. Exit codes: 0 printed, 2 bad input, 3 the printer or the line failed, 130 stopped.");
     command.callback([options] { run(*options); });
 }
 

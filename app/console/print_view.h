@@ -12,8 +12,9 @@
 namespace lamella {
 
 /// Redraws a line on a terminal, or writes one at intervals otherwise, on its own thread. While it lives and
-/// standard input is a terminal, p pauses, r resumes, s stops and x halts the print, and 1 to 9 press a
-/// button of a prompt from the printer.
+/// standard input is a terminal with the process in its foreground, p pauses, r resumes, s stops and x halts
+/// the print, and 1 to 9 press a button of a prompt from the printer. Says nothing more once the terminal is
+/// gone (see TerminalGuard).
 class PrintView {
   public:
     /// `last_layer` is the number of layers, 0 when it is not known.
@@ -30,8 +31,9 @@ class PrintView {
   private:
     void work();
     void show(const LinkStatus& status);
-    void greet(const LinkStatus& status);
+    void watch_signals();
     void tell_trouble(const LinkStatus& status);
+    void tell_once(const std::string& text, std::string& told);
     void write_line(const std::string& text);
     void read_keys();
 
@@ -39,24 +41,17 @@ class PrintView {
     int last_layer_;
     bool quiet_;
     bool terminal_;
-    bool keys_;
+    bool keys_;          ///< keys are read
+    bool gone_ = false;  ///< the terminal is gone
     bool line_open_ = false;
     bool greeted_ = false;
-    std::string told_wait_, told_trouble_;
+    std::string told_wait_, told_journal_, told_log_, told_awaiting_;
+    int told_notices_ = 0;
     double last_line_ = -100;
     std::mutex mutex_;
     std::condition_variable ended_;
     bool ending_ = false;
     std::thread thread_;
 };
-
-/// Returns "layer 12/80  4711 lines  Z 2.4  nozzle 209.8/210  bed 60.1/60  8 layers ready  3 % starved".
-std::string status_text(const LinkStatus& status, int last_layer);
-
-/// Returns what the printer waits for and which keys answer it; empty while it does not wait.
-std::string wait_text(const LinkStatus& status);
-
-/// Returns the statistics of a print: lines/s, longest gap, resends, timeouts, starvation.
-std::string summary_text(const LinkStatus& status);
 
 }  // namespace lamella

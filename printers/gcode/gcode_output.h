@@ -24,6 +24,11 @@ class GcodeOutput {
     virtual nlohmann::ordered_json state() const = 0;
     /// Returns the error for a state whose content is invalid.
     virtual InputError damaged_state() const = 0;
+    /// Takes a part of the job that an earlier run has sent, before the first call of `commit`: lines keep
+    /// their numbers. `seconds` is its time of motion.
+    virtual void skip(std::string_view /*text*/, double /*seconds*/) {}
+    /// Tells the time of motion of all that will be passed to `commit`, s, if it is known beforehand.
+    virtual void expect(double /*seconds*/) {}
     /// Appends the text of everything before layer `next`. `state` holds what a run resumed here must know.
     virtual void commit(std::string_view text, int next, const nlohmann::ordered_json& state) = 0;
     /// Appends the end of the job.

@@ -14,14 +14,21 @@ namespace {
 class DryRunOutput : public GcodeOutput {
   public:
     DryRunOutput(const LinkSettings& settings, DryRun& report)
-        : grbl_(settings.grbl), maker_(settings.grbl), report_(report) {
+        : grbl_(settings.grbl), maker_(settings.grbl, settings.motion), report_(report) {
         SenderSettings sender = settings.sender;
         sender.greeting = 0;
         sender.byte_time = 0;
+        SenderListener listener;
+        if (!settings.log.empty()) {
+            log_ = std::make_unique<LineLog>(settings.log);
+            listener.on_line = [this](char direction, std::string_view line, std::size_t in_flight) {
+                log_->add(now_, direction, in_flight, line);
+            };
+        }
         if (grbl_) {
-            sender_ = std::make_unique<GrblSender>(sender, SenderListener{});
+            sender_ = std::make_unique<GrblSender>(sender, std::move(listener));
         } else {
-            sender_ = std::make_unique<MarlinSender>(sender, SenderListener{});
+            sender_ = std::make_unique<MarlinSender>(sender, std::move(listener));
         }
     }
 
@@ -33,7 +40,9 @@ class DryRunOutput : public GcodeOutput {
     nlohmann::ordered_json state() const override { return nullptr; }
     InputError damaged_state() const override { return InputError("a dry run keeps no state"); }
     void commit(std::string_view text, int, const nlohmann::ordered_json&) override {
-        const std::string lines = maker_.clean(text);
+        const CleanText clean = maker_.clean(text);
+        const std::string& lines = clean.lines;
+        for (const LineFacts& line : clean.facts) report_.model_seconds += static_cast<double>(line.seconds);
         for (std::size_t at = 0; at < lines.size();) {
             const std::size_t end = lines.find('\n', at);
             sender_->push(lines.substr(at, end - at));
@@ -49,6 +58,11 @@ class DryRunOutput : public GcodeOutput {
         report_.bytes = sender_->statistics().bytes;
         report_.seconds = maker_.seconds();
         report_.need = maker_.need();
+        if (report_.lines == 0) throw InputError("the job holds no line to send");
+        if (log_) {
+            log_->close();
+            if (!log_->trouble().empty()) throw FaultError("the log cannot be written: " + log_->trouble());
+        }
         if (sender_->answered() != report_.lines) throw FaultError("the dry run did not come to its end");
     }
 
@@ -83,6 +97,7 @@ class DryRunOutput : public GcodeOutput {
     }
 
     bool grbl_;
+    std::unique_ptr<LineLog> log_;
     ChunkMaker maker_;
     DryRun& report_;
     std::unique_ptr<LineSender> sender_;

@@ -2,6 +2,7 @@
 #include "printers/serial/gcode_line.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "engine/base/error.h"
 
@@ -35,7 +36,7 @@ std::string without_comments(std::string_view line) {
     std::string text;
     int depth = 0;
     for (const char c : line) {
-        if (c == ';') break;
+        if (c == ';' && depth == 0) break;
         if (c == '(') ++depth;
         if (depth == 0) text += is_blank(c) ? ' ' : upper(c);
         if (c == ')' && depth > 0) --depth;
@@ -95,29 +96,51 @@ std::string command_word(std::string_view command) {
     return word;
 }
 
-std::string clean_command(std::string_view line, std::size_t longest) {
+std::optional<double> command_value(std::string_view command, char letter) {
+    for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;
+         at = command.find(letter, at + 1)) {
+        const std::string_view rest = command.substr(at + 1);
+        double value = 0;
+        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+        if (error == std::errc() && end != rest.data()) return value;
+    }
+    return std::nullopt;
+}
+
+std::string clean_command(std::string_view line, const LineRules& rules) {
     const std::string_view bare = trim_spaces(without_number(trim_spaces(line)));
     std::string start;
     for (const char c : bare.substr(0, 6)) start += upper(c);
     const std::string word = command_word(start);
     std::string command;
-    if (shows_text(word) || names_file(word)) {
+    if (rules.keeps_text && (shows_text(word) || names_file(word))) {
         for (const char c : bare.substr(0, bare.find(';'))) command += ' ' <= c && c <= '~' ? c : '?';
         for (std::size_t i = 0; i < word.size(); ++i) command[i] = upper(command[i]);
-        command =
-            trim_spaces(std::string_view(command).substr(0, shows_text(word) ? longest : command.size()));
+        command = trim_spaces(
+            std::string_view(command).substr(0, shows_text(word) ? rules.longest : command.size()));
     } else {
         command = tidy_words(without_comments(bare));
     }
     // M110 is dropped: only the sender numbers lines.
     if (command.empty() || command == "%" || word == "M110") return {};
+    if (command[0] == '@') {
+        throw InputError(
+            "\"" + shown(line) +
+            "\" is a command to a host, which no printer reads; accepted: G-code, such as M0 or M600 "
+            "for a pause");
+    }
     if (command[0] != '$' && !('A' <= command[0] && command[0] <= 'Z'))
         throw InputError("\"" + shown(line) + "\" is no G-code: a line begins with a letter");
     if (!std::all_of(command.begin(), command.end(), [](char c) { return ' ' <= c && c <= '~'; }))
         throw InputError("\"" + shown(line) + "\" holds characters that are no ASCII");
-    if (command.size() > longest) {
+    if (const auto at = command.find_first_of(rules.realtime); at != std::string::npos) {
+        throw InputError(
+            "\"" + shown(line) + "\" holds " + command[at] +
+            ", on which the firmware acts as soon as it arrives; accepted: no ! ~ ? outside comments");
+    }
+    if (command.size() > rules.longest) {
         throw InputError("the line \"" + shown(line) + "...\" has " + std::to_string(command.size()) +
-                         " characters, more than the " + std::to_string(longest) +
+                         " characters, more than the " + std::to_string(rules.longest) +
                          " that the printer can read");
     }
     return command;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,11 +15,25 @@ constexpr std::size_t longest_grbl_line = 80;
 /// Longest command: leaves room for a line number of 8 digits and a checksum of 3.
 constexpr std::size_t longest_command = longest_marlin_line - 14;
 
+/// What firmware accepts as a line.
+struct LineRules {
+    std::size_t longest;        ///< most characters of a command
+    bool keeps_text;            ///< commands may carry a text for the display or the name of a file
+    std::string_view realtime;  ///< characters that the firmware takes out of the stream and acts on at once
+};
+constexpr LineRules marlin_lines{longest_command, true, ""};
+/// `!` holds the motion, `~` continues it, `?` asks for the state, wherever they stand.
+constexpr LineRules grbl_lines{longest_grbl_line, false, "!~?"};
+
 /// Strips a line of a job: removes comments, surplus blanks, line numbers, checksums and trailing zeros, and
-/// converts it to capitals. Returns an empty string if nothing is left to send. Text for the display (M0, M1,
-/// M117, M118) is kept but may be cut; the file name of M23, M28, M30 and M32 is kept unchanged. Throws
-/// InputError for a line longer than `longest` and for one that is not a command.
-std::string clean_command(std::string_view line, std::size_t longest = longest_command);
+/// converts it to capitals. Returns an empty string if nothing is left to send. Where the rules keep texts,
+/// text for the display (M0, M1, M117, M118) is kept but may be cut, and the file name of M23, M28, M30 and
+/// M32 is kept unchanged. Throws InputError for a line that is too long, for one that is not a command, and
+/// for one with a real-time character outside its comments.
+std::string clean_command(std::string_view line, const LineRules& rules = marlin_lines);
+
+/// Returns the number behind a letter, such as 10 for 'X' in "G1 X10". The command's own word does not count.
+std::optional<double> command_value(std::string_view command, char letter);
 
 /// Returns the XOR of all bytes.
 unsigned xor_checksum(std::string_view text);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <numeric>
 
 #include "engine/base/error.h"
 #include "printers/serial/serial_output.h"
@@ -35,16 +36,36 @@ void for_each_part(const std::filesystem::path& path, const Take& take) {
 }  // namespace
 
 int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool resume,
-                    const CancelToken* cancel) {
+                    const LinkSettings& settings) {
+    const CancelToken* cancel = settings.cancel;
     // An FNV-1a hash of the whole file shows whether it is unchanged when a print is resumed.
     std::uint64_t hash = 14695981039346656037ULL;
-    int parts = 0;
+    std::vector<double> seconds;  // of each part
+    ChunkMaker maker(settings.grbl, settings.motion);
     for_each_part(path, [&](const std::string& part) {
-        ++parts;
+        if (cancel != nullptr && cancel->cancelled()) throw Interrupted("interrupted");
         for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+        double all = 0;
+        try {
+            for (const LineFacts& line : maker.clean(part).facts) all += static_cast<double>(line.seconds);
+        } catch (const InputError& error) {
+            throw InputError(path.string() + ", " + error.what());
+        }
+        seconds.push_back(all);
     });
+    if (maker.lines() == 0) {
+        throw InputError(path.string() +
+                         " holds no line to send, only comments or nothing; accepted: a file with G-code");
+    }
+    const int parts = static_cast<int>(seconds.size());
     const int first = output.begin({fmt::format("file-{:016x}", hash), "gcode file", {0, parts}}, resume);
     int index = 0;
+    for_each_part(path, [&](const std::string& part) {
+        if (index < first) output.skip(part, seconds[static_cast<std::size_t>(index)]);
+        ++index;
+    });
+    output.expect(std::accumulate(seconds.begin() + first, seconds.end(), 0.0));
+    index = 0;
     for_each_part(path, [&](const std::string& part) {
         if (cancel != nullptr && cancel->cancelled()) throw Interrupted("interrupted");
         if (index++ >= first) output.commit(part, index, nullptr);

@@ -21,6 +21,12 @@ class GrblModes {
     /// the middle of a cut, and offsets set by the job are lost in a reset.
     const std::string& obstacle() const { return obstacle_; }
 
+    double x() const { return at_[0]; }
+    double y() const { return at_[1]; }
+    double feed() const { return feed_; }
+    int motion() const { return static_cast<int>(motion_); }
+    bool inches() const { return units_ == 20; }
+
     nlohmann::ordered_json to_json() const;
     /// Throws nlohmann::json::exception if a field is missing.
     static GrblModes from_json(const nlohmann::ordered_json& json);

@@ -11,6 +11,7 @@ namespace {
 constexpr double grbl_status_interval = 0.2;  // s; more frequent requests load the reply line
 constexpr double ask_patience = 2;            // s
 constexpr int max_tries = 10;
+constexpr int hopeless_tries = 3;    // where what arrives is no answer of GRBL
 constexpr double idle_patience = 3;  // s that GRBL may be idle with lines unanswered
 constexpr double hold_interval = 0.1;
 constexpr double hold_patience = 5;  // s from the hold to standstill
@@ -33,9 +34,9 @@ void GrblSender::connect(double now) {
     state_until_ = now + settings_.greeting;
 }
 
-void GrblSender::reconnect(double now) {
-    forget_wire();
-    if (state_ != State::running) {
+void GrblSender::take_up_dialogue(double now) {
+    if (state_ == State::idle || state_ == State::greeting || state_ == State::asking) {
+        tries_ = 0;
         connect(now);
         return;
     }
@@ -57,10 +58,17 @@ std::optional<UserWait> GrblSender::user_wait() const {
     return UserWait{pause ? "M0: a pause that the job asks for" : "the machine is held"};
 }
 
+LineWait GrblSender::line_wait() const {
+    if (sent_.empty()) return LineWait::none;
+    const std::string word = command_word(sent_.front().command);
+    if (word == "M0") return LineWait::person;
+    return sent_.front().command.starts_with('$') ? LineWait::other : LineWait::none;
+}
+
 bool GrblSender::finished() const { return finishing_ && dwelt_ && idle(); }
 
-double GrblSender::wake_at() const {
-    if (state_ == State::idle || stop_) return never;
+double GrblSender::next_wake() const {
+    if (state_ == State::idle) return never;
     return state_ == State::running || state_ == State::holding ? next_status_ : state_until_;
 }
 
@@ -83,8 +91,10 @@ void GrblSender::check_time(double now) {
         }
         return;
     }
-    if (++tries_ > max_tries) {
-        stop(StopKind::unanswered, "nothing at the port answers like GRBL; is it on, and is --baud right?");
+    const FirstWordsKind heard = first_words_.kind();
+    const bool hopeless = heard == FirstWordsKind::garbage || heard == FirstWordsKind::echo;
+    if (++tries_ > (hopeless ? hopeless_tries : max_tries)) {
+        stop(StopKind::unanswered, first_words_.failure(baud()));
         return;
     }
     state_ = State::asking;
@@ -139,6 +149,16 @@ void GrblSender::handle(const Reply& reply, double now) {
                 state_ = State::greeting;
                 state_until_ = now + 0.1;
             }
+            break;
+        case ReplyKind::grbl_version:
+            if (firmware_.empty()) firmware_ = "Grbl " + reply.text;
+            break;
+        case ReplyKind::reset:
+        case ReplyKind::firmware:
+            if (state_ != State::running &&
+                (reply.kind == ReplyKind::reset || reply.text.starts_with("Marlin")))
+                stop(StopKind::refused, "this machine does not run GRBL: it says \"" + reply.text +
+                                            "\"; accepted: --firmware marlin, or a machine with GRBL");
             break;
         case ReplyKind::grbl_options:
             // One byte less than the buffer is safe, however GRBL counts.

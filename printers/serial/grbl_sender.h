@@ -10,11 +10,10 @@ namespace lamella {
 /// settings ($..., G10, G28.1, G30.1) are sent alone, because GRBL disables interrupts while it writes them.
 class GrblSender : public LineSender {
   public:
-    using LineSender::LineSender;
+    GrblSender(SenderSettings settings, SenderListener listener)
+        : LineSender(settings, std::move(listener), "$I") {}
 
     void connect(double now) override;
-    void reconnect(double now) override;
-    double wake_at() const override;
     std::size_t unanswered() const override { return bytes_; }
     bool connected() const override { return state_ == State::running; }
     bool finished() const override;
@@ -25,10 +24,13 @@ class GrblSender : public LineSender {
     /// Cycle start: ends M0 and a hold by a button of the machine.
     void end_waiting() override { transmit_raw("~", false); }
     std::optional<UserWait> user_wait() const override;
+    LineWait line_wait() const override;
 
   protected:
     void handle(const Reply& reply, double now) override;
     void check_time(double now) override;
+    double next_wake() const override;
+    void take_up_dialogue(double now) override;
     void feed(double now) override;
 
   private:

@@ -2,11 +2,30 @@
 #include "printers/serial/line_sender.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamella {
 
+int LineSender::baud() const {
+    return settings_.byte_time > 0 ? static_cast<int>(std::lround(10 / settings_.byte_time)) : 0;
+}
+
+void LineSender::disconnect() {
+    lost_ = true;
+    forget_wire();
+    last_line_ = -1;  // the time without a port is no gap between two lines
+}
+
+void LineSender::reconnect(double now) {
+    lost_ = false;
+    forget_wire();
+    if (!stop_) take_up_dialogue(now);
+}
+
 void LineSender::receive(std::string_view bytes, double now) {
+    if (lost_) return;
     if (!bytes.empty()) heard_ = now;
+    if (!connected()) first_words_.take(bytes);
     replies_.feed(bytes);
     while (const auto line = replies_.next()) {
         if (listener_.on_line) listener_.on_line('<', *line, unanswered());
@@ -19,7 +38,7 @@ void LineSender::receive(std::string_view bytes, double now) {
 }
 
 void LineSender::tick(double now) {
-    if (stop_) return;
+    if (stop_ || lost_) return;
     check_time(now);
     if (!stop_) feed(now);
 }
@@ -41,6 +60,7 @@ void LineSender::transmit(std::string_view line, double now) {
 }
 
 void LineSender::transmit_raw(std::string_view bytes, bool on_own_line) {
+    if (lost_) return;
     if (on_own_line && line_cut_) out_ += '\n';
     line_cut_ = false;
     out_ += bytes;
@@ -56,7 +76,9 @@ void LineSender::stop(StopKind kind, std::string why) {
     out_at_ = 0;
 }
 
+/// Discards the bytes that a lost connection has swallowed.
 void LineSender::forget_wire() {
+    line_cut_ = false;
     out_.clear();
     out_at_ = 0;
     replies_.clear();

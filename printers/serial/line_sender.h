@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "printers/serial/first_words.h"
 #include "printers/serial/machine_state.h"
 #include "printers/serial/reply.h"
 
@@ -67,6 +68,14 @@ struct UserWait {
     std::vector<std::string> buttons{};  ///< buttons to choose from, by index; may be empty
 };
 
+/// What the oldest unanswered line keeps the printer from going on for.
+enum class LineWait : unsigned char {
+    none,    ///< motion, or nothing
+    heat,    ///< a temperature
+    person,  ///< a person
+    other    ///< homing, levelling, or another command whose time is not known
+};
+
 /// A state machine driven by received bytes and by the time (s, any origin). The caller writes `output` to
 /// the port. Lines must be clean (see clean_command) and are sent in order.
 ///
@@ -85,23 +94,26 @@ class LineSender {
   public:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    LineSender(SenderSettings settings, SenderListener listener)
-        : settings_(settings), listener_(std::move(listener)) {}
+    /// `request` is the line that asks the printer for its first answer.
+    LineSender(SenderSettings settings, SenderListener listener, std::string request)
+        : settings_(settings), listener_(std::move(listener)), first_words_(std::move(request)) {}
     virtual ~LineSender() = default;
     LineSender(const LineSender&) = delete;
     LineSender& operator=(const LineSender&) = delete;
 
     /// Starts the dialogue with the printer. Call when the port has been opened.
     virtual void connect(double now) = 0;
+    /// Tells that the port is lost. Nothing is sent, counted or timed until `reconnect`.
+    void disconnect();
     /// Resumes after the port was lost and opened again, at the line where the printer stands, unless the
-    /// printer was reset.
-    virtual void reconnect(double now) = 0;
+    /// printer was reset. All timeouts begin anew.
+    void reconnect(double now);
     /// Takes bytes received from the printer.
     void receive(std::string_view bytes, double now);
     /// Handles timeouts and sends the lines that may be sent.
     void tick(double now);
     /// Returns the latest time of the next call of `tick`; `never` if only an answer can change anything.
-    virtual double wake_at() const = 0;
+    double wake_at() const { return stop_ || lost_ ? never : next_wake(); }
 
     /// Appends a line of the job.
     void push(std::string command) { pending_.push_back(std::move(command)); }
@@ -113,6 +125,9 @@ class LineSender {
     void hold(bool held) { held_ = held; }
     /// Pauses or continues the motion itself, if the machine can do so.
     virtual void hold_motion(bool /*held*/) {}
+    /// Returns the number of lines of the host that are not sent yet.
+    std::size_t host_lines() const { return urgent_.size(); }
+    void drop_host_lines() { urgent_.clear(); }
     /// Discards all lines that are not sent yet.
     void drop_pending() { pending_.clear(), urgent_.clear(); }
     /// Returns true if nothing is left to send and nothing is unanswered.
@@ -140,6 +155,15 @@ class LineSender {
     /// `end_waiting` (done) or `choose` (button pressed).
     virtual std::optional<UserWait> user_wait() const = 0;
     virtual void choose(std::size_t) {}
+    /// Returns what the oldest unanswered line waits for.
+    virtual LineWait line_wait() const = 0;
+    /// Returns true if a pause can still keep a line of the job from being executed.
+    virtual bool can_pause() const { return true; }
+    /// Returns what the port has said before the printer was known.
+    const FirstWords& first_words() const { return first_words_; }
+    int baud() const;
+    /// Returns the most bytes that may be unanswered; 0 if lines are sent one at a time.
+    std::size_t bytes_ahead() const { return settings_.ping_pong ? 0 : settings_.window; }
 
     const std::optional<SenderStop>& stopped() const { return stop_; }
     /// Returns the bytes to send now. Call `wrote` with the number of bytes that were written.
@@ -155,6 +179,10 @@ class LineSender {
   protected:
     virtual void handle(const Reply& reply, double now) = 0;
     virtual void check_time(double now) = 0;
+    /// Returns the latest time of the next call of `tick` while the port is there.
+    virtual double next_wake() const = 0;
+    /// Resumes the dialogue over a port that is back.
+    virtual void take_up_dialogue(double now) = 0;
     /// Sends the lines that may be sent now.
     virtual void feed(double now) = 0;
 
@@ -162,8 +190,6 @@ class LineSender {
     /// Sends bytes outside the stream of lines. With `on_own_line`, a partly sent line is ended first.
     void transmit_raw(std::string_view bytes, bool on_own_line);
     void stop(StopKind kind, std::string why);
-    /// Discards the bytes that a lost connection has swallowed.
-    void forget_wire();
 
     SenderSettings settings_;
     SenderListener listener_;
@@ -177,11 +203,15 @@ class LineSender {
     MachineState machine_;
     Temperatures temperatures_;
     std::string firmware_;
+    FirstWords first_words_;
     double heard_ = 0;  // time of the last received byte
 
   private:
+    void forget_wire();
+
     std::string out_;
     std::size_t out_at_ = 0;
+    bool lost_ = false;      // the port is lost
     bool line_cut_ = false;  // output stopped in the middle of a line
     ReplyLines replies_;
     double last_line_ = -1;

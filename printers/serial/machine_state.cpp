@@ -2,7 +2,6 @@
 #include "printers/serial/machine_state.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/number_format.h"
@@ -16,17 +15,6 @@ constexpr double retraction = 2;    // mm; prevents oozing while parked
 constexpr double prime = 8;         // mm of filament that refill a nozzle which has stood cold
 constexpr double min_nozzle = 150;  // degrees Celsius; below it nothing is extruded
 
-std::optional<double> word(std::string_view command, char letter) {
-    for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;
-         at = command.find(letter, at + 1)) {
-        const std::string_view rest = command.substr(at + 1);
-        double value = 0;
-        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-        if (error == std::errc() && end != rest.data()) return value;
-    }
-    return std::nullopt;
-}
-
 std::string number(double value, int decimals = 3) { return format_number(value, decimals); }
 
 }  // namespace
@@ -37,7 +25,7 @@ double MachineState::apply(std::string_view command) {
     if (name == "G0" || name == "G1" || name == "G2" || name == "G3") {
         double way = 0, pushed = 0;
         for (int axis = 0; axis < 4; ++axis) {
-            const auto value = word(command, letters[axis]);
+            const auto value = command_value(command, letters[axis]);
             if (!value) continue;
             const bool relative = axis == 3 ? relative_e_ : relative_;
             const double to = relative ? at_[axis] + *value : *value;
@@ -46,10 +34,11 @@ double MachineState::apply(std::string_view command) {
             at_[axis] = to;
             if (axis < 3 && !relative) known_[axis] = true;
         }
-        if (const auto feed = word(command, 'F')) feed_ = *feed;
+        if (const auto feed = command_value(command, 'F')) feed_ = *feed;
         return feed_ > 0 ? std::sqrt(way > 0 ? way : pushed) / feed_ * 60 : 0;
     }
-    if (name == "G4") return word(command, 'S').value_or(word(command, 'P').value_or(0) / 1000);
+    if (name == "G4")
+        return command_value(command, 'S').value_or(command_value(command, 'P').value_or(0) / 1000);
     if (name == "G28") {
         const bool all = command.find_first_of("XYZ") == std::string_view::npos;
         for (int axis = 0; axis < 3; ++axis) {
@@ -64,14 +53,14 @@ double MachineState::apply(std::string_view command) {
         relative_e_ = name == "M83";
     } else if (name == "G92") {
         for (int axis = 0; axis < 4; ++axis) {
-            if (const auto value = word(command, letters[axis])) at_[axis] = *value;
+            if (const auto value = command_value(command, letters[axis])) at_[axis] = *value;
         }
     } else if (name == "M104" || name == "M109") {
-        nozzle_ = word(command, 'S').value_or(word(command, 'R').value_or(nozzle_));
+        nozzle_ = command_value(command, 'S').value_or(command_value(command, 'R').value_or(nozzle_));
     } else if (name == "M140" || name == "M190") {
-        bed_ = word(command, 'S').value_or(word(command, 'R').value_or(bed_));
+        bed_ = command_value(command, 'S').value_or(command_value(command, 'R').value_or(bed_));
     } else if (name == "M106") {
-        fan_ = word(command, 'S').value_or(255);
+        fan_ = command_value(command, 'S').value_or(255);
     } else if (name == "M107") {
         fan_ = 0;
     }
@@ -117,6 +106,20 @@ std::vector<std::string> MachineState::leave(double park_x, double park_y, doubl
     if (nozzle_ >= min_nozzle) lines.push_back("G1 E" + number(-retraction) + " F1800");
     if (!located()) return lines;
     lines.push_back("G0 Z" + number(lifted(at_[2], highest)) + " F600");
+    lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
+    return lines;
+}
+
+std::vector<std::string> MachineState::leave_from(const MachineState& left, double park_x, double park_y,
+                                                  double highest) const {
+    constexpr double slack = 1e-6;
+    std::vector<std::string> lines{"G90", "M83"};
+    const double drawn_back = left.at_[3] - at_[3];
+    if (left.nozzle_ >= min_nozzle && drawn_back < retraction - slack)
+        lines.push_back("G1 E" + number(drawn_back - retraction) + " F1800");
+    if (!located()) return lines;
+    if (const double up = left.lifted(left.at_[2], highest); at_[2] < up - slack)
+        lines.push_back("G0 Z" + number(up) + " F600");
     lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");
     return lines;
 }

@@ -21,6 +21,8 @@ class MachineState {
     double x() const { return at_[0]; }
     double y() const { return at_[1]; }
     double z() const { return at_[2]; }
+    double e() const { return at_[3]; }
+    double feed() const { return feed_; }
     bool relative_extrusion() const { return relative_e_; }
     double nozzle() const { return nozzle_; }
     double bed() const { return bed_; }
@@ -33,6 +35,10 @@ class MachineState {
     /// was.
     std::vector<std::string> leave(double park_x, double park_y, double highest) const;
     std::vector<std::string> come_back(double highest) const;
+    /// Returns what `leave` of the state `left` still has to do in this state, which is somewhere on the way
+    /// off the part or back to it.
+    std::vector<std::string> leave_from(const MachineState& left, double park_x, double park_y,
+                                        double highest) const;
     /// Returns the commands that restore this state on a machine that may have been reset, with the part on
     /// its bed and the nozzle at height `z`. They home X and Y, never Z.
     std::vector<std::string> take_up(double z, double park_x, double park_y, double highest) const;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "printers/serial/gcode_line.h"
 #include "printers/serial/marlin_sender.h"
 
 namespace lamella {
@@ -12,11 +13,23 @@ constexpr std::int64_t believable = 32;      // lines by which the count of oks 
 constexpr std::int64_t careful_lines = 256;  // after a resend
 constexpr double missing_ok = 0.5;           // s to wait for the ok of a resend request, which may not come
 constexpr double straggling = 0.05;          // s after which a resend request refers to the repeated line
+constexpr double reason_age = 2;             // s for which a printer's word may be why it stops
 constexpr double boot_quiet = 0.5;           // s from a board's first word until it is ready
 
 }  // namespace
 
+/// Remembers why the printer may be about to stop: its last word often is only that it has.
+void MarlinSender::note_reason(const Reply& reply, double now) {
+    // Positions and states are reported between everything else.
+    const bool report = reply.text.starts_with("X:") || reply.text.starts_with("S_XYZ");
+    const bool tells = reply.kind == ReplyKind::error || (reply.kind == ReplyKind::other && !report);
+    if (!tells || reply.text.empty()) return;
+    reason_ = reply.text;
+    reason_at_ = now;
+}
+
 void MarlinSender::handle(const Reply& reply, double now) {
+    note_reason(reply, now);
     switch (reply.kind) {
         case ReplyKind::ok:
             on_ok(reply, now);
@@ -32,7 +45,9 @@ void MarlinSender::handle(const Reply& reply, double now) {
             tickles_ = 0;
             break;
         case ReplyKind::fatal:
-            stop(StopKind::fatal, "the printer has stopped: " + reply.text);
+            stop(StopKind::fatal, "the printer has stopped: " +
+                                      (now - reason_at_ < reason_age ? reason_ + " / " : std::string()) +
+                                      reply.text);
             break;
         case ReplyKind::reset:
             if (state_ == State::running || state_ == State::relinking) {
@@ -85,6 +100,8 @@ void MarlinSender::on_prompt(std::string_view text) {
     if (word == "prompt_begin") {
         dialog_ = UserWait{rest};
         dialog_shown_ = false;
+        // Marlin does not end the dialogs of M600: they end with the command.
+        dialog_line_ = acked_ + 1;
     } else if (word == "prompt_end") {
         dialog_.reset();
     } else if (dialog_ && (word == "prompt_button" || word == "prompt_choice")) {
@@ -96,7 +113,12 @@ void MarlinSender::on_prompt(std::string_view text) {
 
 void MarlinSender::note_planner(const Reply& reply) {
     if (reply.slots_free) max_slots_free_ = std::max(max_slots_free_, *reply.slots_free);
-    if (!reply.planner_free) return;
+    if (!reply.planner_free || held_ || acked_ + 1 >= cursor_) return;
+    // The planner is empty by rights while the printer heats, homes or is paused: only moves of the job
+    // count.
+    const std::string word = command_word(sent(acked_ + 1).command);
+    const bool moves = word == "G0" || word == "G1" || word == "G2" || word == "G3";
+    if (!moves || sent(acked_ + 1).job == (acked_ < base_ ? dropped_job_ : sent(acked_).job)) return;
     max_planner_free_ = std::max(max_planner_free_, *reply.planner_free);
     ++statistics_.advanced;
     if (2 * *reply.planner_free > max_planner_free_) ++statistics_.starved;
@@ -106,6 +128,7 @@ void MarlinSender::acknowledge(std::int64_t number) {
     acked_ = number;
     answered_job_ = number < base_ ? dropped_job_ : sent(number).job;
     impossible_ = -1;
+    if (number >= dialog_line_) dialog_.reset();
 }
 
 std::optional<std::int64_t> MarlinSender::marker_answered() const {

@@ -13,6 +13,7 @@ constexpr std::int64_t history = 1000;         // answered lines that are kept
 constexpr std::int64_t marker_interval = 256;  // lines between two M105 that check the count
 constexpr double sync_patience = 2;            // s to wait for an answer to the first line
 constexpr int sync_most = 10;
+constexpr int sync_hopeless = 3;        // where what arrives is no answer of a printer
 constexpr double impatient = 3;         // s without an ok from firmware that reports when it is busy
 constexpr double patient = 30;          // s without an ok from any other firmware
 constexpr double slow_impatient = 4.5;  // s for slow commands: busy lines come every 2 s
@@ -42,34 +43,47 @@ std::size_t wire_size(std::int64_t number, const std::string& command) {
     return numbered_line(number, command).size();
 }
 
+std::string first_line() {
+    const std::string line = numbered_line(0, "M110 N0");
+    return line.substr(0, line.size() - 1);
+}
+
 }  // namespace
+
+MarlinSender::MarlinSender(SenderSettings settings, SenderListener listener)
+    : LineSender(settings, std::move(listener), first_line()) {}
 
 void MarlinSender::connect(double now) {
     state_ = State::greeting;
     state_until_ = now + settings_.greeting;
 }
 
-void MarlinSender::reconnect(double now) {
-    forget_wire();
-    if (state_ != State::running) {
+void MarlinSender::take_up_dialogue(double now) {
+    // A port that is lost again while the printer is awaited must not begin the numbers anew.
+    if (state_ != State::running && state_ != State::relinking) {
+        sync_tries_ = 0;
         connect(now);
         return;
     }
     state_ = State::relinking;
     state_until_ = now + relink_patience;
     going_back_ = swallow_ok_ = false;
+    recheck_at_ = probe_at_ = never;
+    tickles_ = 0;
+    sign_of_work_ = now;
 }
 
 void MarlinSender::sync(double now) {
-    if (++sync_tries_ > sync_most) {
-        stop(StopKind::unanswered,
-             "nothing at the port answers like a printer; is it on, and is --baud what its firmware uses?");
+    const FirstWordsKind heard = first_words_.kind();
+    const bool hopeless = heard == FirstWordsKind::garbage || heard == FirstWordsKind::echo;
+    if (++sync_tries_ > (hopeless ? sync_hopeless : sync_most)) {
+        stop(StopKind::unanswered, first_words_.failure(baud()));
         return;
     }
     state_ = State::syncing;
     state_until_ = now + sync_patience;
     swallow_ok_ = false;
-    transmit(numbered_line(0, "M110 N0"), now);
+    transmit(first_line() + "\n", now);
 }
 
 void MarlinSender::probe() {
@@ -216,8 +230,8 @@ double MarlinSender::patience() const {
     return busy_seen_ || (busy_known && tickles_ == 0) ? impatient : patient;
 }
 
-double MarlinSender::wake_at() const {
-    if (stop_ || state_ == State::idle) return never;
+double MarlinSender::next_wake() const {
+    if (state_ == State::idle) return never;
     if (state_ != State::running && state_ != State::asking) return state_until_;
     double at = going_back_ ? go_back_at_ : sign_of_work_ + patience();
     if (swallow_ok_) at = std::min(at, swallow_until_);
@@ -238,7 +252,8 @@ void MarlinSender::check_time(double now) {
     if (state_ == State::relinking) {
         if (now < state_until_) return;
         state_ = State::running;
-        tickle(now);
+        sign_of_work_ = now;
+        ask_for_answer(now);
         return;
     }
     if (state_ == State::idle) return;
@@ -277,8 +292,12 @@ void MarlinSender::tickle(double now) {
         stop(StopKind::unanswered, "the printer talks but answers no line any more");
         return;
     }
-    // Do not repeat the unanswered line: Marlin 2 silently drops a line that it has already accepted. The
-    // next line gets an answer in either case.
+    ask_for_answer(now);
+}
+
+/// Sends a line whose answer tells what was lost. Does not repeat the unanswered line: Marlin 2 silently
+/// drops a line that it has already accepted. The next line gets an answer in either case.
+void MarlinSender::ask_for_answer(double now) {
     if (cursor_ < next_) {
         ++statistics_.repeated;
         send(cursor_, now);
@@ -288,8 +307,17 @@ void MarlinSender::tickle(double now) {
     }
 }
 
+LineWait MarlinSender::line_wait() const {
+    if (acked_ + 1 >= cursor_ || acked_ + 1 < base_) return LineWait::none;
+    const Sent& oldest = sent(acked_ + 1);
+    if (waits_for_heat(oldest.command)) return LineWait::heat;
+    if (waits_for_person(oldest.command)) return LineWait::person;
+    const bool dwells = is_any(oldest.command, {"G4", "M400"});
+    return oldest.slow && !dwells ? LineWait::other : LineWait::none;
+}
+
 bool MarlinSender::finished() const {
-    return finishing_ && finish_step_ == 3 && idle() && cursor_ == next_ && !going_back_;
+    return finishing_ && !held_ && finish_step_ == 3 && idle() && cursor_ == next_ && !going_back_;
 }
 
 void MarlinSender::halt(double now) {

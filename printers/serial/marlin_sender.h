@@ -15,11 +15,9 @@ namespace lamella {
 /// the firmware can do. Lines of the job follow only after that.
 class MarlinSender : public LineSender {
   public:
-    using LineSender::LineSender;
+    MarlinSender(SenderSettings settings, SenderListener listener);
 
     void connect(double now) override;
-    void reconnect(double now) override;
-    double wake_at() const override;
     std::size_t unanswered() const override;
     bool connected() const override { return state_ == State::running; }
     bool finished() const override;
@@ -28,6 +26,8 @@ class MarlinSender : public LineSender {
     void end_waiting() override;
     std::optional<UserWait> user_wait() const override;
     void choose(std::size_t button) override;
+    LineWait line_wait() const override;
+    bool can_pause() const override { return !pending_.empty() || finish_step_ == 0; }
 
     /// Returns the number of the next new line.
     std::int64_t next_number() const { return next_; }
@@ -35,6 +35,8 @@ class MarlinSender : public LineSender {
   protected:
     void handle(const Reply& reply, double now) override;
     void check_time(double now) override;
+    double next_wake() const override;
+    void take_up_dialogue(double now) override;
     void feed(double now) override;
 
   private:
@@ -59,10 +61,12 @@ class MarlinSender : public LineSender {
     void on_prompt(std::string_view text);
     void acknowledge(std::int64_t number);
     void note_planner(const Reply& reply);
+    void note_reason(const Reply& reply, double now);
     void sync(double now);
     void settle();
     void probe();
     void tickle(double now);
+    void ask_for_answer(double now);
     bool send_new(double now);
     bool send_command(const std::string& command, bool of_job, double now, bool forced);
     void send(std::int64_t number, double now);
@@ -116,6 +120,7 @@ class MarlinSender : public LineSender {
 
     bool paused_for_user_ = false;  // the last busy line reported a wait for a person
     std::optional<UserWait> dialog_;
+    std::int64_t dialog_line_ = 0;  // the line whose answer ends the dialog at the latest
     bool dialog_shown_ = false;
 
     bool busy_seen_ = false;
@@ -127,6 +132,9 @@ class MarlinSender : public LineSender {
     bool marker_due_ = false;
     std::int64_t last_marker_ = 0;
     bool numbers_oks_ = false;  // the firmware has ADVANCED_OK
+
+    std::string reason_;       // what the printer said last beside its answers
+    double reason_at_ = -1e9;  // when
 
     bool emergency_parser_ = false;
     bool reports_temperatures_ = false;

@@ -3,11 +3,16 @@
 #include "printers/serial/print_link.h"
 
 namespace lamella {
+namespace {
+
+constexpr double end_waiting_interval = 1;  // s between two requests to end a wait
+
+}  // namespace
 
 void PrintLink::halt_at_once(double now) {
     if (phase_ == Phase::halting) return;
     write_journal(now);
-    if (sender_->connected() && sender_->halts_at_once()) {
+    if (connected_ && sender_->halts_at_once()) {
         sender_->halt(now);
         phase_ = Phase::halting;
         phase_until_ = now + (settings_.grbl ? 6.0 : 0.5);
@@ -28,21 +33,22 @@ void PrintLink::halt_at_once(double now) {
 
 void PrintLink::abort(double now) {
     // GRBL is always stopped by a reset, which switches off a laser or a spindle.
-    if (settings_.grbl && sender_->connected()) return halt_at_once(now);
+    if (settings_.grbl && connected_) return halt_at_once(now);
+    // A nozzle that is off the part, or on its way, is not drawn back and lifted once more.
+    const bool on_the_way = away_ || (returning_ && sender_->host_lines() > 0);
+    if (!on_the_way) left_ = sender_->machine();
     sender_->drop_pending();
     current_ = {};
     current_at_ = 0;
     write_journal(now);
-    if (!sender_->connected()) {
+    if (!connected_) {
         return end(std::make_exception_ptr(
             Interrupted("interrupted before the printer was known; nothing was printed")));
     }
-    const Temperatures& t = sender_->temperatures();
-    const bool heats = t.nozzle < t.nozzle_target - 3 || t.bed < t.bed_target - 3;
-    if (heats || sender_->user_wait()) sender_->end_waiting();
     sender_->hold(true);
     phase_ = Phase::aborting;
     phase_until_ = now + 60;
+    end_waiting_at_ = now;
     abort_words_ =
         "the printer went on with the moves it had already got, for it cannot be stopped in the midst of "
         "them; "
@@ -64,10 +70,16 @@ void PrintLink::go_on_aborting(double now) {
             FaultError("the print was to be stopped, but " + why +
                        "; look after the machine: its heaters may be on. Switch it off, or reset it")));
     }
+    // Nobody waits for heat or for a person any more, not even for a line that is still on its way.
+    const bool waits = sender_->line_wait() == LineWait::heat || sender_->user_wait();
+    if (waits && now >= end_waiting_at_) {
+        sender_->end_waiting();
+        end_waiting_at_ = now + end_waiting_interval;
+    }
     if (!sender_->quiet()) return;
     if (phase_ == Phase::aborting && !settings_.grbl) {
         for (std::string& line :
-             sender_->machine().leave(settings_.park_x, settings_.park_y, settings_.highest))
+             sender_->machine().leave_from(left_, settings_.park_x, settings_.park_y, settings_.highest))
             sender_->interject(std::move(line));
         for (const char* line : {"M104 S0", "M140 S0", "M107", "M84"}) sender_->interject(line);
         phase_ = Phase::switching_off;

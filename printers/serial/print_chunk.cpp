@@ -3,18 +3,38 @@
 
 #include <algorithm>
 
+#include "engine/base/error.h"
+
 namespace lamella {
 
-std::string ChunkMaker::clean(std::string_view text) {
+namespace {
+
+std::string clean_line(std::string_view line, bool grbl, std::int32_t number) {
+    try {
+        return clean_command(line, grbl ? grbl_lines : marlin_lines);
+    } catch (const InputError& error) {
+        throw InputError("line " + std::to_string(number) + ": " + error.what());
+    }
+}
+
+}  // namespace
+
+void ChunkMaker::skip(std::string_view text) {
+    source_ += static_cast<std::int32_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+CleanText ChunkMaker::clean(std::string_view text) {
     constexpr std::int64_t frame = 11;  // number, checksum and line end of a typical line
-    std::string clean_lines;
+    CleanText clean;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
-        const std::string command = clean_command(line, grbl_ ? longest_grbl_line : longest_command);
+        const std::string command = clean_line(line, grbl_, ++source_);
         if (command.empty()) continue;
-        (clean_lines += command) += '\n';
+        (clean.lines += command) += '\n';
+        clean.facts.push_back({0, source_});
         const double time = grbl_ ? modes_.apply(command) : machine_.apply(command);
+        grbl_ ? timer_.add(command, modes_) : timer_.add(command, machine_);
         const auto size = static_cast<std::int64_t>(command.size()) + frame;
         ++lines_;
         bytes_ += size;
@@ -28,7 +48,9 @@ std::string ChunkMaker::clean(std::string_view text) {
         stretch_ = 0;
         stretch_lines_ = stretch_bytes_ = 0;
     }
-    return clean_lines;
+    const std::vector<float> seconds = timer_.take();
+    for (std::size_t i = 0; i < seconds.size(); ++i) clean.facts[i].seconds = seconds[i];
+    return clean;
 }
 
 void ChunkMaker::restore_machine(const nlohmann::ordered_json& json) {

@@ -8,6 +8,7 @@
 #include "printers/serial/gcode_line.h"
 #include "printers/serial/grbl_modes.h"
 #include "printers/serial/machine_state.h"
+#include "printers/serial/motion_timer.h"
 
 namespace lamella {
 
@@ -17,14 +18,27 @@ struct LinkNeed {
     double bytes = 0;  ///< bytes per second, including numbers and checksums
 };
 
+/// What is known of a line beside its text.
+struct LineFacts {
+    float seconds = 0;        ///< time of its motion by the motion model
+    std::int32_t source = 0;  ///< number of the line in the job's text, from 1; 0: it has none
+};
+
+struct CleanText {
+    std::string lines;             ///< each with a line end
+    std::vector<LineFacts> facts;  ///< of each line
+};
+
 /// Strips the text of a job, layer by layer, and tracks the state of the machine.
 class ChunkMaker {
   public:
-    explicit ChunkMaker(bool grbl) : grbl_(grbl) {}
+    explicit ChunkMaker(bool grbl, const MotionLimits& limits = {}) : grbl_(grbl), timer_(limits) {}
 
-    /// Returns the clean lines of a text, each with a line end. Throws InputError for a line that cannot be
-    /// sent.
-    std::string clean(std::string_view text);
+    /// Returns the lines of a text that are to be sent. Throws InputError, with the line's number in the
+    /// job's text, for one that cannot be sent.
+    CleanText clean(std::string_view text);
+    /// Counts the lines of a part of the job that is not sent.
+    void skip(std::string_view text);
     std::int64_t lines() const { return lines_; }
     /// Returns the bytes of all lines so far on the wire.
     std::int64_t bytes() const { return bytes_; }
@@ -43,6 +57,8 @@ class ChunkMaker {
     bool grbl_;
     MachineState machine_;
     GrblModes modes_;
+    MotionTimer timer_;
+    std::int32_t source_ = 0;
     std::int64_t lines_ = 0, bytes_ = 0;
     double seconds_ = 0;
     double stretch_ = 0;

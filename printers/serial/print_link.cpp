@@ -1,7 +1,6 @@
 // PrintLink: the queue of a print and the loop of its thread.
 #include "printers/serial/print_link.h"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sched.h>
@@ -14,7 +13,6 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/number_format.h"
 #include "printers/serial/grbl_sender.h"
 #include "printers/serial/marlin_sender.h"
 
@@ -22,10 +20,8 @@ namespace lamella {
 namespace {
 
 constexpr std::size_t lines_before_sender = 64;
-constexpr double journal_interval = 2;  // s
-constexpr double status_interval = 0.05;
+constexpr double journal_interval = 2;    // s
 constexpr double cancel_interval = 0.02;  // s between two checks of the cancel token
-constexpr double retry_interval = 0.5;
 
 }  // namespace
 
@@ -34,10 +30,9 @@ PrintLink::PrintLink(LinkSettings settings)
     settings_.sender.byte_time = 10.0 / settings_.baud;
     SenderListener listener;
     if (!settings_.log.empty()) {
-        log_.open(settings_.log);
-        if (!log_) throw InputError("cannot write the log " + settings_.log);
+        log_ = std::make_unique<LineLog>(settings_.log);
         listener.on_line = [this](char direction, std::string_view line, std::size_t in_flight) {
-            log_ << format_number(now(), 6) << ' ' << direction << ' ' << in_flight << ' ' << line << '\n';
+            log_->add(now(), direction, in_flight, line);
         };
     }
     listener.on_action = [this](const std::string& action) { heed(action); };
@@ -96,6 +91,14 @@ void PrintLink::submit(PrintChunk chunk) {
     check();
     queued_bytes_ += chunk.lines.size();
     queued_lines_ += chunk.count;
+    double seconds = 0;
+    for (const LineFacts& line : chunk.facts) seconds += static_cast<double>(line.seconds);
+    progress_.known_seconds += seconds;
+    if (chunk.layer >= 0) {
+        progress_.layers_known += chunk.layer != known_layer_ ? 1 : 0;
+        progress_.layers_seconds += seconds;
+        known_layer_ = chunk.layer;
+    }
     queue_.push_back(std::move(chunk));
     lock.unlock();
     wake();
@@ -111,6 +114,15 @@ void PrintLink::finish() {
     const std::lock_guard lock(mutex_);
     check();
     if (journal_) journal_->remove();
+}
+
+void PrintLink::expect(const JobOutlook& outlook) {
+    const std::lock_guard lock(mutex_);
+    progress_.layers = outlook.layers;
+    progress_.layers_before = outlook.layers_before;
+    progress_.seconds_before = outlook.seconds_before;
+    progress_.seconds_ahead = outlook.seconds_ahead;
+    source_lines_ = outlook.source_lines;
 }
 
 LinkStatus PrintLink::status() const {
@@ -146,6 +158,9 @@ void PrintLink::work() {
 
 void PrintLink::round() {
     double time = now();
+    // A process that was stopped finds answers of all that time. They are read before any timeout is judged.
+    read_bytes(time);
+    if (phase_ == Phase::done) return;
     take_requests(time);
     if (phase_ == Phase::printing) {
         take_lines(time);
@@ -155,8 +170,9 @@ void PrintLink::round() {
     }
     if (phase_ == Phase::done) return;
     sender_->tick(time);
-    move_bytes(time);
+    write_bytes(time);
     time = now();
+    measure(time);
     watch_answers(time);
     note_status(time, false);
     if (phase_ != Phase::done) wait(time);
@@ -174,7 +190,8 @@ void PrintLink::take_requests(double now) {
         return halt_at_once(now);
     if (phase_ != Phase::printing) return;
     if (cancelled || stopping_) return abort(now);
-    if (!sender_->connected()) return;
+    // While the port is away, requests wait for it.
+    if (!sender_->connected() || lost_at_ >= 0) return;
     if (pausing_.exchange(false)) begin_pause(false);
     if (const int button = choice_.exchange(-1); button >= 0)
         sender_->choose(static_cast<std::size_t>(button));
@@ -199,6 +216,8 @@ void PrintLink::heed(const std::string& action) {
 /// A printer that paused by itself has also parked its nozzle.
 void PrintLink::begin_pause(bool by_printer) {
     if (paused_ || phase_ != Phase::printing || !sender_->connected()) return;
+    if (!by_printer && !sender_->can_pause() && current_at_ >= current_.lines.size())
+        return notify("too late to pause: the printer has all lines of the job; s or x stops it");
     paused_ = true;
     sender_->hold(true);
     if (by_printer) return;
@@ -216,13 +235,18 @@ void PrintLink::end_pause() {
 
 void PrintLink::leave() {
     if (settings_.grbl || std::exchange(away_, true)) return;
-    left_ = sender_->machine();
-    for (std::string& line : left_.leave(settings_.park_x, settings_.park_y, settings_.highest))
+    // On its way back the nozzle has not reached the state that it is to return to.
+    const bool on_the_way = std::exchange(returning_, false) && sender_->host_lines() > 0;
+    const MachineState& here = sender_->machine();
+    if (!on_the_way) left_ = here;
+    if (on_the_way) sender_->drop_host_lines();
+    for (std::string& line : here.leave_from(left_, settings_.park_x, settings_.park_y, settings_.highest))
         sender_->interject(std::move(line));
 }
 
 void PrintLink::come_back() {
     if (!std::exchange(away_, false)) return;
+    returning_ = true;
     for (std::string& line : left_.come_back(settings_.highest)) sender_->interject(std::move(line));
 }
 
@@ -243,6 +267,9 @@ void PrintLink::take_lines(double now) {
             changed_.notify_all();
             current_at_ = 0;
             pushed_ += current_.count;
+            current_.facts.resize(static_cast<std::size_t>(current_.count));
+            facts_.insert(facts_.end(), current_.facts.begin(), current_.facts.end());
+            current_.facts = {};
             answering_.push_back({pushed_, current_.layer, current_.resume});
             if (dry_since_ >= 0) underrun_seconds_ += now - dry_since_;
             dry_since_ = -1;
@@ -258,7 +285,9 @@ void PrintLink::take_lines(double now) {
 
 /// Parks the nozzle off the part if no layer is ready.
 void PrintLink::watch_queue(double now) {
-    if (!started_ || paused_ || parked_ || !sender_->idle() || current_at_ < current_.lines.size()) return;
+    if (!started_ || paused_ || parked_ || lost_at_ >= 0 || !sender_->idle() ||
+        current_at_ < current_.lines.size())
+        return;
     {
         const std::lock_guard lock(mutex_);
         if (closing_ || !queue_.empty()) return;
@@ -272,57 +301,17 @@ void PrintLink::watch_queue(double now) {
     parked_ = true;
 }
 
-void PrintLink::move_bytes(double now) {
-    if (!port_.is_open()) return reopen(now);
-    std::string came;
-    PortOutcome outcome = port_.read(came);
-    sender_->receive(came, now);
-    if (phase_ == Phase::done) return;
-    const std::string_view out = sender_->output();
-    if (!outcome.lost && !out.empty()) {
-        outcome = port_.write(out);
-        sender_->wrote(outcome.bytes);
-    }
-    if (!outcome.lost) return;
-    port_.close();
-    lost_since_ = now;
-    next_try_ = now + retry_interval;
-}
-
-void PrintLink::reopen(double now) {
-    if (phase_ != Phase::printing)
-        return end(
-            std::make_exception_ptr(FaultError("the print was to be stopped, but the port is gone; look "
-                                               "after the machine: its heaters may be on")));
-    if (now < next_try_) return;
-    next_try_ = now + retry_interval;
-    try {
-        port_ = SerialPort::open(lasting_name_, settings_.baud);
-        lost_since_ = -1;
-        sender_->reconnect(now);
-    } catch (const Error& error) {
-        if (now - lost_since_ < settings_.reconnect_for) return;
-        end(std::make_exception_ptr(
-            FaultError(fmt::format("the port {} was lost and did not come back within {} s ({}){}",
-                                   lasting_name_, settings_.reconnect_for, error.what(), where()))));
-    }
-}
-
-std::string PrintLink::where() const {
-    if (settings_.grbl) return fmt::format("; {} lines were answered", sender_->answered());
-    return fmt::format("; {} lines were answered, the nozzle was sent to Z {}", sender_->answered(),
-                       format_number(sender_->machine().z(), 3));
-}
-
 void PrintLink::watch_answers(double now) {
     const std::int64_t answered = sender_->answered();
+    watch_lines(answered);
     bool layer_done = false;
     while (!answering_.empty() && answering_.front().last <= answered) {
         if (!answering_.front().resume.is_null()) resume_ = std::move(answering_.front().resume);
         answering_.pop_front();
         layer_done = true;
     }
-    if (!answering_.empty()) layer_ = answering_.front().layer;
+    // What comes behind the last layer belongs to none.
+    if (!answering_.empty() && answering_.front().layer >= 0) layer_ = answering_.front().layer;
     const double z = sender_->machine().z();
     if (layer_done || z != journaled_z_ || now - journaled_at_ >= journal_interval) write_journal(now);
     if (sender_->connected() && !connected_) {
@@ -335,63 +324,11 @@ void PrintLink::watch_answers(double now) {
     }
     if (sender_->stopped() && phase_ == Phase::printing) {
         // First send what the sender still has to say, such as GRBL's hold.
-        move_bytes(now);
+        write_bytes(now);
         write_journal(now);
         return end(std::make_exception_ptr(FaultError(sender_->stopped()->why + where())));
     }
     if (phase_ == Phase::printing && sender_->finished()) end(nullptr);
-}
-
-void PrintLink::write_journal(double now) {
-    journaled_at_ = now;
-    journaled_z_ = sender_->machine().z();
-    if (!journal_ || resume_.is_null()) return;
-    nlohmann::ordered_json text = {{"stamp", stamp_},
-                                   {"resume", resume_},
-                                   {"lines_answered", sender_->answered()},
-                                   {"z", sender_->machine().z()},
-                                   {"machine", sender_->machine().to_json()}};
-    journal_->write(text.dump() + "\n");
-}
-
-void PrintLink::end(std::exception_ptr failure) {
-    if (phase_ == Phase::done) return;  // the first reason counts
-    phase_ = Phase::done;
-    note_status(now(), true);
-    {
-        const std::lock_guard lock(mutex_);
-        done_ = true;
-        failure_ = std::move(failure);
-    }
-    changed_.notify_all();
-    port_.close();
-    log_.flush();
-}
-
-void PrintLink::note_status(double now, bool at_once) {
-    if (!at_once && now - noted_at_ < status_interval) return;
-    noted_at_ = now;
-    const std::lock_guard lock(mutex_);
-    if (connected_ && connected_at_ < 0) connected_at_ = now;
-    if (connected_at_ >= 0) status_.seconds = now - connected_at_;
-    status_.firmware = sender_->firmware();
-    status_.emergency_parser = sender_->halts_at_once();
-    status_.connected = connected_;
-    status_.paused = paused_;
-    status_.parked = parked_;
-    status_.stopping = phase_ != Phase::printing;
-    status_.waits = sender_->user_wait();
-    if (journal_) status_.journal_trouble = journal_->trouble();
-    status_.lost = !port_.is_open();
-    status_.layer = layer_;
-    status_.lines_queued = queued_lines_;
-    status_.lines_answered = sender_->answered();
-    status_.layers_ready = queue_.size();
-    status_.z = sender_->machine().z();
-    status_.temperatures = sender_->temperatures();
-    status_.statistics = sender_->statistics();
-    status_.underruns = underruns_;
-    status_.underrun_seconds = underrun_seconds_ + (dry_since_ >= 0 ? now - dry_since_ : 0);
 }
 
 /// Sleeps until a byte can be read or written, or the sender or a request is due.

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -13,8 +12,11 @@
 #include <thread>
 
 #include "engine/layers/layer_stream.h"
+#include "printers/serial/line_log.h"
 #include "printers/serial/line_sender.h"
+#include "printers/serial/print_chunk.h"
 #include "printers/serial/print_journal.h"
+#include "printers/serial/print_progress.h"
 #include "printers/serial/serial_port.h"
 
 namespace lamella {
@@ -29,6 +31,7 @@ struct LinkSettings {
     std::string journal;            ///< path of the journal; empty: none
     double park_x = 0, park_y = 0;  ///< parking position of the nozzle, off the part, mm
     double highest = 250;           ///< greatest height of the nozzle, mm
+    MotionLimits motion{};          ///< by which the time of a job is estimated
     std::size_t layers_ahead = 8;   ///< most layers in the queue
     std::size_t bytes_ahead = 64u << 20;
     double park_after = 0.5;    ///< time without a layer after which the nozzle is parked, s
@@ -42,6 +45,15 @@ struct PrintChunk {
     std::int64_t count = 0;           ///< number of lines
     int layer = -1;                   ///< layer index; -1: before the first layer
     nlohmann::ordered_json resume{};  ///< what the journal records once the lines are answered
+    std::vector<LineFacts> facts{};   ///< of each line; empty: nothing is known of them
+};
+
+/// What is known of a job before its first line is sent.
+struct JobOutlook {
+    int layers = 0;                                           ///< layers of the job, or parts of a ready file
+    int layers_before = 0;                                    ///< of those: done in earlier runs
+    std::optional<double> seconds_before{}, seconds_ahead{};  ///< see PrintProgress
+    bool source_lines = false;                                ///< LineFacts::source are lines of a ready file
 };
 
 /// Status of a print.
@@ -54,13 +66,24 @@ struct LinkStatus {
     bool stopping = false;            ///< the print is being ended
     std::optional<UserWait> waits{};  ///< request to a person that the printer is waiting for
     std::string journal_trouble;      ///< why the journal cannot be written; empty if it can
-    bool lost = false;                ///< the port is lost at the moment
-    int layer = -1;                   ///< layer whose lines are being answered
+    std::string log_trouble;          ///< why the log is not complete; empty if it is
+    std::string awaiting;             ///< what is waited for before the printer is known
+    std::string notice;               ///< what became of the last request, if it was not followed
+    bool resumable = false;           ///< the journal holds a state from which this print can be resumed
+    int notices = 0;                  ///< number of notices so far
+    bool grbl = false;
+    std::size_t bytes_ahead = 0;  ///< most bytes unanswered; 0: one line at a time
+    bool lost = false;            ///< the port is lost at the moment
+    int losses = 0;               ///< times the port was lost
+    double lost_seconds = 0;      ///< time without a port
+    LineWait line_wait{};         ///< what the oldest unanswered line waits for
+    int layer = -1;               ///< layer whose lines are being answered
     std::int64_t lines_queued = 0, lines_answered = 0;
     std::size_t layers_ready = 0;
     double z = 0;
     Temperatures temperatures;
     SenderStatistics statistics;
+    PrintProgress progress;
     int underruns = 0;  ///< times the printer ran out of lines because no layer was ready
     double underrun_seconds = 0;
     double seconds = 0;  ///< time since the printer was connected
@@ -90,6 +113,8 @@ class PrintLink {
     void submit(PrintChunk chunk);
     /// Sets the job's stamp, which the journal records with the progress.
     void set_stamp(nlohmann::ordered_json stamp) { stamp_ = std::move(stamp); }
+    /// Tells what is known of the job, before its first lines are submitted.
+    void expect(const JobOutlook& outlook);
     /// Waits until all lines are answered. Throws like submit.
     void finish();
 
@@ -120,9 +145,15 @@ class PrintLink {
     void watch_queue(double now);
     void watch_answers(double now);
     void write_journal(double now);
-    void move_bytes(double now);
+    void watch_lines(std::int64_t answered);
+    void measure(double now);
+    void read_bytes(double now);
+    void write_bytes(double now);
     void wait(double now);
+    void lose_port(double now);
     void reopen(double now);
+    void remark(double now, const std::string& text);
+    void notify(const std::string& text);
     void leave();
     void come_back();
     void abort(double now);
@@ -134,13 +165,14 @@ class PrintLink {
     void request(std::atomic<bool>& flag);
     void wake();
     std::string where() const;
+    std::string awaiting() const;
     double now() const;
 
     LinkSettings settings_;
     std::unique_ptr<LineSender> sender_;
     SerialPort port_;
     std::string lasting_name_;
-    std::ofstream log_;
+    std::unique_ptr<LineLog> log_;
     std::unique_ptr<PrintJournal> journal_;
     nlohmann::ordered_json stamp_;
     int wake_ = -1;
@@ -158,15 +190,25 @@ class PrintLink {
     };
     std::deque<Answering> answering_;
     nlohmann::ordered_json resume_;
+    std::deque<LineFacts> facts_;  // of the lines that are taken from the queue and not answered
+    std::int64_t facts_answered_ = 0;
+    std::int32_t source_line_ = 0;  // number of the line answered last in the job's text
     std::int64_t pushed_ = 0;
     int layer_ = -1;  // layer of the next line to be answered
     bool paused_ = false, parked_ = false, started_ = false;
-    bool away_ = false;  // the nozzle has left the part
-    MachineState left_;  // state in which it left
+    bool away_ = false;       // the nozzle has left the part
+    bool returning_ = false;  // it was sent back, and may still be on its way
+    MachineState left_;       // state in which it left
     double dry_since_ = -1;
     int underruns_ = 0;
     double underrun_seconds_ = 0;
-    double lost_since_ = -1, next_try_ = 0;
+    double lost_at_ = -1;       // when the port was lost; < 0: it is there
+    double silent_since_ = -1;  // when the port was lost for the first time since the printer was last heard
+    double next_try_ = 0;
+    int losses_ = 0;
+    double lost_seconds_ = 0;
+    double measured_at_ = -1;
+    double end_waiting_at_ = 0;
     double journaled_at_ = -10, journaled_z_ = -1;
     double noted_at_ = -10;
     double connected_at_ = -1;
@@ -178,6 +220,9 @@ class PrintLink {
     std::deque<PrintChunk> queue_;
     std::size_t queued_bytes_ = 0;
     std::int64_t queued_lines_ = 0;
+    PrintProgress progress_;
+    int known_layer_ = -1;  // last layer that was submitted
+    bool source_lines_ = false;
     bool closing_ = false;
     bool connected_ = false;
     bool done_ = false;

@@ -145,6 +145,11 @@ Reply read_grbl(std::string_view line) {
     } else if (line.size() > 2 && line.front() == '<' && line.back() == '>') {
         reply.kind = ReplyKind::grbl_status;
         reply.text = line.substr(1, line.find_first_of("|,>") - 1);
+    } else if (line.starts_with("[VER:") && line.back() == ']') {
+        // [VER:1.1h.20190830:name]
+        const std::string_view version = line.substr(5, line.find_first_of(":]", 5) - 5);
+        reply.kind = ReplyKind::grbl_version;
+        reply.text = version.substr(0, version.rfind('.'));
     } else if (line.starts_with("[OPT:") && line.back() == ']') {
         const std::string_view words = line.substr(0, line.size() - 1);
         reply.number = whole_number<std::int64_t>(words.substr(words.rfind(',') + 1));
@@ -160,7 +165,7 @@ Reply parse_reply(std::string_view line) {
     if (const auto number = read_resend(line)) return {ReplyKind::resend, number};
     const std::string text = lowered(line);
     Reply reply = read_grbl(line);
-    reply.text = reply.kind == ReplyKind::grbl_status ? reply.text : std::string(trim_blanks(line));
+    if (reply.text.empty()) reply.text = trim_blanks(line);
     if (reply.kind != ReplyKind::other) return reply;
     if (text.starts_with("error:") || text.find("kill() called") != std::string::npos) {
         reply.kind = error_kind(text);

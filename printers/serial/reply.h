@@ -26,6 +26,7 @@ enum class ReplyKind : unsigned char {
     grbl_error,    ///< answers a line that GRBL refuses; `number` is the error code
     grbl_alarm,    ///< `number` is the alarm code
     grbl_status,   ///< `text` is the state, such as Idle or Hold:0
+    grbl_version,  ///< `text` is the version, such as 1.1h
     grbl_options   ///< `number` is the size of the receive buffer
 };
 

@@ -15,12 +15,22 @@ namespace {
 class SerialOutput : public GcodeOutput {
   public:
     SerialOutput(std::shared_ptr<PrintLink> link, const LinkSettings& settings, SerialOutputOptions options)
-        : link_(std::move(link)), settings_(settings), options_(std::move(options)), maker_(settings.grbl) {}
+        : link_(std::move(link)),
+          settings_(settings),
+          options_(std::move(options)),
+          maker_(settings.grbl, settings.motion) {}
 
     int begin(const JobStamp& stamp, bool resume) override {
         link_->set_stamp(lamella::to_json(stamp));
-        int next = stamp.range.first;
+        first_ = stamp.range.first;
+        int next = first_;
         nlohmann::ordered_json record;
+        if (resume && !is_present(settings_.journal)) {
+            throw InputError(
+                "--resume: there is no journal " + settings_.journal +
+                ", so it is not known where the print stopped; accepted: --journal with the file of "
+                "that print, or no --resume, which begins with the first line");
+        }
         if (is_present(settings_.journal)) {
             if (resume) {
                 record = read_journal(stamp);
@@ -31,7 +41,9 @@ class SerialOutput : public GcodeOutput {
                     "with --force");
             }
         }
+        outlook_.layers = stamp.range.last - first_;
         if (record.is_null()) {
+            link_->expect(outlook_);
             link_->connect();
             return next;
         }
@@ -43,6 +55,8 @@ class SerialOutput : public GcodeOutput {
             const double z = options_.z ? *options_.z : record.at("z").get<double>();
             if (next < stamp.range.first || next > stamp.range.last) throw damaged_state();
             const std::vector<std::string> way = way_back(z);
+            outlook_.layers_before = next - first_;
+            link_->expect(outlook_);
             link_->connect();
             PrintChunk chunk{"", 0, next, last};
             for (const std::string& line : way) {
@@ -59,11 +73,22 @@ class SerialOutput : public GcodeOutput {
     InputError damaged_state() const override {
         return InputError(settings_.journal + " is damaged; discard it with --force");
     }
+    void skip(std::string_view text, double seconds) override {
+        maker_.skip(text);
+        outlook_.seconds_before = outlook_.seconds_before.value_or(0) + seconds;
+    }
+    void expect(double seconds) override {
+        outlook_.seconds_ahead = seconds;
+        outlook_.seconds_before = outlook_.seconds_before.value_or(0);
+        outlook_.source_lines = true;
+        link_->expect(outlook_);
+    }
     void commit(std::string_view text, int next, const nlohmann::ordered_json& state) override {
         send(text, next, state);
     }
     void end(std::string_view text) override {
         send(text, -1, nullptr);
+        if (maker_.lines() == 0) throw InputError("the job holds no line to send");
         link_->finish();
     }
 
@@ -94,9 +119,12 @@ class SerialOutput : public GcodeOutput {
     void send(std::string_view text, int next, const nlohmann::ordered_json& state) {
         const std::int64_t before = maker_.lines();
         PrintChunk chunk;
-        chunk.lines = maker_.clean(text);
+        CleanText clean = maker_.clean(text);
+        chunk.lines = std::move(clean.lines);
+        chunk.facts = std::move(clean.facts);
         chunk.count = maker_.lines() - before;
-        chunk.layer = next - 1;
+        // What comes before the first layer and behind the last one is none.
+        chunk.layer = next > first_ ? next - 1 : -1;
         if (next >= 0)
             chunk.resume = {{"next", next}, {"state", state}, {"machine", maker_.machine_to_json()}};
         if (!warned_ && options_.warn) {
@@ -111,6 +139,8 @@ class SerialOutput : public GcodeOutput {
     LinkSettings settings_;
     SerialOutputOptions options_;
     ChunkMaker maker_;
+    JobOutlook outlook_;
+    int first_ = 0;
     nlohmann::ordered_json state_;
     bool warned_ = false;
 };

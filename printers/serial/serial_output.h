@@ -28,7 +28,8 @@ std::unique_ptr<GcodeOutput> make_serial_output(std::shared_ptr<PrintLink> link,
 /// Result of a dry run.
 struct DryRun {
     std::int64_t lines = 0, bytes = 0;
-    double seconds = 0;  ///< time of motion at the programmed speeds, without acceleration, s
+    double seconds = 0;        ///< time of motion at the programmed speeds, without acceleration, s
+    double model_seconds = 0;  ///< time of motion by the motion model, s
     LinkNeed need;
     double sending_seconds = 0;  ///< time that sending took here, to a machine that answers at once, s
 };
@@ -39,9 +40,10 @@ std::unique_ptr<GcodeOutput> make_dry_run(const LinkSettings& settings, DryRun& 
 /// Returns a warning if the link is too slow for a job; empty if it is not.
 std::string link_warning(const LinkNeed& need, int baud);
 
-/// Sends an existing G-code file in parts: layers if comments mark them, otherwise blocks of lines. Returns
-/// the number of parts.
+/// Sends an existing G-code file in parts: layers if comments mark them, otherwise blocks of lines. The whole
+/// file is checked before the first line is sent. Returns the number of parts. Throws InputError, with the
+/// line's number, for a line that cannot be sent, and for a file without any.
 int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool resume,
-                    const CancelToken* cancel);
+                    const LinkSettings& settings);
 
 }  // namespace lamella

@@ -242,9 +242,15 @@ TEST_CASE("on a terminal p parks, r goes on and s stops, and the terminal is giv
     CHECK(fs::exists(folder / "journal"));
     // A line that is drawn again never breaks.
     const std::string& screen = run.screen();
-    for (std::size_t at = screen.find("\rlayer"); at != std::string::npos;
-         at = screen.find("\rlayer", at + 1))
-        CHECK(screen.find('\x1b', at) - at <= 80);
+    int drawn = 0;
+    for (std::size_t at = screen.find('\r'); at != std::string::npos; at = screen.find('\r', at + 1)) {
+        if (screen.compare(at, 2, "\r\n") == 0) continue;
+        CHECK(std::min(screen.find('\x1b', at), screen.size()) - at <= 80);
+        drawn += screen.compare(at + 4, 2, " %") == 0 ? 1 : 0;
+    }
+    // Percent and time left come first.
+    CHECK(drawn > 3);
+    CHECK(mentions(screen, " left  "));
 }
 
 TEST_CASE("on a terminal a printer's question is shown, and answered by its key") {

@@ -62,9 +62,11 @@ inline pid_t start_lamella(const std::string& arguments, const Folder& folder) {
 /// `lamella` on a terminal of its own, 80 columns wide, whose keys are pressed and whose screen is read.
 class OnTerminal {
   public:
-    OnTerminal(const std::string& arguments, const Folder& folder) {
+    OnTerminal(const std::string& arguments, const Folder& folder)
+        : OnTerminal("exec env " + command_line(arguments, folder / "cache")) {}
+    /// Runs a shell's line.
+    explicit OnTerminal(const std::string& line) {
         const winsize size{24, 80, 0, 0};
-        const std::string line = "exec env " + command_line(arguments, folder / "cache");
         child_ = forkpty(&terminal_, nullptr, nullptr, &size);
         REQUIRE(child_ >= 0);
         if (child_ == 0) {
@@ -75,7 +77,12 @@ class OnTerminal {
     }
     ~OnTerminal() {
         if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
-        close(terminal_);
+        hang_up();
+    }
+    /// The terminal is closed, as by the window's button or a line that breaks.
+    void hang_up() {
+        if (terminal_ >= 0) close(terminal_);
+        terminal_ = -1;
     }
     OnTerminal(const OnTerminal&) = delete;
     OnTerminal& operator=(const OnTerminal&) = delete;

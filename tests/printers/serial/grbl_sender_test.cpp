@@ -136,4 +136,38 @@ TEST_CASE("GRBL's M0 is a wait for a person, told and ended, and no other hold i
     CHECK(bench.sender.answered() == 200);
 }
 
+TEST_CASE("a GRBL that was on before tells its name and buffer, and is streamed to") {
+    Bench bench;
+    bench.machine.run(100);  // its greeting is lost
+    bench.sender.push("G1X1");
+    REQUIRE(bench.run(60, [&] { return bench.sender.connected(); }));
+    CHECK(bench.sender.firmware() == "Grbl 1.1h");
+    CHECK(bench.sender.bytes_ahead() == 127);
+}
+
+TEST_CASE("while its port is away nothing is sent to GRBL, not even a request for its state") {
+    Bench bench;
+    for (int i = 0; i < 500; ++i) bench.sender.push("G1X" + std::to_string(i));
+    REQUIRE(bench.run(60, [&] { return bench.machine.executed().size() == 100; }));
+    bench.sender.disconnect();
+    const auto before = bench.sender.statistics().bytes;
+    for (double t = 0; t < 100; t += 0.1) bench.sender.tick(bench.now + t);
+    bench.sender.hold_motion(true);
+    bench.sender.end_waiting();
+    CHECK(bench.sender.output().empty());
+    CHECK(bench.sender.statistics().bytes == before);
+    CHECK(!bench.sender.stopped());
+    bench.sender.reconnect(bench.now + 100);
+    REQUIRE(bench.sender.stopped());
+    CHECK(bench.sender.stopped()->why.find("without line numbers") != std::string::npos);
+}
+
+TEST_CASE("a Marlin that is taken for GRBL is told apart") {
+    GrblSender sender({}, {});
+    sender.connect(0);
+    sender.receive("start\nMarlin 2.1.2.1\n", 0.5);
+    REQUIRE(sender.stopped());
+    CHECK(sender.stopped()->why.find("--firmware marlin") != std::string::npos);
+}
+
 }  // namespace grbl_sender_test

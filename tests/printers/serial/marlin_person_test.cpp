@@ -133,4 +133,38 @@ TEST_CASE("a line that is not kept any more is believed lost only when it is ask
     if (!again) CHECK(first_difference(job_lines(bench.printer.executed()), moves(3000)) == "");
 }
 
+TEST_CASE("a dialog that the printer never ends is over when its line is answered") {
+    FirmwareOptions options;
+    options.emergency_parser = GENERATE(false, true);
+    MarlinBench bench(options);
+    const auto lines = moves_with("M600", 30);
+    run_to_wait(bench, lines);
+    bench.run(100, [] { return false; });
+    REQUIRE(bench.sender.user_wait());
+    CHECK(bench.sender.user_wait()->text == "Nozzle Parked");
+    bench.printer.press_knob();
+    REQUIRE(bench.run(10, [&] { return !bench.sender.user_wait(); }));
+    const auto done = job_lines(bench.printer.executed()).size();
+    CHECK(done < 61);
+    REQUIRE(bench.run(100, [&] { return bench.sender.finished() || bench.sender.user_wait(); }));
+    CHECK(!bench.sender.user_wait());
+    CHECK(first_difference(job_lines(bench.printer.executed()), lines) == "");
+}
+
+TEST_CASE("once all lines are with the printer a pause is not taken, before that it is done") {
+    MarlinBench bench({});
+    for (const std::string& line : moves(40, 0.5)) bench.sender.push(line);
+    bench.sender.finish();
+    const bool late = GENERATE(false, true);
+    REQUIRE(bench.run(60, [&] { return late ? !bench.sender.can_pause() : bench.sender.pending() == 20; }));
+    CHECK(bench.sender.can_pause() == !late);
+    bench.sender.hold(true);
+    bench.run(60, [] { return false; });
+    // Held, it does not end by itself.
+    CHECK(!bench.sender.finished());
+    bench.sender.hold(false);
+    REQUIRE(bench.run(60, [&] { return bench.sender.finished(); }));
+    CHECK(first_difference(job_lines(bench.printer.executed()), moves(40, 0.5)) == "");
+}
+
 }  // namespace marlin_person_test

@@ -154,4 +154,41 @@ TEST_CASE("no noise makes a sender crash, send without end, or take an answer fr
     CHECK(!deaf.connected());
 }
 
+TEST_CASE("no character on which GRBL acts at once is sent within a line") {
+    CHECK(clean_command("M0 (next sheet! ready?)", grbl_lines) == "M0");
+    CHECK(clean_command("M1 (turn it ~)", grbl_lines) == "M1");
+    CHECK(clean_command("G1 X1 ; what now?!", grbl_lines) == "G1 X1");
+    CHECK(clean_command("(a; b!) G1 X1", grbl_lines) == "G1 X1");
+    CHECK(clean_command("M30 (end?)", grbl_lines) == "M30");
+    for (const char* line : {"G0 X1 ! Y1", "M0 ready?", "$N0=G1~", "M117 hello!", "M23 what?.nc", "~", "?"}) {
+        INFO(line);
+        CHECK_THROWS_AS(clean_command(line, grbl_lines), InputError);
+    }
+    // Whatever is accepted is free of them.
+    std::mt19937 random(7);
+    const std::string signs = "GMXYZSF 0123456789.-;()!~?$=\n";
+    int sent = 0;
+    for (int i = 0; i < 200000; ++i) {
+        std::string line = random() % 2 == 0 ? "G1" : "M0";
+        for (std::size_t k = random() % 12; k > 0; --k) line += signs[random() % signs.size()];
+        try {
+            const std::string command = clean_command(line, grbl_lines);
+            CHECK(command.find_first_of("!~?") == std::string::npos);
+            ++sent;
+        } catch (const InputError&) {
+            CHECK(line.find_first_of("!~?(") != std::string::npos);
+        }
+    }
+    CHECK(sent > 1000);
+    // Marlin has none, and shows them.
+    CHECK(clean_command("M0 ready?") == "M0 ready?");
+}
+
+TEST_CASE("GRBL's version is read from its build line") {
+    const Reply reply = parse_reply("[VER:1.1h.20190830:my laser]");
+    CHECK(reply.kind == ReplyKind::grbl_version);
+    CHECK(reply.text == "1.1h");
+    CHECK(parse_reply("[VER:0.9]").text == "0.9");
+}
+
 }  // namespace reply_test

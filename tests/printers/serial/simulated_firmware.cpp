@@ -162,6 +162,11 @@ void SimulatedMarlin::start_command(double now) {
             said_ += "//action:prompt_end\n//action:prompt_begin M0 Stop\n//action:prompt_button Continue\n";
             said_ += "//action:prompt_show\n";
         }
+    } else if (is(text, "M600")) {
+        // Its dialogs follow one another, and none is ever ended.
+        wait_for_user_ = true;
+        said_ +=
+            "//action:prompt_begin Nozzle Parked\n//action:prompt_button Continue\n//action:prompt_show\n";
     } else if (is(text, "M400") && !planner_.empty()) {
         run_until_ = std::max(run_until_, planner_.back());
     } else if (is(text, "M104") || is(text, "M109")) {
@@ -169,7 +174,7 @@ void SimulatedMarlin::start_command(double now) {
         wait_for_heat_ = is(text, "M109") && nozzle_target_ > nozzle_;
         next_report_ = now + 1;
         if (!wait_for_heat_) nozzle_ = nozzle_target_ > 0 ? nozzle_target_ : 25;
-        if (wait_for_heat_) run_until_ = now + (nozzle_target_ - nozzle_) / 50;
+        if (wait_for_heat_) run_until_ = now + (nozzle_target_ - nozzle_) / options_.heating_rate;
     } else if (is(text, "M140") || is(text, "M190")) {
         bed_target_ = value(text, 'S', 0);
     } else if (is(text, "M155")) {
@@ -222,7 +227,8 @@ std::string SimulatedMarlin::run(double now) {
         }
         if (running_ && !wait_for_user_ &&
             (now >= run_until_ || (is(slots_.front().text, "M109") && !wait_for_heat_))) {
-            at = is(slots_.front().text, "M0") ? now : std::min(now, run_until_);
+            at = is(slots_.front().text, "M0") || is(slots_.front().text, "M600") ? now
+                                                                                  : std::min(now, run_until_);
             if (is(slots_.front().text, "M109") && wait_for_heat_) nozzle_ = nozzle_target_;
             wait_for_heat_ = running_ = false;
             const Command done = slots_.front();

@@ -19,6 +19,7 @@ struct FirmwareOptions {
     bool resend_has_ok = true;      ///< some builds leave it out
     bool keepalive = true;          ///< "busy: processing" every 2 s
     double line_time = 0.0005;      ///< s to read and run a line, without its motion
+    double heating_rate = 50;       ///< degrees a second
     bool host_prompts = false;      ///< M0 opens a dialog, which M876 answers
     std::string name = "Marlin";    ///< told by M115
     double spurious = 0;            ///< share of good lines that it errs about by itself
@@ -43,6 +44,10 @@ class SimulatedMarlin {
     double killed_at() const { return killed_at_; }
     /// Whether all that it got is executed, but for moves.
     bool idle() const { return ring_.empty() && slots_.empty(); }
+    /// A person presses the printer's own knob.
+    void press_knob() { end_wait(); }
+    /// The nozzle has cooled down in a long pause, and gets warm again by that many degrees a second.
+    void cool_down(double heating_rate) { nozzle_ = 25, options_.heating_rate = heating_rate; }
     bool waits_for_user() const { return wait_for_user_; }
     bool heating() const { return nozzle_target_ > 0 || bed_target_ > 0; }
     std::int64_t errors() const { return errors_; }

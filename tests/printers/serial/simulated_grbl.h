@@ -33,7 +33,9 @@ class SimulatedGrbl {
                                          : "<Run|MPos:0,0,0>\r\n";
             } else if (c == '!') {
                 held_ = true;
+                ++holds;
             } else if (c == '~') {
+                ++cycle_starts;
                 cycle_start();
             } else if (c == 0x18) {
                 reset_while_held = held_;
@@ -65,7 +67,7 @@ class SimulatedGrbl {
     std::string alarm_at;  ///< the line that runs into a limit
     std::size_t fullest = 0;
     bool overflowed = false, settings_alone = true, reset_while_held = false;
-    int resets = 0;
+    int resets = 0, holds = 0, cycle_starts = 0;  ///< by bytes from the host
 
   private:
     void run_line() {
