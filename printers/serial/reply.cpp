@@ -149,7 +149,9 @@ Reply read_grbl(std::string_view line) {
         // [VER:1.1h.20190830:name]
         const std::string_view version = line.substr(5, line.find_first_of(":]", 5) - 5);
         reply.kind = ReplyKind::grbl_version;
-        reply.text = version.substr(0, version.rfind('.'));
+        const auto date = version.rfind('.');
+        const bool dated = date != std::string_view::npos && version.size() - date > 6;
+        reply.text = dated ? version.substr(0, date) : version;
     } else if (line.starts_with("[OPT:") && line.back() == ']') {
         const std::string_view words = line.substr(0, line.size() - 1);
         reply.number = whole_number<std::int64_t>(words.substr(words.rfind(',') + 1));

@@ -157,10 +157,7 @@ TEST_CASE("other commands end by a hang-up as by a termination, unless they are 
     const std::string slow =
         "slice --shape sphere --shape-radius 20 --layer-height 0.02 --cell 3 --beam 0.5 -o " +
         folder / "out" + " --printer png";
-    const auto begun = [&] {
-        std::error_code absent;
-        return fs::exists(folder / "out", absent) && !fs::is_empty(folder / "out", absent);
-    };
+    const auto begun = [&] { return mentions(contents(folder / "log"), "layers/s"); };
     const bool ignores = GENERATE(false, true);
     const pid_t child =
         start_shell((ignores ? "trap '' HUP; exec env " : "exec env ") +
