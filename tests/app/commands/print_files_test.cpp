@@ -37,7 +37,7 @@ TEST_CASE("--resume without a journal prints nothing, and names the journal that
     CHECK(mentions(ready.err, "gone.journal"));
     CHECK(mentions(ready.err, "--resume"));
     const Outcome recipe = run_lamella(
-        "print --shape sphere --shape-radius 2 --layer-height 0.5 --printer marlin --greeting 0.2 "
+        "print --shape sphere --shape-radius 2.5 --layer-height 0.25 --printer marlin --greeting 0.2 "
         "--port " +
         machine.path() + " --journal " + folder / "gone.journal" + " --resume");
     CHECK(recipe.code == 2);
