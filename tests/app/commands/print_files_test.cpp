@@ -135,11 +135,11 @@ TEST_CASE(
         const Outcome outcome =
             run_lamella(laser + "-o " + folder / "laser.gcode" + " --printer-layer-script '" + script + "'");
         CHECK(outcome.code == 2);
-        CHECK(mentions(outcome.err, "layer_script"));
+        CHECK(mentions(outcome.err, "--printer-layer-script"));
         CHECK(mentions(outcome.err, "line 1"));
     }
     // Other firmware shows them.
-    CHECK(run_lamella("slice --shape box --shape-size 10,10,2 --layer-height 1 --printer marlin -o " +
+    CHECK(run_lamella("slice --shape box --shape-size 10,10,2 --layer-height 0.25 --printer marlin -o " +
                       folder / "marlin.gcode" + " --printer-layer-script 'M117 ready?'")
               .code == 0);
     write(
