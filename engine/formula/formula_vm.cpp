@@ -134,6 +134,7 @@ class Reader {
 
 Formula read_vm(std::string_view text, std::string_view name) {
     Reader reader(name);
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.read_line(text.substr(0, end));

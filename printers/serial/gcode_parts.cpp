@@ -19,7 +19,9 @@ void for_each_part(const std::filesystem::path& path, const Take& take) {
     if (!in) throw InputError("cannot read " + path.string());
     std::string part, line;
     int lines = 0;
-    while (std::getline(in, line)) {
+    for (bool first = true; std::getline(in, line); first = false) {
+        constexpr std::string_view mark = "\xef\xbb\xbf";  // a byte order mark, from Windows editors
+        if (first && line.starts_with(mark)) line.erase(0, mark.size());
         const bool layer = line.starts_with(";LAYER_CHANGE") || line.starts_with(";LAYER:");
         if ((layer || lines >= lines_a_part) && !part.empty()) {
             take(part);

@@ -212,6 +212,11 @@ TEST_CASE("a dry run counts what a print would send") {
     REQUIRE(outcome.code == 0);
     CHECK(mentions(outcome.out, "3 lines"));
     CHECK(mentions(outcome.out, "2 s of motion"));
+    write(folder / "marked.gcode", "\xef\xbb\xbfG28\nG1 X100 F6000\nG1 X0\n");  // a byte order mark in front
+    const Outcome marked = run_lamella("print " + folder / "marked.gcode" + " --dry-run");
+    INFO(marked.err);
+    REQUIRE(marked.code == 0);
+    CHECK(mentions(marked.out, "3 lines"));
     CHECK(run_lamella("print " + folder / "ready.gcode").code == 2);
     CHECK(run_lamella("print " + folder / "ready.gcode" + " --port /dev/null").code == 2);
     CHECK(run_lamella("print " + folder / "ready.gcode" + " --port /dev/nothing_there").code == 2);

@@ -35,6 +35,7 @@ TEST_CASE("a circle is read from its text") {
         "_5 _6";
     REQUIRE(value(text, 3, 4, 0) == 4);
     REQUIRE(read_vm(text, "t.vm").size() == 5);
+    REQUIRE(value("\xef\xbb\xbf" + text, 3, 4, 0) == 4);
 }
 
 TEST_CASE("every operation means what it says") {
