@@ -1,8 +1,6 @@
 // Detects the format of a mesh file and calls the format's reader.
 #include "engine/io/mesh_reader.h"
 
-#include <algorithm>
-
 #include "engine/base/error.h"
 #include "engine/base/whole_file.h"
 #include "engine/io/mesh_source.h"
@@ -13,20 +11,17 @@ namespace {
 
 std::string extension_of(std::string_view name) {
     const std::size_t dot = name.find_last_of("./\\");
-    std::string extension(dot == name.npos || name[dot] != '.' ? std::string_view() : name.substr(dot + 1));
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
-    return extension;
+    return lowered(dot == name.npos || name[dot] != '.' ? std::string_view() : name.substr(dot + 1));
 }
 
 /// Returns true if one of the first lines starts with a keyword of OBJ files.
 bool is_obj(std::string_view bytes) {
     constexpr int lines_to_look_at = 200;
-    TextCursor text(bytes.substr(0, std::size_t{1} << 16U));
+    TextCursor text(without_mark(bytes).substr(0, std::size_t{1} << 16U));
     for (int line = 0; line < lines_to_look_at && !text.at_end(); ++line, text.skip_line()) {
         const std::string_view keyword = text.token_on_line();
         for (const std::string_view known : {"v", "vn", "vt", "f", "mtllib", "usemtl"}) {
-            if (keyword == known) return true;
+            if (same_word(keyword, known)) return true;
         }
     }
     return false;
@@ -37,10 +32,13 @@ MeshFile read_as_content_says(const MeshSource& source) {
     const std::string extension = extension_of(source.name);
     if (bytes.empty()) reject(source, "the file is empty (0 bytes)");
     if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06")) return read_3mf(source);
-    if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return read_ply(source);
+    if (is_ply(bytes)) return read_ply(source);
     if (bytes.starts_with("ISO-10303-21")) {
         reject(source,
                "this is a STEP file (curved surfaces, not triangles); export it as STL, OBJ, PLY or 3MF");
+    }
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
+        reject(source, "this is text in UTF-16, which is not read; save it as UTF-8 or plain ASCII");
     }
     if (is_exact_binary_stl(bytes) || is_ascii_stl(bytes) || extension == "stl") return read_stl(source);
     if (extension == "3mf") reject(source, "a 3MF file is a ZIP archive, and this is none");

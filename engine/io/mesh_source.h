@@ -27,6 +27,13 @@ MeshSource mesh_source(std::string_view name, std::span<const std::byte> bytes, 
 /// Throws InputError("name: what").
 [[noreturn]] void reject(const MeshSource& source, const std::string& what);
 
+/// Returns the content without a UTF-8 byte order mark.
+std::string_view without_mark(std::string_view bytes);
+/// Returns the text with the letters A to Z in lower case.
+std::string lowered(std::string_view text);
+/// Returns true if the token is the word, whatever its letters' case; `lower` is in lower case.
+bool same_word(std::string_view token, std::string_view lower);
+
 /// Splits text into tokens separated by white space.
 class TextCursor {
   public:
@@ -98,6 +105,8 @@ MeshFile read_obj(const MeshSource& source);
 MeshFile read_ply(const MeshSource& source);
 MeshFile read_3mf(const MeshSource& source);
 
+/// True when the first line is "ply", with or without a byte order mark.
+bool is_ply(std::string_view bytes);
 /// True when the bytes read as the text form of STL rather than the binary one.
 bool is_ascii_stl(std::string_view bytes);
 /// True when the length is exactly what a binary STL's triangle count calls for.

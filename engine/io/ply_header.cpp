@@ -4,8 +4,9 @@
 namespace lamella::ply {
 namespace {
 
-std::optional<Scalar> scalar_named(std::string_view name) {
+std::optional<Scalar> scalar_named(std::string_view text) {
     using Kind = Scalar::Kind;
+    const std::string name = lowered(text);
     if (name == "char" || name == "int8") return Scalar{1, Kind::signed_integer};
     if (name == "uchar" || name == "uint8") return Scalar{1, Kind::unsigned_integer};
     if (name == "short" || name == "int16") return Scalar{2, Kind::signed_integer};
@@ -19,7 +20,8 @@ std::optional<Scalar> scalar_named(std::string_view name) {
 
 class HeaderReader {
   public:
-    explicit HeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
+    explicit HeaderReader(const MeshSource& source)
+        : source_(source), text_(source.bytes, source.bytes.size() - without_mark(source.bytes).size()) {}
 
     Header read() {
         text_.skip_line();  // "ply"
@@ -27,16 +29,18 @@ class HeaderReader {
         for (;; text_.skip_line()) {
             if (text_.at_end())
                 reject(source_, "the header has no \"end_header\" line; the file is cut off or damaged");
-            const std::string_view keyword = text_.token_on_line();
+            const std::string_view word = text_.token_on_line();
+            const std::string keyword = lowered(word);
             if (keyword == "end_header") break;
-            if (keyword == "format") has_format = take_format();
-            if (keyword == "element") take_element();
-            if (keyword == "property") take_property();
-            const bool known = keyword.empty() || keyword == "format" || keyword == "element" ||
-                               keyword == "property" || keyword == "comment" || keyword == "obj_info";
-            if (!known)
-                fail(excerpt(keyword) +
-                     " is no line of a PLY header (format, element, property, comment, end_header)");
+            if (keyword == "format") {
+                has_format = take_format();
+            } else if (keyword == "element") {
+                take_element();
+            } else if (keyword == "property") {
+                take_property();
+            } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+                skip_unknown(word);
+            }
         }
         if (!has_format) fail("the header has no \"format\" line");
         header_.data_at = behind_end_header();
@@ -48,8 +52,18 @@ class HeaderReader {
         reject(source_, "line " + std::to_string(text_.line()) + ": " + what);
     }
 
+    /// Second lines of comments, and what single programs add, hold nothing that is needed.
+    void skip_unknown(std::string_view word) {
+        constexpr std::size_t most = 1000;
+        if (header_.notes.size() == most) fail("more than 1,000 lines that are no PLY header");
+        header_.notes.push_back("line " + std::to_string(text_.line()) + " of the header begins with " +
+                                excerpt(word) +
+                                " and was skipped; known are format, element, property, comment, obj_info "
+                                "and end_header");
+    }
+
     bool take_format() {
-        const std::string_view name = text_.token_on_line();
+        const std::string name = lowered(text_.token_on_line());
         if (name == "ascii") {
             header_.encoding = Encoding::text;
         } else if (name == "binary_little_endian") {
@@ -66,7 +80,7 @@ class HeaderReader {
     void take_element() {
         constexpr std::size_t max_elements = 100;
         Element element;
-        element.name = std::string(text_.token_on_line());
+        element.name = lowered(text_.token_on_line());
         const std::string_view word = text_.token_on_line();
         const auto count = parse_integer(word);
         if (!count || *count < 0) fail(excerpt(word) + " is no number of elements");
@@ -80,7 +94,7 @@ class HeaderReader {
         if (header_.elements.empty()) fail("a property before any element");
         Property property;
         std::string_view type = text_.token_on_line();
-        if (type == "list") {
+        if (same_word(type, "list")) {
             property.count = take_scalar(text_.token_on_line());
             if (property.count->kind == Scalar::Kind::real)
                 fail("the length of a list must be of an integer type");
@@ -106,7 +120,8 @@ class HeaderReader {
         const std::string_view bytes = source_.bytes;
         std::size_t at = text_.offset();
         while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') ++at;
-        const bool lone_return = bytes[3] == '\r' && bytes[4] != '\n';
+        const std::size_t first = bytes.find_first_of("\r\n");
+        const bool lone_return = bytes[first] == '\r' && bytes.substr(first + 1, 1) != "\n";
         if (at + 1 < bytes.size() && bytes[at] == '\r' && bytes[at + 1] == '\n' && !lone_return) ++at;
         return std::min(at + 1, bytes.size());
     }

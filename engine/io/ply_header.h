@@ -29,7 +29,7 @@ struct Property {
 
 /// A table of rows: vertices, faces and any other data.
 struct Element {
-    std::string name;
+    std::string name;  // in lower case
     std::size_t count = 0;
     std::vector<Property> properties;
 
@@ -50,17 +50,29 @@ struct Element {
                                         [&](const Property& p) { return p.name == property; });
         return static_cast<std::size_t>(found - properties.begin());
     }
-    bool has(std::string_view property) const { return index_of(property) < properties.size(); }
+    /// The same for a name in lower case that the file may write in capitals.
+    std::size_t index_of_word(std::string_view lower) const {
+        const auto found = std::find_if(properties.begin(), properties.end(),
+                                        [&](const Property& p) { return same_word(p.name, lower); });
+        return static_cast<std::size_t>(found - properties.begin());
+    }
+    /// Returns the index of the list of vertices in a row of faces or strips; properties.size() without one.
+    std::size_t index_of_corners() const {
+        const std::size_t list = index_of_word("vertex_indices");
+        return list < properties.size() ? list : index_of_word("vertex_index");
+    }
 };
 
 /// The relevant content of a header.
 struct Header {
     Encoding encoding = Encoding::text;
     std::vector<Element> elements;
-    std::size_t data_at = 0;  ///< offset of the first byte behind the header
+    std::size_t data_at = 0;         ///< offset of the first byte behind the header
+    std::vector<std::string> notes;  ///< lines that were skipped, for the user
 };
 
-/// Reads the header of a file that begins with "ply" and a line end. Throws InputError with the line.
+/// Reads the header of a file for which is_ply() holds. Keywords and types may be in capitals; lines that
+/// begin with any other word are skipped with a note. Throws InputError with the line.
 Header read_header(const MeshSource& source);
 
 }  // namespace lamella::ply

@@ -7,16 +7,15 @@ namespace {
 
 class ObjReader {
   public:
-    explicit ObjReader(const MeshSource& source) : source_(source), text_(source.bytes) {
-        if (source.bytes.starts_with("\xef\xbb\xbf")) text_ = TextCursor(source.bytes, 3);
-    }
+    explicit ObjReader(const MeshSource& source)
+        : source_(source), text_(source.bytes, source.bytes.size() - without_mark(source.bytes).size()) {}
 
     MeshFile read() {
         for (; !text_.at_end(); text_.skip_line()) {
             line_start_ = text_.offset();
             const std::string_view keyword = token();
-            if (keyword == "v") take_vertex();
-            if (keyword == "f" || keyword == "fo") take_face();
+            if (same_word(keyword, "v")) take_vertex();
+            if (same_word(keyword, "f") || same_word(keyword, "fo")) take_face();
         }
         return build();
     }

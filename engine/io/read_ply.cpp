@@ -25,6 +25,29 @@ class BodyCursor {
           at_(header.data_at) {}
 
     bool ok() const { return ok_; }
+
+    /// Moves to the next row: of a text file, the next line that is not blank.
+    void begin_row() {
+        if (encoding_ != Encoding::text || !ok_) return;
+        values_ = 0;
+        for (TextCursor ahead = text_; ahead.token_on_line().empty(); text_ = ahead) {
+            ahead.skip_line();
+            if (!ahead.at_end()) continue;
+            text_ = ahead;
+            ok_ = false;
+            return;
+        }
+    }
+
+    /// Ends a row. A line may hold more than the header announces; the rest of it is skipped and counted.
+    void end_row() {
+        if (encoding_ != Encoding::text || !ok_) return;
+        if (!text_.token_on_line().empty() && surplus_rows_++ == 0) first_surplus_ = text_.line();
+        text_.skip_line();
+    }
+
+    std::size_t surplus_rows() const { return surplus_rows_; }
+    std::size_t first_surplus() const { return first_surplus_; }  ///< its line
     std::size_t bytes_left() const { return source_.bytes.size() - offset(); }
     Encoding encoding() const { return encoding_; }
 
@@ -44,12 +67,19 @@ class BodyCursor {
     std::size_t offset() const { return encoding_ == Encoding::text ? text_.offset() : at_; }
 
     double text_value() {
-        const std::string_view token = text_.token();
+        const std::string_view token = text_.token_on_line();
+        if (token.empty() && text_.at_end()) {
+            ok_ = false;
+            return 0.0;
+        }
+        if (token.empty()) {
+            reject(source_, where() + ": the line holds only " + counted(values_, "number") +
+                                ", fewer than the header announces for a row; a row is one line");
+        }
         const auto number = parse_double(token);
-        if (number) return *number;
-        ok_ = false;
-        if (!text_.at_end()) reject(source_, where() + ": " + excerpt(token) + " is not a number");
-        return 0.0;
+        if (!number) reject(source_, where() + ": " + excerpt(token) + " is not a number");
+        ++values_;
+        return *number;
     }
 
     double binary_value(const Scalar& scalar) {
@@ -77,6 +107,9 @@ class BodyCursor {
     TextCursor text_;
     std::size_t at_;
     bool ok_ = true;
+    std::size_t values_ = 0;  // in this row
+    std::size_t surplus_rows_ = 0;
+    std::size_t first_surplus_ = 0;
 };
 
 class PlyReader {
@@ -109,6 +142,8 @@ class PlyReader {
                 read_vertices(element);
             } else if (element.name == "face") {
                 read_faces(element);
+            } else if (element.name == "tristrips") {
+                read_strips(element);
             } else {
                 skip(element);
             }
@@ -151,9 +186,9 @@ class PlyReader {
     }
 
     void read_vertices(const Element& element) {
-        const std::size_t x = element.index_of("x");
-        const std::size_t y = element.index_of("y");
-        const std::size_t z = element.index_of("z");
+        const std::size_t x = element.index_of_word("x");
+        const std::size_t y = element.index_of_word("y");
+        const std::size_t z = element.index_of_word("z");
         if (std::max({x, y, z}) >= element.properties.size()) {
             reject(source_, "its vertices lack one of the properties x, y and z");
         }
@@ -161,6 +196,7 @@ class PlyReader {
         for (std::size_t row = 0; row < element.count; ++row) {
             dvec3 p(0.0);
             double number = 0.0;
+            body_.begin_row();
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const double value = read_property(element.properties[i], nullptr);
                 if (i == x) p.x = value;
@@ -168,6 +204,7 @@ class PlyReader {
                 if (i == z) p.z = value;
                 if (i == attribute_) number = value;
             }
+            body_.end_row();
             if (!body_.ok()) cut_off(element, row);
             if (!body_.ok()) return;
             vertices_.push_back(p * source_.unit_mm);
@@ -177,18 +214,12 @@ class PlyReader {
     }
 
     void read_faces(const Element& element) {
-        const std::size_t list = element.has("vertex_indices") ? element.index_of("vertex_indices")
-                                                               : element.index_of("vertex_index");
-        if (list >= element.properties.size() || !element.properties[list].count) {
-            reject(source_, "its faces lack the list property vertex_indices");
-        }
+        const std::size_t list = corners_of(element, "faces");
         has_faces_ = true;
         face_ends_.reserve(possible_rows(element));
         for (std::size_t row = 0; row < element.count; ++row) {
             const std::size_t begin = corners_.size();
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                read_property(element.properties[i], i == list ? &corners_ : nullptr);
-            }
+            read_row(element, list, &corners_);
             if (!body_.ok()) corners_.resize(begin);
             if (!body_.ok()) cut_off(element, row);
             if (!body_.ok()) return;
@@ -196,8 +227,42 @@ class PlyReader {
         }
     }
 
+    /// Strips: every vertex makes a triangle with the two before it; -1 begins a new strip.
+    void read_strips(const Element& element) {
+        const std::size_t list = corners_of(element, "strips of triangles");
+        const Scalar& type = element.properties[list].value;
+        const auto none_of_type =
+            type.kind == Scalar::Kind::unsigned_integer ? static_cast<std::int64_t>(greatest(type)) : -1;
+        has_faces_ = true;
+        std::vector<std::int64_t> strip;
+        for (std::size_t row = 0; row < element.count; ++row) {
+            strip.clear();
+            read_row(element, list, &strip);
+            if (!body_.ok()) cut_off(element, row);
+            if (!body_.ok()) return;
+            std::size_t begin = 0;
+            for (std::size_t i = 0; i < strip.size(); ++i) {
+                if (strip[i] == -1 || strip[i] == none_of_type) begin = i + 1;
+                if (i >= begin + 2) add_strip_triangle(&strip[i - 2], (i - begin) % 2 != 0);
+            }
+        }
+    }
+
+    /// Every second triangle of a strip turns the other way. Those that repeat a vertex only join strips.
+    void add_strip_triangle(const std::int64_t* v, bool reversed) {
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return;
+        corners_.insert(corners_.end(), {v[reversed ? 1 : 0], v[reversed ? 0 : 1], v[2]});
+        face_ends_.push_back(corners_.size());
+    }
+
+    std::size_t corners_of(const Element& element, const std::string& what) const {
+        const std::size_t list = element.index_of_corners();
+        if (list >= element.properties.size() || !element.properties[list].count)
+            reject(source_, "its " + what + " lack the list property vertex_indices");
+        return list;
+    }
+
     void skip(const Element& element) {
-        if (element.name == "tristrips") has_strips_ = true;
         if (element.properties.empty()) return;
         if (body_.encoding() != Encoding::text && !element.has_lists()) {
             const std::size_t rows = std::min(element.count, body_.bytes_left() / element.row_bytes());
@@ -206,16 +271,24 @@ class PlyReader {
             return;
         }
         for (std::size_t row = 0; row < element.count && body_.ok(); ++row) {
-            for (const Property& property : element.properties) read_property(property, nullptr);
+            read_row(element, none, nullptr);
             if (!body_.ok()) cut_off(element, row);
         }
+    }
+
+    /// Reads a row, and appends the values of the property number `list` to `values` as indices.
+    void read_row(const Element& element, std::size_t list, std::vector<std::int64_t>* values) {
+        body_.begin_row();
+        for (std::size_t i = 0; i < element.properties.size(); ++i)
+            read_property(element.properties[i], i == list ? values : nullptr);
+        body_.end_row();
     }
 
     /// Returns a scalar's value, or reads a list and stores its values in `list` (unless null) as indices.
     double read_property(const Property& property, std::vector<std::int64_t>* list) {
         if (!property.count) return body_.value(property.value);
         const double length = body_.value(*property.count);
-        if (!(length >= 0.0 && length <= 1e9)) {
+        if (!(length >= 0.0 && length <= 1e9 && length == std::floor(length))) {
             reject(source_, body_.where() + ": a list of impossible length");
         }
         for (auto left = static_cast<std::size_t>(length); left > 0 && body_.ok(); --left) {
@@ -232,12 +305,7 @@ class PlyReader {
     }
 
     std::string without_faces() const {
-        if (!notes_.empty()) return notes_.front();
-        if (has_strips_) {
-            return "its triangles are stored as strips (tristrips), which are not read; export it with plain "
-                   "faces";
-        }
-        return "it holds points but no faces";
+        return notes_.empty() ? "it holds points but no faces" : notes_.front();
     }
 
     /// Cuts the faces into triangles over the unchanged vertices; skips degenerate triangles.
@@ -300,6 +368,13 @@ class PlyReader {
         }
         note(bad_index, "pointed to vertices that do not exist");
         note(too_short, "had fewer than 3 corners");
+        if (const std::size_t rows = body_.surplus_rows(); rows > 0) {
+            notes_.push_back(counted(rows, "line") + (rows == 1 ? " holds" : " hold") +
+                             " more numbers than the header announces for a row, which were skipped (" +
+                             (rows == 1 ? "" : "the first is ") + "line " +
+                             std::to_string(body_.first_surplus()) + ")");
+        }
+        notes_.insert(notes_.begin(), header_.notes.begin(), header_.notes.end());
         return welder.finish(source_, std::move(notes_));
     }
 
@@ -321,17 +396,21 @@ class PlyReader {
     std::vector<std::size_t> face_ends_;
     std::vector<std::string> notes_;
     bool has_faces_ = false;
-    bool has_strips_ = false;
 };
 
 }  // namespace
+
+bool is_ply(std::string_view bytes) {
+    TextCursor text(without_mark(bytes).substr(0, 80));
+    return same_word(text.token_on_line(), "ply") && !text.at_end() && text.token_on_line().empty();
+}
 
 MeshFile read_ply(const MeshSource& source) { return PlyReader(source).read(); }
 
 AttributedMesh read_ply_attribute(std::string_view name, std::span<const std::byte> bytes,
                                   const std::string& attribute, double unit_mm) {
     const MeshSource source = mesh_source(name, bytes, unit_mm);
-    if (!source.bytes.starts_with("ply\n") && !source.bytes.starts_with("ply\r")) {
+    if (!is_ply(source.bytes)) {
         reject(source,
                "a PLY file begins with a line \"ply\", and this one does not; no other mesh format "
                "is read for numbers at its vertices");

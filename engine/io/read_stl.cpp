@@ -1,7 +1,7 @@
 // STL, in binary and text form.
 #include <algorithm>
 #include <bit>
-#include <cctype>
+#include <cmath>
 #include <cstring>
 
 #include "engine/io/mesh_source.h"
@@ -26,11 +26,19 @@ std::size_t exact_size(std::string_view bytes) {
     return header_bytes + record_bytes * static_cast<std::size_t>(little_u32(bytes.data() + 80));
 }
 
-bool same_word(std::string_view token, std::string_view lower) {
-    return token.size() == lower.size() &&
-           std::equal(token.begin(), token.end(), lower.begin(), [](char a, char b) {
-               return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
-           });
+/// Returns true if all these bytes are triangles with usable corners, none of them all zeros as padding is.
+bool are_triangles(std::string_view records) {
+    if (records.size() % record_bytes != 0) return false;
+    for (std::size_t at = 0; at < records.size(); at += record_bytes) {
+        bool zeros = true;
+        for (std::size_t i = 12; i < 48; i += 4) {
+            const double number = little_float(records.data() + at + i);
+            if (!(std::abs(number) <= max_coordinate)) return false;
+            zeros = zeros && number == 0.0;
+        }
+        if (zeros) return false;
+    }
+    return true;
 }
 
 /// Returns how many complete triangles to read; adds a note when the header's count and the length disagree.
@@ -38,20 +46,28 @@ std::size_t usable_records(const MeshSource& source, std::vector<std::string>& n
     const std::size_t announced = little_u32(source.bytes.data() + 80);
     const std::size_t room = source.bytes.size() - header_bytes;
     const std::size_t whole = room / record_bytes;
+    const auto are = [](std::size_t count, const char* one, const char* many) {
+        return grouped(count) + (count == 1 ? one : many);
+    };
     if (announced > whole) {
         notes.push_back("the file is cut off: its header announces " + counted(announced, "triangle") +
-                        ", only " + grouped(whole) + (whole == 1 ? " is" : " are") + " there whole");
+                        ", only " + are(whole, " is", " are") + " there whole");
         return whole;
     }
     if (announced == 0 && whole > 0) {
-        notes.push_back("the header announces 0 triangles, but " + grouped(whole) +
-                        (whole == 1 ? " follows" : " follow") + "; they were read");
+        notes.push_back("the header announces 0 triangles, but " + are(whole, " follows", " follow") +
+                        "; they were read");
         return whole;
     }
-    if (const std::size_t extra = room - announced * record_bytes; extra > 0) {
-        notes.push_back(counted(extra, "byte") + " after the last triangle " + (extra == 1 ? "was" : "were") +
-                        " ignored");
+    const std::size_t extra = room - announced * record_bytes;
+    if (extra == 0) return announced;
+    if (are_triangles(source.bytes.substr(header_bytes + announced * record_bytes))) {
+        notes.push_back("the header announces " + counted(announced, "triangle") + ", but " +
+                        are(whole, " follows", " follow") + "; all of them were read");
+        return whole;
     }
+    notes.push_back(counted(extra, "byte") + " after the last of the " + counted(announced, "triangle") +
+                    " that the header announces " + (extra == 1 ? "was" : "were") + " ignored");
     return announced;
 }
 
@@ -81,7 +97,7 @@ MeshFile read_binary(const MeshSource& source) {
 class AsciiStl {
   public:
     explicit AsciiStl(const MeshSource& source) : source_(source), text_(source.bytes) {
-        if (source.bytes.starts_with("\xef\xbb\xbf")) text_ = TextCursor(source.bytes, 3);
+        text_ = TextCursor(source.bytes, source.bytes.size() - without_mark(source.bytes).size());
     }
 
     MeshFile read() {
@@ -96,6 +112,7 @@ class AsciiStl {
 
   private:
     void take(std::string_view word) {
+        if (same_word(word, "end")) return take_end();
         if (same_word(word, "vertex")) {
             take_vertex();
         } else if (same_word(word, "endloop") || same_word(word, "endfacet") || same_word(word, "facet")) {
@@ -107,6 +124,15 @@ class AsciiStl {
         } else if (!same_word(word, "outer") && !same_word(word, "loop")) {
             refuse(word, "a keyword of a text STL (facet, outer loop, vertex, endloop, endfacet)");
         }
+    }
+
+    /// "end solid", "end facet" and "end loop": some programs separate the words.
+    void take_end() {
+        const std::string_view word = text_.token_on_line();
+        if (!same_word(word, "solid") && !same_word(word, "facet") && !same_word(word, "loop"))
+            return refuse(word, "what ends (solid, facet or loop)");
+        end_loop();
+        if (same_word(word, "solid")) text_.skip_line();
     }
 
     void take_vertex() {
@@ -130,8 +156,12 @@ class AsciiStl {
         // The normal is ignored, because exporters write arbitrary ones; the winding determines the outside.
         TextCursor ahead = text_;
         if (!same_word(ahead.token(), "normal")) return;
-        for (int i = 0; i < 3; ++i) ahead.token();
         text_ = ahead;
+        for (int i = 0; i < 3; ++i) {
+            const std::string_view word = ahead.token();
+            if (same_word(word, "outer") || same_word(word, "loop") || same_word(word, "vertex")) return;
+            text_ = ahead;
+        }
     }
 
     void end_loop() {
@@ -169,8 +199,9 @@ bool is_exact_binary_stl(std::string_view bytes) {
 }
 
 bool is_ascii_stl(std::string_view bytes) {
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-    if (is_exact_binary_stl(bytes) || !same_word(TextCursor(bytes).token(), "solid")) return false;
+    if (is_exact_binary_stl(bytes)) return false;
+    bytes = without_mark(bytes);
+    if (!same_word(TextCursor(bytes).token(), "solid")) return false;
     // Binary headers may begin with "solid" too. But no text contains a zero byte, and triangles in binary
     // soon do.
     constexpr std::size_t probe = 1024;

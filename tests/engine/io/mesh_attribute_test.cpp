@@ -35,6 +35,9 @@ class PlyWriter {
         std::memcpy(raw, &value, sizeof(T));  // little-endian machines only, as the test's
         for (std::size_t i = 0; i < sizeof(T); ++i) bytes_ += raw[form_ == Form::big ? sizeof(T) - 1 - i : i];
     }
+    void end_row() {
+        if (form_ == Form::ascii) bytes_ += '\n';
+    }
     const std::string& bytes() const { return bytes_; }
 
   private:
@@ -72,6 +75,7 @@ std::string triangle(Form form, const std::string& type, const std::vector<T>& v
         ply.add<std::uint8_t>(2);
         ply.add<std::int16_t>(7);
         ply.add<std::int16_t>(8);
+        ply.end_row();
     }
     ply.add<std::uint8_t>(3);
     for (int i = 0; i < 3; ++i) ply.add<std::int32_t>(i);

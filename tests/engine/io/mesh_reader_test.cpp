@@ -101,10 +101,14 @@ std::string ply(const TriangleMesh& mesh, Ply form) {
         if (form == Ply::big) std::reverse(std::begin(raw), std::end(raw));
         out.append(raw, sizeof value);
     };
+    const auto end_row = [&] {
+        if (form == Ply::ascii) out += "\n";
+    };
     for (int camera = 0; camera < 2; ++camera) {
         put(1.5F);
         put(static_cast<unsigned char>(camera));
         for (int i = 0; i < camera; ++i) put(std::int32_t{77});
+        end_row();
     }
     for (const dvec3& p : mesh.vertices) {
         put(static_cast<unsigned char>(200));
@@ -114,13 +118,15 @@ std::string ply(const TriangleMesh& mesh, Ply form) {
         put(static_cast<unsigned char>(2));
         put(std::int16_t{-5});
         put(std::int16_t{5});
+        end_row();
     }
     put(std::int32_t{9});
+    end_row();
     for (const auto& t : mesh.triangles) {
         put(static_cast<signed char>(-1));
         put(std::uint16_t{3});
         for (const std::uint32_t v : t) put(static_cast<std::int16_t>(v));
-        if (form == Ply::ascii) out += "\n";
+        end_row();
     }
     put(std::int32_t{1});
     return out;
@@ -168,7 +174,7 @@ TEST_CASE("broken files are refused with one message or read with a note") {
         {"nan_inf_vertex.stl", "note: 2 of 1,360 triangles had NaN, infinite"},
         {"truncated.stl",
          "note: the file is cut off: its header announces 2,156 triangles, only 1,198 are there"},
-        {"trailing_byte.stl", "note: 1 byte after the last triangle was ignored"},
+        {"trailing_byte.stl", "note: 1 byte after the last of the "},
         {"not_enough_indices.obj",
          "note: 1 of 2 faces had fewer than 3 corners and was left out (on line 9)"},
         {"malformed.obj",
@@ -249,9 +255,8 @@ TEST_CASE("mistakes in text files are named with their line") {
     CHECK(message_of("a.ply", head + "property quad w\n").find("line 7: \"quad\" is no PLY type") !=
           std::string::npos);
     CHECK(message_of("a.ply", head + "end_header\n0 0 1\n").find("points but no faces") != std::string::npos);
-    CHECK(message_of("a.ply",
-                     head + "element tristrips 0\nproperty list int int vertex_indices\nend_header\n0 0 1\n")
-              .find("tristrips") != std::string::npos);
+    CHECK(message_of("a.ply", head + "element tristrips 0\nproperty int vertex_indices\nend_header\n0 0 1\n")
+              .find("its strips of triangles lack the list property vertex_indices") != std::string::npos);
 }
 
 TEST_CASE("files of other kinds are refused by name") {
@@ -273,8 +278,23 @@ TEST_CASE("a binary STL's wrong count is mended from the length") {
     CHECK(mentions(unset.notes, "announces 0 triangles, but 12 follow"));
     bytes[80] = 10;
     const MeshFile fewer = from_memory("a.stl", bytes);
-    CHECK(fewer.mesh.triangles.size() == 10);
-    CHECK(mentions(fewer.notes, "100 bytes after the last triangle"));
+    CHECK(fewer.mesh.triangles.size() == 12);
+    CHECK(volume(fewer.mesh) == Approx(volume(box())));
+    CHECK(mentions(fewer.notes, "announces 10 triangles, but 12 follow; all of them were read"));
+    bytes[80] = 13;
+    const MeshFile more = from_memory("a.stl", bytes);
+    CHECK(more.mesh.triangles.size() == 12);
+    CHECK(mentions(more.notes, "announces 13 triangles, only 12 are there whole"));
+    // What follows the triangles need not be triangles: padding, a text, or a part of one.
+    bytes[80] = 12;
+    for (const std::string& rest : {std::string(50, '\0'), std::string(100, '\xff'), std::string(7, 'x')}) {
+        const MeshFile padded = from_memory("a.stl", bytes + rest);
+        CHECK(padded.mesh.triangles.size() == 12);
+        CHECK(
+            mentions(padded.notes, std::to_string(rest.size()) +
+                                       " bytes after the last of the 12 triangles that the header announces "
+                                       "were ignored"));
+    }
 }
 
 TEST_CASE("polygons are cut so that they keep their area, concave ones too") {
