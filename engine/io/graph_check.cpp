@@ -151,13 +151,15 @@ class GraphCheck {
         for (const NodePort& port : kind.outputs) {
             const GraphType type = port.types.size() == 1 ? type_of(port.types[0]) : *common;
             outputs.push_back({std::string(port.name), type, ""});
-            const auto stated = find(node.outputs, port);
-            if (stated == node.outputs.end()) continue;
-            if (stated->type != type) {
-                reject(node, "output " + excerpt(stated->name) + " is said to be a " + name_of(stated->type) +
-                                 ", but is a " + name_of(type));
+            // Some programs declare an output by both of its names.
+            for (auto stated = find(node.outputs, port); stated != node.outputs.end();
+                 stated = find(node.outputs, port)) {
+                if (stated->type != type) {
+                    reject(node, "output " + excerpt(stated->name) + " is said to be a " +
+                                     name_of(stated->type) + ", but is a " + name_of(type));
+                }
+                node.outputs.erase(stated);
             }
-            node.outputs.erase(stated);
         }
         if (!node.outputs.empty()) {
             reject(node, "there is no output " + excerpt(node.outputs.front().name) + "; its outputs are " +
@@ -178,6 +180,7 @@ class GraphCheck {
     /// Resolves a port's reference and compares its type.
     template <typename Fail>
     GraphSource source_of(const GraphPort& port, const Fail& fail) const {
+        if (port.from.empty()) return {GraphSource::nothing, 0};
         const std::size_t dot = port.from.find('.');
         const std::string node_name = port.from.substr(0, dot);
         const std::string output = dot == std::string::npos ? "" : port.from.substr(dot + 1);
@@ -186,11 +189,8 @@ class GraphCheck {
         const NodeKind* kind = nullptr;
         if (node_name != inputs_name) {
             const auto place = places_.find(node_name);
-            if (place == places_.end()) {
-                fail(port.from.empty() ? "nothing feeds it; it needs a ref of the form node.output"
-                                       : "its ref is " + excerpt(port.from) + ", and there is no node " +
-                                             excerpt(node_name));
-            }
+            if (place == places_.end())
+                fail("its ref is " + excerpt(port.from) + ", and there is no node " + excerpt(node_name));
             source.node = place->second;
             ports = &out_.graph.nodes[source.node].outputs;
             kind = out_.nodes[source.node].kind;
@@ -234,7 +234,7 @@ class GraphCheck {
                     continue;
                 }
                 const GraphSource& source = sources[stack.back().second++];
-                if (source.node == GraphSource::function_inputs || state[source.node] == done) continue;
+                if (!source.is_node() || state[source.node] == done) continue;
                 if (state[source.node] == open) {
                     reject(out_.graph.nodes[source.node], "it feeds itself, by way of node " +
                                                               excerpt(out_.graph.nodes[at].identifier) +

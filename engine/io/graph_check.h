@@ -12,8 +12,11 @@ namespace lamella {
 /// Source of an input: an output of a node, or an input of the function.
 struct GraphSource {
     static constexpr std::uint32_t function_inputs = 0xffffffffU;
+    static constexpr std::uint32_t nothing = 0xfffffffeU;  ///< the input has no reference
     std::uint32_t node = function_inputs;
     std::uint32_t port = 0;
+
+    bool is_node() const { return node < nothing; }
 };
 
 /// A graph that can be evaluated: every node's inputs in the order of its kind (further ones of a
@@ -29,9 +32,13 @@ struct CheckedGraph {
     std::vector<GraphSource> outputs;  ///< one per output of the graph
 };
 
+/// Message about an input or output whose source is `nothing`.
+inline constexpr const char* nothing_feeds_it = "nothing feeds it; it needs a ref of the form node.output";
+
 /// Checks a whole graph, including unused nodes. Throws InputError for nodes of unknown kinds, names that are
 /// duplicate or missing, inputs that are missing, superfluous, or of another type than their source, and for
-/// cycles. `where` ("part.3mf: function 5") begins the message.
+/// cycles. Inputs and outputs without a reference are allowed, for editors leave them in nodes that are not
+/// used: evaluation refuses them. `where` ("part.3mf: function 5") begins the message.
 CheckedGraph check_graph(ImplicitGraph graph, const std::string& where);
 
 }  // namespace lamella

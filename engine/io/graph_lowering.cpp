@@ -36,7 +36,7 @@ bool has(const std::vector<GraphPort>& ports, std::string_view name) {
 std::vector<char> needed(const CheckedGraph& graph, std::span<const std::string> wanted) {
     std::vector<char> need(graph.nodes.size(), 0);
     const auto mark = [&](const GraphSource& source) {
-        if (source.node != GraphSource::function_inputs) need[source.node] = 1;
+        if (source.is_node()) need[source.node] = 1;
     };
     for (std::size_t i = 0; i < graph.outputs.size(); ++i) {
         if (std::find(wanted.begin(), wanted.end(), graph.graph.outputs[i].name) != wanted.end())
@@ -51,8 +51,13 @@ std::vector<char> needed(const CheckedGraph& graph, std::span<const std::string>
 
 }  // namespace
 
+void require_sound(const CheckedFunction& function) {
+    if (!function.fault.empty()) throw InputError(function.fault);
+}
+
 GraphLowering::Values GraphLowering::call(const CheckedFunction& function, const Values& arguments,
                                           std::span<const std::string> wanted) {
+    require_sound(function);
     const std::vector<GraphPort> inputs = inputs_of(function.function);
     const std::vector<GraphPort> outputs = outputs_of(function.function);
     for (const GraphPort& input : inputs) {
@@ -98,7 +103,7 @@ GraphLowering::Values GraphLowering::call_graph(const CheckedFunction& function,
     const std::vector<char> need = needed(graph, wanted);
     std::vector<std::vector<GraphValue>> values(graph.nodes.size());
     const auto value_of = [&](const GraphSource& source) -> const GraphValue& {
-        if (source.node != GraphSource::function_inputs) return values[source.node][source.port];
+        if (source.is_node()) return values[source.node][source.port];
         return arguments.find(graph.graph.inputs[source.port].name)->second;
     };
     for (const std::uint32_t i : graph.order) {
@@ -108,14 +113,23 @@ GraphLowering::Values GraphLowering::call_graph(const CheckedFunction& function,
                              ": with every call written out there are more than 1,000,000 nodes");
         }
         std::vector<GraphValue> inputs;
-        for (const GraphSource& source : graph.nodes[i].sources) inputs.push_back(value_of(source));
+        for (const GraphSource& source : graph.nodes[i].sources) {
+            if (source.node == GraphSource::nothing) {
+                const GraphNode& node = graph.graph.nodes[i];
+                reject_node(function, node,
+                            "input " + excerpt(node.inputs[inputs.size()].name) + ": " + nothing_feeds_it);
+            }
+            inputs.push_back(value_of(source));
+        }
         values[i] = evaluate(function, i, inputs);
     }
     Values out;
     for (std::size_t i = 0; i < graph.outputs.size(); ++i) {
         const std::string& name = graph.graph.outputs[i].name;
-        if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
-            out.emplace(name, value_of(graph.outputs[i]));
+        if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+        if (graph.outputs[i].node == GraphSource::nothing)
+            throw InputError(function.where + ": output " + excerpt(name) + ": " + nothing_feeds_it);
+        out.emplace(name, value_of(graph.outputs[i]));
     }
     return out;
 }

@@ -14,12 +14,16 @@
 
 namespace lamella {
 
-/// A function whose graph has been checked.
+/// A function whose graph has been checked. A faulty one matters only once it is used.
 struct CheckedFunction {
     GraphFunction function;
     CheckedGraph graph;  ///< of an ImplicitGraph
     std::string where;   ///< for messages: "part.3mf: function 5 \"sphere\""
+    std::string fault;   ///< what is wrong with it, as a whole message; empty if it can be evaluated
 };
+
+/// Throws InputError if the function is faulty.
+void require_sound(const CheckedFunction& function);
 
 /// External resources of functions. The gradings are evaluated in the caller's coordinates: those of the
 /// model for meshes, uvw for images.
@@ -44,7 +48,8 @@ class GraphLowering {
 
     /// Returns the wanted outputs of a function, at most all. Throws InputError for arguments that are
     /// missing, superfluous or of the wrong type, outputs and resources that do not exist, functions that
-    /// call themselves, and for graphs beyond the limits on size and nesting.
+    /// are faulty or call themselves, inputs that nothing feeds, and for graphs beyond the limits on size and
+    /// nesting.
     Values call(const CheckedFunction& function, const Values& arguments,
                 std::span<const std::string> wanted);
 

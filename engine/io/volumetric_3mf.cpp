@@ -25,20 +25,22 @@ class PartReader {
     VolumetricPart read() {
         for (const pugi::xml_node& node : core_child(part_.model, "resources").children()) {
             if (is_implicit(node) && local_name(node) == "implicitfunction") {
-                add_function(node, read_graph(node));
+                add_function(node, [&] { return read_graph(node); });
             } else if (!is_volumetric(node)) {
                 continue;
             } else if (local_name(node) == "functionfromimage3d") {
-                add_function(node, read_image_function(node));
+                add_function(node, [&] { return read_image_function(node); });
             } else if (local_name(node) == "image3d") {
                 add(out_.images, node, read_stack(node));
             } else if (local_name(node) == "volumedata") {
                 add(out_.volumes, node, read_properties(node));
             } else {
-                reject(node, "resources of this kind are not supported");
+                add_function(node, [&]() -> ImplicitGraph {
+                    reject(node, "resources of this kind are not supported");
+                });
             }
         }
-        for (const auto& [id, function] : out_.functions) check_image(function);
+        for (auto& [id, function] : out_.functions) check_image(function);
         return std::move(out_);
     }
 
@@ -103,24 +105,31 @@ class PartReader {
             reject(node, "two resources have the number " + std::to_string(id));
     }
 
-    void add_function(const pugi::xml_node& node, decltype(GraphFunction::body) body) {
+    /// Files hold functions that nothing uses, of other programs and unfinished: what is wrong with one is
+    /// kept until it is used.
+    template <typename ReadBody>
+    void add_function(const pugi::xml_node& node, const ReadBody& read_body) {
         CheckedFunction checked;
         checked.function.id = integer(node, "id");
         checked.function.name = attribute_of(node, "displayname");
         checked.where = model_.source().name + ": function " + std::to_string(checked.function.id);
         if (!checked.function.name.empty()) checked.where += " " + excerpt(checked.function.name);
-        checked.function.body = std::move(body);
-        if (const auto* graph = std::get_if<ImplicitGraph>(&checked.function.body))
-            checked.graph = check_graph(*graph, checked.where);
+        try {
+            checked.function.body = read_body();
+            if (const auto* graph = std::get_if<ImplicitGraph>(&checked.function.body))
+                checked.graph = check_graph(*graph, checked.where);
+        } catch (const InputError& error) {
+            checked.fault = error.what();
+        }
         add(out_.functions, node, std::move(checked));
     }
 
     /// Checked at the end, because references to images may come before the images.
-    void check_image(const CheckedFunction& function) const {
+    void check_image(CheckedFunction& function) const {
         const auto* image = std::get_if<ImageFunction>(&function.function.body);
         if (image != nullptr && out_.images.find(image->image) == out_.images.end()) {
-            throw InputError(function.where + ": it samples image3d " + std::to_string(image->image) +
-                             ", which does not exist");
+            function.fault = function.where + ": it samples image3d " + std::to_string(image->image) +
+                             ", which does not exist";
         }
     }
 

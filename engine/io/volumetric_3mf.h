@@ -51,7 +51,7 @@ inline constexpr std::size_t max_graph_nodes = 200'000;
 inline constexpr std::size_t max_sheets = 1'000'000;
 
 /// Reads the resources of a model part. Throws InputError that names the file and the place for content that
-/// the extensions do not allow, or that is not supported.
+/// the extensions do not allow, or that is not supported. A faulty function is read with its `fault`.
 VolumetricPart read_volumetric_part(const Model3mf& model, const ModelPart& part);
 
 /// Return an object's level set, and the number of its volumedata; nothing when it has none.

@@ -191,6 +191,7 @@ class VolumetricModel::Impl {
         for (std::size_t end = which.size(); end != which.npos && end > 0; end = which.rfind('.', end - 1)) {
             const CheckedFunction* found = find(which.substr(0, end));
             if (found == nullptr) continue;
+            require_sound(*found);
             std::string_view rest = which.substr(std::min(end + 1, which.size()));
             const std::vector<GraphPort> outputs = outputs_of(found->function);
             const auto has = [&](std::string_view name) {

@@ -27,7 +27,8 @@ struct PlacedFormula {
 /// makes are.
 class VolumetricModel {
   public:
-    /// Reads the file, and checks all functions of its root part and of the objects in its build section.
+    /// Reads the file, and checks all functions of its root part and of the objects in its build section. A
+    /// function with a mistake is refused when it is used.
     explicit VolumetricModel(const std::string& path);
     /// Reads a file in memory.
     VolumetricModel(const std::string& name, std::string bytes);

@@ -22,9 +22,11 @@ VolumetricPart read(const std::string& resources) {
     return read_volumetric_part(model, model.root());
 }
 
+/// What is said of resources at once, or once a function of them is used.
 std::string refusal(const std::string& resources) {
     try {
-        read(resources);
+        const VolumetricPart part = read(resources);
+        for (const auto& [id, function] : part.functions) require_sound(function);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -116,6 +118,7 @@ TEST_CASE("nodes that are not known are refused by name", "[implicit]") {
                Catch::Contains("constant \"c\": value=\"many\" is no number"));
     CHECK_THAT(refused("<i:constmat identifier=\"c\" matrix=\"1 2 3\"/>"),
                Catch::Contains("is not 16 numbers"));
+    CHECK(read("<v:scalarfield id=\"1\"/>").functions.at(1).fault.find("a.3mf: ") == 0);
     CHECK_THAT(refusal("<v:scalarfield id=\"1\"/>"),
                Catch::Contains("scalarfield: resources of this kind are not supported"));
     CHECK_THAT(refusal(sphere_function("5", 1) + sphere_function("5", 2)),

@@ -124,6 +124,61 @@ TEST_CASE("a level set is placed by its item, its components, its own transform 
     CHECK(model.object("4")->value(centre) < 0);
 }
 
+TEST_CASE("what nothing uses may be unfinished, and is refused where it is used", "[volumetric]") {
+    // As Gladius writes them: a function whose input is loose, and one with a loose node beside the result.
+    const std::string loose =
+        graph("7", "draft",
+              node("multiplication", "m", {"vectorref A inputs.pos", "vectorref B "}, "vector result"),
+              "<i:vectorref identifier=\"result\" ref=\"m.result\"/>");
+    const std::string unknown =
+        graph("8", "foreign", node("noise", "n", {"vectorref A inputs.pos"}, "scalar result"),
+              "<i:scalarref identifier=\"result\" ref=\"n.result\"/>");
+    std::string sphere = sphere_function("5", 4);
+    sphere.insert(sphere.find("<i:length"), node("abs", "spare", {"scalarref A "}, "scalar result"));
+    sphere.insert(sphere.rfind("</i:out>"), "<i:scalarref identifier=\"spare\" ref=\"\"/>");
+    VolumetricModel model =
+        model_of(box_object("1", 6) + loose + unknown + sphere +
+                     level_set_object("4", "functionid=\"5\" channel=\"shape\" meshid=\"1\""),
+                 "<item objectid=\"4\"/>");
+    CHECK(volume_in(*model.built(), cube, 0.05) == Approx(4.0 / 3 * 3.14159265358979 * 64).epsilon(1e-3));
+    CHECK(grading_of(model, "5.shape")->at(dvec3(0)) == -4);
+    CHECK_THROWS_WITH(
+        model.function("5.spare"),
+        "a.3mf: function 5 \"sphere\": output \"spare\": nothing feeds it; it needs a ref of the "
+        "form node.output");
+    CHECK_THROWS_WITH(
+        model.function("draft.result.x"),
+        "a.3mf: function 7 \"draft\": node \"m\" (multiplication): input \"B\": nothing feeds it; "
+        "it needs a ref of the form node.output");
+    CHECK_THROWS_WITH(model.function("foreign"), Catch::Contains("node \"n\" (noise): nodes of this kind"));
+}
+
+TEST_CASE("an output may be declared by both of its names, and used by either", "[volumetric]") {
+    std::vector<std::string> entries;
+    for (const char* const row : {"0", "1", "2", "3"}) {
+        for (const char* const column : {"0", "1", "2", "3"})
+            entries.push_back(std::string("scalarref m") + row + column +
+                              (*row == *column ? " two" : " nil") + ".value");
+    }
+    for (const char* const used : {"matrix", "result"}) {
+        const std::string turned = graph(
+            "3", "turned",
+            constant_node("two", 2) + constant_node("nil", 0) +
+                node("composematrix", "turn", entries, "matrix result matrix matrix") +
+                node("matvecmultiplication", "moved",
+                     {std::string("matrixref A turn.") + used, "vectorref B inputs.pos"}, "vector result"),
+            "<i:vectorref identifier=\"place\" ref=\"moved.result\"/>");
+        VolumetricModel model = model_of(box_object("1", 6) + turned);
+        CHECK(grading_of(model, "turned.place.y")->at(dvec3(1, 3, 5)) == 6);
+    }
+    VolumetricModel wrong = model_of(
+        box_object("1", 6) +
+        graph("3", "turned", node("transpose", "t", {"matrixref A m.result"}, "matrix result scalar matrix"),
+              "<i:matrixref identifier=\"m\" ref=\"t.result\"/>"));
+    CHECK_THROWS_WITH(wrong.function("turned"),
+                      Catch::Contains("output \"matrix\" is said to be a scalar, but is a matrix"));
+}
+
 TEST_CASE("a level set ends at its mesh, or at the box about it", "[volumetric]") {
     const TriangleMesh wedge{{{-3, -3, -3}, {3, -3, -3}, {-3, 3, -3}, {-3, -3, 3}},
                              {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
