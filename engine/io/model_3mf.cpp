@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t max_instances = 1'000'000;
 constexpr int deepest_component = 32;
+constexpr std::array<std::string_view, 3> field_extensions{"/volumetric/", "/implicit/", "/beamlattice/"};
 
 std::string_view prefix(const pugi::xml_node& node) {
     const std::string_view name = node.name();
@@ -193,11 +194,13 @@ void Model3mf::require_extensions(const pugi::xml_node& model,
             return uri.find(part_of) != uri.npos;
         });
         if (known) continue;
-        const bool volumetric = uri.find("/volumetric/") != uri.npos || uri.find("/implicit/") != uri.npos;
+        const bool field =
+            std::any_of(field_extensions.begin(), field_extensions.end(),
+                        [&](std::string_view part_of) { return uri.find(part_of) != uri.npos; });
         reject(source_, "it requires the 3MF extension " + excerpt(name) + " (" +
                             std::string(uri.substr(0, 100)) + "), which " +
-                            (volumetric ? "is no mesh; a [[field]] of kind 3mf reads it"
-                                        : "is not supported; export it as plain triangles"));
+                            (field ? "is no mesh; a [[field]] of kind 3mf reads it"
+                                   : "is not supported; export it as plain triangles"));
     }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/io/beam_lattice_3mf.h"
 #include "engine/io/model_3mf.h"
 
 namespace lamella {
@@ -18,20 +19,45 @@ class Reader3mf {
     MeshFile read() {
         model_.require_items();
         model_.for_each_placed([this](const PlacedObject& placed) {
-            for (const pugi::xml_node& child : placed.object.children()) {
-                if (local_name(child) == "levelset" &&
-                    namespace_of(child).find("/volumetric/") != std::string::npos)
-                    model_.reject_at(placed.part, child,
-                                     "a level set is no mesh; a [[field]] of kind 3mf reads it");
-            }
+            look_for_other_shapes(placed);
             if (const pugi::xml_node mesh = core_child(placed.object, "mesh")) add(placed, mesh);
         });
         std::vector<std::string> notes = model_.left_out();
         note_left_out(notes, outside_, "triangle", "pointing to vertices that do not exist");
+        if (beams_ > 0) {
+            notes.push_back("its lattice of " + counted(beams_, "beam") +
+                            " is no mesh and was left out; a [[field]] of kind 3mf reads it");
+        }
+        if (other_shapes_ > 0) {
+            notes.push_back(counted(other_shapes_, "shape") + " of a kind that is not read (" + other_shape_ +
+                            ") " + (other_shapes_ == 1 ? "was" : "were") + " left out");
+        }
         return welder_.finish(source_, std::move(notes));
     }
 
   private:
+    /// An object may have shapes of extensions, beside its mesh or instead of it.
+    void look_for_other_shapes(const PlacedObject& placed) {
+        for (const pugi::xml_node& child : placed.object.children()) {
+            if (local_name(child) == "levelset" &&
+                namespace_of(child).find("/volumetric/") != std::string::npos)
+                model_.reject_at(placed.part, child,
+                                 "a level set is no mesh; a [[field]] of kind 3mf reads it");
+        }
+        const pugi::xml_node mesh = core_child(placed.object, "mesh");
+        if (const pugi::xml_node lattice = lattice_node(mesh)) beams_ += count_beams(lattice);
+        count_others(placed.object, {"mesh", "components", "metadatagroup"});
+        count_others(mesh, {"vertices", "triangles", "trianglesets", "beamlattice", "metadatagroup"});
+    }
+
+    void count_others(const pugi::xml_node& parent, std::initializer_list<std::string_view> known) {
+        for (const pugi::xml_node& child : parent.children()) {
+            if (child.type() != pugi::node_element) continue;
+            if (std::find(known.begin(), known.end(), local_name(child)) != known.end()) continue;
+            if (other_shapes_++ == 0) other_shape_ = excerpt(local_name(child));
+        }
+    }
+
     void add(const PlacedObject& placed, const pugi::xml_node& node) {
         const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
         if (fresh) entry->second = read_object_mesh(model_, placed.part, node);
@@ -59,6 +85,9 @@ class Reader3mf {
     std::map<const void*, ObjectMesh> meshes_;
     MeshWelder welder_;
     std::size_t outside_ = 0;
+    std::size_t beams_ = 0;         ///< of lattices
+    std::size_t other_shapes_ = 0;  ///< elements of extensions that are not known
+    std::string other_shape_;       ///< name of the first one
 };
 
 }  // namespace

@@ -52,6 +52,19 @@ bool keeps_axes(const Transform3mf& t) {
     return true;
 }
 
+std::optional<double> scale_of(const Transform3mf& map) {
+    constexpr double rounding = 1e-9;
+    const auto row = [&](std::size_t i) { return dvec3(map.m[3 * i], map.m[3 * i + 1], map.m[3 * i + 2]); };
+    const double square = glm::dot(row(0), row(0));
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const double wanted = i == j ? square : 0.0;
+            if (!(std::abs(glm::dot(row(i), row(j)) - wanted) <= rounding * square)) return std::nullopt;
+        }
+    }
+    return std::sqrt(square);
+}
+
 Box image_of(const Box& box, const Transform3mf& map) {
     Box image;
     for (int corner = 0; corner < 8; ++corner) {

@@ -2,6 +2,7 @@
 // numbers.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "engine/field/grading.h"
@@ -27,6 +28,8 @@ bool maybe_undefined(const Formula& formula, std::span<const GradingPtr> others)
 Transform3mf scaled(Transform3mf map, double factor);
 /// Returns whether the map sends axis-aligned boxes to axis-aligned boxes.
 bool keeps_axes(const Transform3mf& map);
+/// Returns the factor by which the map scales all lengths; nothing if it keeps no angles.
+std::optional<double> scale_of(const Transform3mf& map);
 /// Returns the bounding box of a box's image.
 Box image_of(const Box& box, const Transform3mf& map);
 /// Returns whether a closed mesh equals its bounding box.

@@ -14,6 +14,7 @@
 #include "engine/mesh/mesh_repair.h"
 #include "engine/solids/csg.h"
 #include "procedural/volume/image_stack_3mf.h"
+#include "procedural/volume/lattice_solid.h"
 #include "procedural/volume/platform_formula.h"
 #include "procedural/volume/tiled_volume.h"
 
@@ -22,11 +23,12 @@ namespace {
 
 using Node = FormulaBuilder::Node;
 
-constexpr std::string_view supported[] = {"/production/", "/material/", "/trianglesets/", "/volumetric/",
-                                          "/implicit/"};
+constexpr std::string_view supported[] = {"/production/", "/material/", "/trianglesets/",
+                                          "/volumetric/", "/implicit/", "/beamlattice/"};
 constexpr std::size_t max_level_sets = 10'000;
 constexpr std::size_t max_objects = 1'000'000;  // maximum number of objects that one name may lead to
 constexpr std::size_t max_triangles = 50'000'000;
+constexpr std::size_t max_beams = 20'000'000;
 
 /// Removes the component at the end of a name and returns it: 0 to 2 for .x to .z; negative for none.
 int take_component(std::string_view& name) {
@@ -298,12 +300,16 @@ class VolumetricModel::Impl {
     FieldPtr unite_all(const std::vector<PlacedObject>& objects) {
         std::vector<FieldPtr> solids;
         MeshWelder meshes;
+        beams_ = 0;
         bool has_mesh = false;
         for (const PlacedObject& placed : objects) {
             if (const auto level_set = read_level_set(model_, placed)) {
                 if (solids.size() == max_level_sets) reject(source_, "it places more than 10,000 level sets");
                 solids.push_back(level_set_field(placed, *level_set));
             } else if (const pugi::xml_node mesh = core_child(placed.object, "mesh")) {
+                const pugi::xml_node lattice = lattice_node(mesh);
+                if (lattice) solids.push_back(lattice_field(placed, mesh, lattice));
+                if (lattice && mesh_at(placed.part, mesh).triangles.empty()) continue;
                 add(meshes, placed.part, mesh, scaled(placed.transform, model_.unit_mm()));
                 has_mesh = true;
             }
@@ -313,16 +319,65 @@ class VolumetricModel::Impl {
                 make_mesh_field(close_mesh(meshes.finish(source_, model_.left_out()).mesh, source_.name)));
         }
         if (solids.empty())
-            reject(source_, "what is asked for has neither a level set nor a mesh, so there is no solid");
+            reject(source_, "what is asked for has no level set, mesh or beams, so there is no solid");
         return solids.size() == 1 ? solids.front() : make_union(std::move(solids));
+    }
+
+    /// Makes a lattice at its place. Only maps that keep angles keep beams round: others move the whole
+    /// solid.
+    FieldPtr lattice_field(const PlacedObject& placed, const pugi::xml_node& mesh,
+                           const pugi::xml_node& node) {
+        const ObjectMesh& nodes = mesh_at(placed.part, mesh);
+        const LatticeOfMesh lattice = read_lattice(model_, placed.part, node, nodes.vertices.size());
+        beams_ += lattice.beams.size() + lattice.balls.size();
+        if (beams_ > max_beams) reject(source_, "it places more than 20,000,000 beams");
+        const Transform3mf whole = scaled(placed.transform, model_.unit_mm());
+        const auto scale = scale_of(whole);
+        const Transform3mf first = scale ? whole : Transform3mf();
+        std::vector<dvec3> vertices;
+        vertices.reserve(nodes.vertices.size());
+        for (const dvec3& p : nodes.vertices) {
+            vertices.push_back(first(p));
+            if (!(length(vertices.back()) <= max_coordinate))
+                model_.reject_at(placed.part, node, "a vertex of it is NaN, infinite or absurdly far away");
+        }
+        LatticePieces pieces;
+        append_pieces(pieces, lattice, vertices, scale.value_or(1.0));
+        FieldPtr solid = make_lattice_solid(std::move(pieces));
+        if (lattice.clipping != LatticeClipping::none)
+            solid = clipped(std::move(solid), lattice, placed, node, first);
+        if (scale) return solid;
+        const auto& m = whole.m;
+        return make_transform(std::move(solid),
+                              glm::dmat3(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]),
+                              {m[9], m[10], m[11]});
+    }
+
+    FieldPtr clipped(FieldPtr solid, const LatticeOfMesh& lattice, const PlacedObject& placed,
+                     const pugi::xml_node& node, const Transform3mf& transform) {
+        const auto found = placed.part.objects.find(std::to_string(lattice.clipping_mesh));
+        if (found != placed.part.objects.end() && lattice_node(core_child(found->second, "mesh"))) {
+            model_.reject_at(placed.part, node,
+                             "its clippingmesh is object " + std::to_string(lattice.clipping_mesh) +
+                                 ", which has beams itself; accepted: an object of triangles only");
+        }
+        FieldPtr mesh =
+            make_mesh_field(close_mesh(mesh_of(placed.part, lattice.clipping_mesh, transform), source_.name));
+        return lattice.clipping == LatticeClipping::inside
+                   ? make_intersection({std::move(solid), std::move(mesh)})
+                   : make_difference(std::move(solid), std::move(mesh));
+    }
+
+    const ObjectMesh& mesh_at(const ModelPart& in, const pugi::xml_node& node) {
+        const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
+        if (fresh) entry->second = read_object_mesh(model_, in, node);
+        return entry->second;
     }
 
     /// Adds an object's triangles under a transform, without those that refer to missing vertices.
     void add(MeshWelder& welder, const ModelPart& in, const pugi::xml_node& node,
              const Transform3mf& transform) {
-        const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
-        if (fresh) entry->second = read_object_mesh(model_, in, node);
-        const ObjectMesh& mesh = entry->second;
+        const ObjectMesh& mesh = mesh_at(in, node);
         if (welder.offered() + mesh.triangles.size() > max_triangles)
             reject(source_, "it places more than 50,000,000 triangles");
         std::vector<std::uint32_t> welded;
@@ -377,6 +432,7 @@ class VolumetricModel::Impl {
     std::map<const ModelPart*, VolumetricPart> parts_;
     std::vector<PlacedObject> placed_;
     std::map<const void*, ObjectMesh> meshes_;  ///< by XML element
+    std::size_t beams_ = 0;                     ///< placed so far, with balls
     std::map<DistanceKey, GradingPtr> distances_;
     std::map<SamplerKey, GradingPtr> samplers_;
 };

@@ -1,5 +1,5 @@
-// VolumetricModel: solids and numbers that a 3MF file describes by functions: level sets, volume properties
-// and functions.
+// VolumetricModel: solids and numbers that a 3MF file describes without triangles: level sets, beam lattices,
+// volume properties and functions.
 #pragma once
 
 #include <memory>
@@ -19,12 +19,12 @@ struct PlacedFormula {
     std::vector<GradingPtr> others;
 };
 
-/// A 3MF file with the volumetric and implicit extensions (1.0). Level sets, properties and functions become
-/// formulas; the meshes and images that these need become gradings. Lengths are in mm and points in
-/// coordinates of the build platform: the model's unit, items and components are applied. Colours, material
-/// mixtures and minimum feature sizes are not read. An object may be named by its id. Every mistake in the
-/// file is an InputError that begins with the file's name. Not thread-safe; the fields and gradings that it
-/// makes are.
+/// A 3MF file with the volumetric and implicit extensions (1.0) and the beam lattice extension (1.2). Level
+/// sets, properties and functions become formulas; the meshes and images that these need become gradings.
+/// Lengths are in mm and points in coordinates of the build platform: the model's unit, items and components
+/// are applied. Colours, material mixtures and minimum feature sizes are not read. An object may be named by
+/// its id. Every mistake in the file is an InputError that begins with the file's name. Not thread-safe; the
+/// fields and gradings that it makes are.
 class VolumetricModel {
   public:
     /// Reads the file, and checks all functions of its root part and of the objects in its build section. A
@@ -35,8 +35,8 @@ class VolumetricModel {
     ~VolumetricModel();
     VolumetricModel(VolumetricModel&&) noexcept;
 
-    /// Returns the union of all that the build section places, level sets and meshes. For level sets only
-    /// signs are meaningful.
+    /// Returns the union of all that the build section places: level sets, beam lattices and meshes. For
+    /// level sets only signs are meaningful.
     FieldPtr built();
     /// Returns one object at all places where the build section puts it; if there is none, in its own
     /// coordinates.
