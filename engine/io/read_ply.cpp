@@ -46,6 +46,10 @@ class BodyCursor {
         text_.skip_line();
     }
 
+    /// Returns the number of bytes from here to the end, without white space at either end.
+    std::size_t bytes_behind() const {
+        return ok_ ? trimmed(std::string_view(source_.bytes).substr(offset())).size() : 0;
+    }
     std::size_t surplus_rows() const { return surplus_rows_; }
     std::size_t first_surplus() const { return first_surplus_; }  ///< its line
     std::size_t bytes_left() const { return source_.bytes.size() - offset(); }
@@ -373,6 +377,10 @@ class PlyReader {
                              " more numbers than the header announces for a row, which were skipped (" +
                              (rows == 1 ? "" : "the first is ") + "line " +
                              std::to_string(body_.first_surplus()) + ")");
+        }
+        if (const std::size_t behind = body_.bytes_behind(); behind > 0) {
+            notes_.push_back(counted(behind, "byte") + " behind all that the header announces " +
+                             (behind == 1 ? "was" : "were") + " ignored");
         }
         notes_.insert(notes_.begin(), header_.notes.begin(), header_.notes.end());
         return welder.finish(source_, std::move(notes_));

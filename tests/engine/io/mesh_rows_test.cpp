@@ -14,19 +14,6 @@ using namespace lamella::samples;
 
 namespace {
 
-/// An L of 88 mm2, 8 mm high: 704 mm3.
-constexpr double l_volume = 704;
-
-TriangleMesh l_shape() {
-    const std::vector<dvec2> outline{{0, 0}, {10, 0}, {10, 4}, {6, 4}, {6, 12}, {0, 12}};
-    TriangleMesh mesh = tube(outline, 8);
-    for (std::uint32_t i = 1; i + 1 < 6; ++i) {
-        mesh.triangles.push_back({0, i + 1, i});
-        mesh.triangles.push_back({6, 6 + i, 7 + i});
-    }
-    return mesh;
-}
-
 /// The L as PLY. `row_end` follows every face; `header` goes in front of end_header.
 std::string ply(const std::string& row_end, const std::string& header = "",
                 const std::string& magic = "ply") {

@@ -57,6 +57,19 @@ inline TriangleMesh tube(const std::vector<dvec2>& polygon, double height) {
     return mesh;
 }
 
+/// An L of 88 mm2, 8 mm high.
+inline TriangleMesh l_shape() {
+    const std::vector<dvec2> outline{{0, 0}, {10, 0}, {10, 4}, {6, 4}, {6, 12}, {0, 12}};
+    TriangleMesh mesh = tube(outline, 8);
+    for (std::uint32_t i = 1; i + 1 < 6; ++i) {
+        mesh.triangles.push_back({0, i + 1, i});
+        mesh.triangles.push_back({6, 6 + i, 7 + i});
+    }
+    return mesh;
+}
+inline constexpr double l_volume = 704;  ///< mm3
+inline constexpr double l_area = 528;    ///< mm2: twice 88, and a perimeter of 44 times 8
+
 /// A star with 2 * points corners, the inner ones at `inner` of the outer radius 10.
 inline std::vector<dvec2> star(int points, double inner) {
     std::vector<dvec2> corners;
