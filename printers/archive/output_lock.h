@@ -5,8 +5,8 @@
 
 namespace lamella {
 
-/// An advisory lock on a file or folder that a run writes. It ends with the object, or with the process however
-/// that ends. File systems without locks give none, and then no run notices another.
+/// An advisory lock on a file or folder that a run writes. It ends with the object, or with the process
+/// however that ends. File systems without locks give none, and then no run notices another.
 class OutputLock {
   public:
     OutputLock() = default;
