@@ -191,14 +191,17 @@ TEST_CASE("a run that was stopped goes on to the same sheets", "[sheets]") {
     run_layers(job, *make_backend(profile, folder / "whole", false), {0, 24});
     const int stop = GENERATE(0, 3, 11, 20, 24);
     CAPTURE(stop);
-    const auto backend = make_backend(profile, folder / "parts", false);
-    for (int i = backend->open(job, {0, 24}, false); i < stop; ++i) {
-        const Layer layer(job, i);
-        backend->write(layer, *backend->render(layer));
+    {
+        const auto backend = make_backend(profile, folder / "parts", false);
+        for (int i = backend->open(job, {0, 24}, false); i < stop; ++i) {
+            const Layer layer(job, i);
+            backend->write(layer, *backend->render(layer));
+        }
+        CHECK_THROWS_WITH(make_backend(profile, folder / "parts", false)->open(job, {0, 24}, true),
+                          Catch::Contains("is being written by another run"));
     }
     CHECK(!fs::exists(folder / "parts"));
-    const auto again = make_backend(profile, folder / "parts", false);
-    CHECK(again->open(job, {0, 24}, true) <= stop);
+    CHECK(make_backend(profile, folder / "parts", false)->open(job, {0, 24}, true) <= stop);
     run_layers(job, *make_backend(profile, folder / "parts", false), {0, 24}, true);
     check_same_folder(folder / "whole", folder / "parts");
 }

@@ -186,8 +186,7 @@ TEST_CASE("an SVG that was stopped is continued byte for byte", "[svg]") {
         std::ofstream(folder / "parts.svg.partial", std::ios::app) << "<g id=\"layer00";
         std::ofstream(folder / "parts.svg.partial.journal", std::ios::app) << "{\"next\":";
     }
-    const auto again = make_svg(vector_printer(true), folder / "parts.svg", false);
-    CHECK(again->open(job, {0, 10}, true) == stop);
+    CHECK(make_svg(vector_printer(true), folder / "parts.svg", false)->open(job, {0, 10}, true) == stop);
     // Continuing can itself be stopped at once.
     run_layers(job, *make_svg(vector_printer(true), folder / "parts.svg", false), {0, 10}, true);
     CHECK(read_text(folder / "parts.svg") == read_text(folder / "whole.svg"));
