@@ -187,10 +187,13 @@ TEST_CASE("a fault in one layer reaches the caller, and the output is not ended"
     REQUIRE(recorder.order.size() <= 30);
 }
 
-TEST_CASE("a part that is a whole number of layers high gets no sliver on top") {
+TEST_CASE("a part has the layers whose lowest cutting plane lies below its top") {
     REQUIRE(count_layers(10, 0.1) == 100);
     REQUIRE(count_layers(0.30000000000000004, 0.1) == 3);
-    REQUIRE(count_layers(10.01, 0.1) == 101);
+    REQUIRE(count_layers(10.01, 0.1) == 100);
+    REQUIRE(count_layers(10.06, 0.1) == 101);
+    REQUIRE(count_layers(20, 0.306) == 65);
+    REQUIRE(count_layers(20, 0.306, 0.125) == 66);  // the lowest of four planes
     REQUIRE(count_layers(0.01, 0.1) == 1);
     REQUIRE_THROWS_AS(count_layers(0, 0.1), InputError);
     REQUIRE_THROWS_AS(count_layers(10, 0), InputError);
