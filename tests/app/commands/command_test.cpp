@@ -94,7 +94,7 @@ TEST_CASE("a ball becomes layers in every format, with its volume reported") {
     for (const BackendInfo& backend : backends()) {
         const std::string kind = backend.name;
         CAPTURE(kind);
-        const std::string output = folder / ("ball." + kind);
+        const std::string output = folder / ("ball_" + kind);
         const std::string plate = kind == "ember" ? "" : small_plate;  // an Ember has one size
         const Outcome outcome =
             run_lamella("slice " + ball + plate + "--printer " + kind + " --json -o " + output);

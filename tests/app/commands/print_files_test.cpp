@@ -26,7 +26,7 @@ bool wait_for(double seconds, Condition when) {
 
 }  // namespace
 
-TEST_CASE("--resume without a journal prints nothing, and names the journal that is missing") {
+TEST_CASE("resuming without a journal prints nothing, and names the journal that is missing") {
     const Folder folder;
     write(folder / "ready.gcode", "G28\nG90\nG1 X5 F6000\n");
     PtyMachine machine({}, 10);

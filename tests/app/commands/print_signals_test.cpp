@@ -159,6 +159,7 @@ TEST_CASE("other commands end by a hang-up as by a termination, unless they are 
         folder / "out" + " --printer png";
     const auto begun = [&] { return mentions(contents(folder / "log"), "layers/s"); };
     const bool ignores = GENERATE(false, true);
+    signal(SIGHUP, SIG_DFL);  // the tests themselves may run under nohup
     const pid_t child =
         start_shell((ignores ? "trap '' HUP; exec env " : "exec env ") +
                     command_line(slow, folder / "cache") + " >" + folder / "log" + " 2>&1 </dev/null");

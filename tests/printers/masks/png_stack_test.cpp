@@ -427,7 +427,7 @@ TEST_CASE("a full disk is a fault, and the layers before it stay", "[png_stack]"
     signal(SIGXFSZ, SIG_IGN);
     rlimit old{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
-    const auto backend = make_png_stack(profile, folder / "out", false);
+    auto backend = make_png_stack(profile, folder / "out", false);
     backend->open(job, {0, 12}, false);
     const Layer first(job, 0);
     backend->write(first, *backend->render(first));
@@ -438,6 +438,7 @@ TEST_CASE("a full disk is a fault, and the layers before it stay", "[png_stack]"
     CHECK_THROWS_AS(backend->write(second, *backend->render(second)), FaultError);
     REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
     signal(SIGXFSZ, SIG_DFL);
+    backend.reset();
     CHECK(make_png_stack(profile, folder / "out", false)->open(job, {0, 12}, true) == 1);
 }
 
