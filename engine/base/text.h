@@ -16,8 +16,13 @@ constexpr bool is_space(char c) {
 /// Returns the text without white space at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// Returns the text without a UTF-8 byte order mark at its start, as editors and spreadsheets write.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Returns the text with the letters A to Z in lower case.
-std::string lower_case(std::string text);
+std::string lower_case(std::string_view text);
+/// Returns true if the token is the word, whatever its letters' case; `lower` is in lower case.
+bool same_word(std::string_view token, std::string_view lower);
 
 std::string grouped(std::size_t n);  ///< "1,360"
 /// Returns a count with its noun: "1 triangle", "1,360 triangles".

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/formula/formula_builder.h"
 
 namespace lamella {
@@ -134,7 +135,7 @@ class Reader {
 
 Formula read_vm(std::string_view text, std::string_view name) {
     Reader reader(name);
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
+    text = without_byte_order_mark(text);
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.read_line(text.substr(0, end));

@@ -47,10 +47,10 @@ class LatticeReader {
     }
 
     template <typename Enum>
-    Enum word(const pugi::xml_node& node, std::string_view name, Enum usual,
+    Enum word(const pugi::xml_node& node, std::string_view name, Enum fallback,
               std::initializer_list<std::pair<std::string_view, Enum>> words) const {
         const std::string_view text = attribute_of(node, name);
-        if (text.empty()) return usual;
+        if (text.empty()) return fallback;
         std::string known;
         for (const auto& [key, value] : words) {
             if (text == key) return value;
@@ -59,16 +59,17 @@ class LatticeReader {
         reject(node, std::string(name) + "=" + excerpt(text) + " is unknown; known: " + known);
     }
 
-    BeamCap cap(const pugi::xml_node& node, std::string_view name, BeamCap usual) const {
+    BeamCap cap(const pugi::xml_node& node, std::string_view name, BeamCap fallback) const {
         return word<BeamCap>(
-            node, name, usual,
+            node, name, fallback,
             {{"sphere", BeamCap::sphere}, {"hemisphere", BeamCap::hemisphere}, {"butt", BeamCap::butt}});
     }
 
-    /// Returns a positive number; `usual` if there is no such attribute.
-    double radius(const pugi::xml_node& node, std::string_view name, std::optional<double> usual = {}) const {
+    /// Returns a positive number; `fallback` if there is no such attribute.
+    double radius(const pugi::xml_node& node, std::string_view name,
+                  std::optional<double> fallback = {}) const {
         const std::string_view text = attribute_of(node, name);
-        if (text.empty() && usual) return *usual;
+        if (text.empty() && fallback) return *fallback;
         const auto number = parse_double(text);
         if (!number || !(*number > 0 && *number <= max_coordinate))
             reject(node, std::string(name) + "=" + excerpt(text) + " is no radius; it must be above 0");

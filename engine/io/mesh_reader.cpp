@@ -11,13 +11,13 @@ namespace {
 
 std::string extension_of(std::string_view name) {
     const std::size_t dot = name.find_last_of("./\\");
-    return lowered(dot == name.npos || name[dot] != '.' ? std::string_view() : name.substr(dot + 1));
+    return lower_case(dot == name.npos || name[dot] != '.' ? std::string_view() : name.substr(dot + 1));
 }
 
 /// Returns true if one of the first lines starts with a keyword of OBJ files.
 bool is_obj(std::string_view bytes) {
     constexpr int lines_to_look_at = 200;
-    TextCursor text(without_mark(bytes).substr(0, std::size_t{1} << 16U));
+    TextCursor text(without_byte_order_mark(bytes).substr(0, std::size_t{1} << 16U));
     for (int line = 0; line < lines_to_look_at && !text.at_end(); ++line, text.skip_line()) {
         const std::string_view keyword = text.token_on_line();
         for (const std::string_view known : {"v", "vn", "vt", "f", "mtllib", "usemtl"}) {

@@ -44,27 +44,6 @@ void reject(const MeshSource& source, const std::string& what) {
     throw InputError(source.name + ": " + what);
 }
 
-std::string_view without_mark(std::string_view bytes) {
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
-    return bytes;
-}
-
-std::string lowered(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-    }
-    return lower;
-}
-
-bool same_word(std::string_view token, std::string_view lower) {
-    return token.size() == lower.size() &&
-           std::equal(token.begin(), token.end(), lower.begin(), [](char a, char b) {
-               return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
-           });
-}
-
 std::string_view TextCursor::token() {
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
     const std::size_t begin = at_;

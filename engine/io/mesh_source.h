@@ -27,13 +27,6 @@ MeshSource mesh_source(std::string_view name, std::span<const std::byte> bytes, 
 /// Throws InputError("name: what").
 [[noreturn]] void reject(const MeshSource& source, const std::string& what);
 
-/// Returns the content without a UTF-8 byte order mark.
-std::string_view without_mark(std::string_view bytes);
-/// Returns the text with the letters A to Z in lower case.
-std::string lowered(std::string_view text);
-/// Returns true if the token is the word, whatever its letters' case; `lower` is in lower case.
-bool same_word(std::string_view token, std::string_view lower);
-
 /// Splits text into tokens separated by white space.
 class TextCursor {
   public:

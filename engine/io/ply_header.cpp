@@ -6,7 +6,7 @@ namespace {
 
 std::optional<Scalar> scalar_named(std::string_view text) {
     using Kind = Scalar::Kind;
-    const std::string name = lowered(text);
+    const std::string name = lower_case(text);
     if (name == "char" || name == "int8") return Scalar{1, Kind::signed_integer};
     if (name == "uchar" || name == "uint8") return Scalar{1, Kind::unsigned_integer};
     if (name == "short" || name == "int16") return Scalar{2, Kind::signed_integer};
@@ -21,7 +21,8 @@ std::optional<Scalar> scalar_named(std::string_view text) {
 class HeaderReader {
   public:
     explicit HeaderReader(const MeshSource& source)
-        : source_(source), text_(source.bytes, source.bytes.size() - without_mark(source.bytes).size()) {}
+        : source_(source),
+          text_(source.bytes, source.bytes.size() - without_byte_order_mark(source.bytes).size()) {}
 
     Header read() {
         text_.skip_line();  // "ply"
@@ -30,7 +31,7 @@ class HeaderReader {
             if (text_.at_end())
                 reject(source_, "the header has no \"end_header\" line; the file is cut off or damaged");
             const std::string_view word = text_.token_on_line();
-            const std::string keyword = lowered(word);
+            const std::string keyword = lower_case(word);
             if (keyword == "end_header") break;
             if (keyword == "format") {
                 has_format = take_format();
@@ -63,7 +64,7 @@ class HeaderReader {
     }
 
     bool take_format() {
-        const std::string name = lowered(text_.token_on_line());
+        const std::string name = lower_case(text_.token_on_line());
         if (name == "ascii") {
             header_.encoding = Encoding::text;
         } else if (name == "binary_little_endian") {
@@ -80,7 +81,7 @@ class HeaderReader {
     void take_element() {
         constexpr std::size_t max_elements = 100;
         Element element;
-        element.name = lowered(text_.token_on_line());
+        element.name = lower_case(text_.token_on_line());
         const std::string_view word = text_.token_on_line();
         const auto count = parse_integer(word);
         if (!count || *count < 0) fail(excerpt(word) + " is no number of elements");

@@ -8,7 +8,8 @@ namespace {
 class ObjReader {
   public:
     explicit ObjReader(const MeshSource& source)
-        : source_(source), text_(source.bytes, source.bytes.size() - without_mark(source.bytes).size()) {}
+        : source_(source),
+          text_(source.bytes, source.bytes.size() - without_byte_order_mark(source.bytes).size()) {}
 
     MeshFile read() {
         for (; !text_.at_end(); text_.skip_line()) {

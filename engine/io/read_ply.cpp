@@ -409,7 +409,7 @@ class PlyReader {
 }  // namespace
 
 bool is_ply(std::string_view bytes) {
-    TextCursor text(without_mark(bytes).substr(0, 80));
+    TextCursor text(without_byte_order_mark(bytes).substr(0, 80));
     return same_word(text.token_on_line(), "ply") && !text.at_end() && text.token_on_line().empty();
 }
 

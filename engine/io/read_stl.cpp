@@ -97,7 +97,7 @@ MeshFile read_binary(const MeshSource& source) {
 class AsciiStl {
   public:
     explicit AsciiStl(const MeshSource& source) : source_(source), text_(source.bytes) {
-        text_ = TextCursor(source.bytes, source.bytes.size() - without_mark(source.bytes).size());
+        text_ = TextCursor(source.bytes, source.bytes.size() - without_byte_order_mark(source.bytes).size());
     }
 
     MeshFile read() {
@@ -200,7 +200,7 @@ bool is_exact_binary_stl(std::string_view bytes) {
 
 bool is_ascii_stl(std::string_view bytes) {
     if (is_exact_binary_stl(bytes)) return false;
-    bytes = without_mark(bytes);
+    bytes = without_byte_order_mark(bytes);
     if (!same_word(TextCursor(bytes).token(), "solid")) return false;
     // Binary headers may begin with "solid" too. But no text contains a zero byte, and triangles in binary
     // soon do.

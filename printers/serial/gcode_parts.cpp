@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "printers/serial/serial_output.h"
 
 namespace lamella {
@@ -20,8 +21,7 @@ void for_each_part(const std::filesystem::path& path, const Take& take) {
     std::string part, line;
     int lines = 0;
     for (bool first = true; std::getline(in, line); first = false) {
-        constexpr std::string_view mark = "\xef\xbb\xbf";  // a byte order mark, from Windows editors
-        if (first && line.starts_with(mark)) line.erase(0, mark.size());
+        if (first) line = std::string(without_byte_order_mark(line));
         const bool layer = line.starts_with(";LAYER_CHANGE") || line.starts_with(";LAYER:");
         if ((layer || lines >= lines_a_part) && !part.empty()) {
             take(part);

@@ -6,16 +6,10 @@
 #include <charconv>
 #include <utility>
 
+#include "engine/base/text.h"
+
 namespace lamella {
 namespace {
-
-char lower(char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string lowered(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(), lower);
-    return result;
-}
 
 std::string_view trim_blanks(std::string_view text) {
     const auto first = text.find_first_not_of(" \t");
@@ -93,7 +87,7 @@ Reply read_ok(std::string_view line) {
 
 /// Parses "Resend: 5", "Resend:5", "rs 5", "rs N5", "Resend: N:5".
 std::optional<std::int64_t> read_resend(std::string_view line) {
-    const std::string text = lowered(line);
+    const std::string text = lower_case(line);
     std::string_view rest;
     if (text.starts_with("resend")) {
         rest = std::string_view(text).substr(6);
@@ -165,7 +159,7 @@ Reply read_grbl(std::string_view line) {
 Reply parse_reply(std::string_view line) {
     if (line == "ok" || line.starts_with("ok ")) return read_ok(line);
     if (const auto number = read_resend(line)) return {ReplyKind::resend, number};
-    const std::string text = lowered(line);
+    const std::string text = lower_case(line);
     Reply reply = read_grbl(line);
     if (reply.text.empty()) reply.text = trim_blanks(line);
     if (reply.kind != ReplyKind::other) return reply;

@@ -44,7 +44,7 @@ std::string_view take_line(std::string_view& text) {
 
 std::vector<TextRow> text_rows(std::string_view text) {
     std::vector<TextRow> rows;
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = without_byte_order_mark(text);
     for (std::size_t line = 1; !text.empty(); ++line) {
         std::vector<std::string_view> cells = cells_of(take_line(text));
         if (!cells.empty()) rows.push_back({line, std::move(cells)});

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/io/mesh_source.h"
 #include "procedural/volume/volume.h"
 
 namespace lamella {
@@ -19,12 +20,6 @@ struct Field {
     std::string value;
     std::size_t line = 0;
 };
-
-std::string lower_case(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return out;
-}
 
 std::string_view trim_blanks(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r");
