@@ -11,6 +11,7 @@
 #include "app/console/print_texts.h"
 #include "app/console/print_view.h"
 #include "app/console/text_output.h"
+#include "app/reports/empty_job.h"
 #include "engine/base/error.h"
 #include "printers/archive/output_file.h"
 #include "printers/gcode/gcode.h"
@@ -65,13 +66,8 @@ void produce(const PrintOptions& options, const std::optional<Recipe>& recipe,
     }
     const auto backend = make_gcode(recipe->printer, std::move(output));
     const StreamReport report = stream_layers(prepared->built.job, *backend, prepared->stream);
-    if (report.layers_kept == 0 && report.volume == 0 && report.support_volume == 0) {
-        throw InputError(
-            fmt::format("the job is empty: none of its {} layers holds anything to print; accepted: a part "
-                        "that is thicker "
-                        "than a layer and a line, with its size in millimetres",
-                        report.layers_written));
-    }
+    const std::string empty = empty_job_text(*recipe, prepared->built.job, report);
+    if (!empty.empty()) throw InputError(empty);
     for (const std::string& note : backend->notes()) say(options, "note: " + note);
 }
 
@@ -82,9 +78,8 @@ void dry_run(const PrintOptions& options, const std::optional<Recipe>& recipe,
     const double wire = static_cast<double>(report.bytes) * 10 / options.link.baud;
     TextOutput out("");
     out.write(fmt::format(
-        "{} lines, {} bytes: {:.0f} s of motion at the speeds asked for, {:.0f} s with acceleration, {:.0f} "
-        "s on "
-        "a wire of {} baud\n"
+        "{} lines, {} bytes: {:.0f} s of motion at the speeds asked for, {:.0f} s with acceleration, "
+        "{:.0f} s on a wire of {} baud\n"
         "at its densest {:.0f} lines/s and {:.0f} bytes/s of {:.0f}\n"
         "sent to a machine that answers at once: {:.0f} lines/s\n",
         report.lines, report.bytes, report.seconds, report.model_seconds, wire, options.link.baud,
@@ -267,12 +262,11 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella print engraving.nc --port /dev/ttyUSB0 --baud 115200 --firmware grbl\n"
         "Keys: p pauses, r resumes or tells a waiting printer that you are done, 1 to 9 press a button of "
         "what\n"
-        "it asks, s stops, x halts at once. A closed terminal ends the view, not the print. Ctrl-C stops "
-        "the\n"
-        "print and switches its heaters off; the same command with --resume goes on with the first layer "
-        "that\n"
-        "was not done: it heats, homes X and Y, and takes Z from the journal. Without keys, kill -USR1 does\n"
-        "what r does. Exit codes: 0 printed, 2 bad input, 3 the printer or the line failed, 130 stopped.");
+        "it asks, s stops, x halts at once. A closed terminal ends the view, not the print. Ctrl-C stops\n"
+        "the print and switches its heaters off; the same command with --resume goes on with the first\n"
+        "layer that was not done: it heats, homes X and Y, and takes Z from the journal. Without keys,\n"
+        "kill -USR1 does what r does. Exit codes: 0 printed, 2 bad input, 3 the printer or the line failed,\n"
+        "130 stopped.");
     command.callback([options] { run(*options); });
 }
 

@@ -15,6 +15,7 @@
 #include "app/ranks/distribute_layers.h"
 #include "app/ranks/run_on_ranks.h"
 #include "app/reports/check_outputs.h"
+#include "app/reports/empty_job.h"
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
 #include "bindings/plugin.h"
@@ -134,26 +135,6 @@ std::string failures_text(const std::vector<CheckOutcome>& checks) {
     return text.empty() ? text : text + "all layers have been written nevertheless";
 }
 
-/// Returns the likely reason why a whole job printed nothing; empty if it printed something.
-std::string emptiness_text(const Recipe& recipe, const BuiltJob& built, const std::vector<Output>& outputs,
-                           const StreamReport& report, LayerRange range) {
-    // Printers from outside may leave areas out.
-    if (std::ranges::any_of(outputs, [](const Output& output) { return static_cast<bool>(output.open); }))
-        return "";
-    if (report.layers_kept > 0 || range.count() < built.job.layer_count) return "";
-    if (report.volume > 0 || report.support_volume > 0) return "";
-    const dvec3 size = built.job.bounds.size();
-    const std::string found = fmt::format(
-        "nothing is printed: the part, {:.4g} x {:.4g} x {:.4g} mm, leaves no trace in {} {} of {} mm; ",
-        size.x, size.y, size.z, built.job.layer_count, built.job.layer_count == 1 ? "layer" : "layers",
-        built.job.layer_height);
-    constexpr double smallest_likely = 2;  // mm
-    if (!recipe.part.mesh.empty() && std::max({size.x, size.y, size.z}) < smallest_likely)
-        return found +
-               "accepted: --unit m or --unit inch, if the model is in metres or inches; or a larger --scale";
-    return found + "accepted: a part thicker than half a layer and wider than a pixel or a bead";
-}
-
 std::vector<Output> outputs_of(const SliceOptions& options, const Recipe& recipe) {
     std::vector<OutsideBackend> plugins;
     plugins.reserve(options.plugins.size());
@@ -268,7 +249,9 @@ std::string run(const SliceOptions& options, Ranks* ranks) {
     std::optional<BeamLatticeReport> beams;
     if (with_beams) beams = write_beam_output(recipe, built);
     summarise(options, outputs, built, report, display, {beams, notes, checks}, recipe);
-    const std::string empty = emptiness_text(recipe, built, outputs, report, stream.range);
+    // Printers from outside may leave areas out.
+    const bool has_outside = std::ranges::any_of(outputs, [](const Output& o) { return bool(o.open); });
+    const std::string empty = has_outside ? "" : empty_job_text(recipe, built.job, report);
     return empty.empty() ? failures_text(checks) : empty;
 }
 
