@@ -69,6 +69,7 @@ WedgeRows::WedgeRows(const std::vector<Wedge>& wedges, double z) : z_(z) {
         if (z < heights.lo - slack || z > heights.hi + slack) continue;
         const Rect rect = section(w, heights, slack, z);
         wedges_.push_back(w);
+        for (std::size_t side = 2; side < w.limits.size(); ++side) wedges_.back().limits[side] += slack;
         sections.push_back(rect);
     }
     sections_ = PlaneIndex(std::move(sections));
@@ -87,7 +88,6 @@ void WedgeRows::collect_wedge(std::uint32_t number, const RowBand& band, const L
     const Wedge& wedge = wedges_[number];
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const double dz = z_ - wedge.origin.z;
-    const double slack = side_slack(wedge);
     PrismInPlane p;
     // Beyond a sharp corner the slack of two sides adds up to many times its width; the rectangle ends it.
     const Rect& rect = sections_.rect(number);
@@ -97,8 +97,7 @@ void WedgeRows::collect_wedge(std::uint32_t number, const RowBand& band, const L
         const dvec3 normal = wedge.normals[k];
         p.nx[k] = static_cast<float>(normal[along_axis]);
         p.ny[k] = static_cast<float>(normal[across_axis]);
-        const bool is_side = k >= 2;
-        p.limit[k] = static_cast<float>(wedge.limits[k] - normal.z * dz + (is_side ? slack : 0));
+        p.limit[k] = static_cast<float>(wedge.limits[k] - normal.z * dz);
     }
     const int count = lines.last - lines.first;
     const auto out = runs.add(lines.first, count);

@@ -31,7 +31,7 @@ class WedgeRows {
     void collect_wedge(std::uint32_t number, const RowBand& band, const LineRange& lines,
                        RunCollector& runs) const;
 
-    std::vector<Wedge> wedges_;
+    std::vector<Wedge> wedges_;  ///< their sides stand outside of the triangles' edges, see side_slack
     double z_ = 0;
     PlaneIndex sections_;
 };
