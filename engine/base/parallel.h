@@ -19,30 +19,30 @@ inline int thread_count(int requested) {
     return requested > 0 ? requested : oneapi::tbb::info::default_concurrency();
 }
 
-/// Shows race detectors that one thread's work happened before another's. They do not see the synchronisation
-/// inside TBB's library.
+/// Shows race detectors that what the waiting thread did happened before the work that it hands to others,
+/// and their work before it goes on. They do not see the synchronisation inside TBB's library.
 class HandOver {
   public:
-    void give() { count_.fetch_add(1, std::memory_order_release); }
-    void take() { count_.load(std::memory_order_acquire); }
-    /// Returns the work between a hand-over from the thread that waits for it and one back.
-    template <typename Work>
-    auto around(const Work& work) {
-        return [&](auto... arguments) {
-            const Turn turn(*this);
-            work(arguments...);
-        };
-    }
+    HandOver() { give(); }
+    ~HandOver() { take(); }
+    HandOver(const HandOver&) = delete;
+    HandOver& operator=(const HandOver&) = delete;
 
-  private:
-    /// Also gives back when the work throws.
-    struct Turn {
-        explicit Turn(HandOver& over) : hand_over(over) { hand_over.take(); }
-        ~Turn() { hand_over.give(); }
+    /// Lives as long as a piece of the work.
+    class Turn {
+      public:
+        explicit Turn(HandOver& hand_over) : hand_over_(hand_over) { hand_over_.take(); }
+        ~Turn() { hand_over_.give(); }
         Turn(const Turn&) = delete;
         Turn& operator=(const Turn&) = delete;
-        HandOver& hand_over;
+
+      private:
+        HandOver& hand_over_;
     };
+
+  private:
+    void give() { count_.fetch_add(1, std::memory_order_release); }
+    void take() { count_.load(std::memory_order_acquire); }
 
     std::atomic<std::size_t> count_{0};
 };
@@ -56,7 +56,11 @@ class ThreadArena {
     /// Calls work() and returns its result.
     template <typename Work>
     auto execute(const Work& work) {
-        return arena_.execute(work);
+        HandOver hand_over;
+        return arena_.execute([&] {
+            const HandOver::Turn turn(hand_over);
+            return work();
+        });
     }
 
   private:
@@ -68,14 +72,10 @@ class ThreadArena {
 template <typename Index, typename Work>
 void parallel_for(Index count, const Work& work) {
     HandOver hand_over;
-    hand_over.give();
-    try {
-        oneapi::tbb::parallel_for(Index{0}, count, hand_over.around(work));
-    } catch (...) {
-        hand_over.take();
-        throw;
-    }
-    hand_over.take();
+    oneapi::tbb::parallel_for(Index{0}, count, [&](Index i) {
+        const HandOver::Turn turn(hand_over);
+        work(i);
+    });
 }
 
 /// Calls work(i) for each i in [0, count), in parallel. Runs all of them even when the enclosing stream is
@@ -84,9 +84,11 @@ template <typename Work>
 void isolated_parallel_for(std::size_t count, const Work& work) {
     oneapi::tbb::task_group_context own(oneapi::tbb::task_group_context::isolated);
     HandOver hand_over;
-    hand_over.give();
-    oneapi::tbb::parallel_for(std::size_t{0}, count, hand_over.around(work), own);
-    hand_over.take();
+    const auto in_turn = [&](std::size_t i) {
+        const HandOver::Turn turn(hand_over);
+        work(i);
+    };
+    oneapi::tbb::parallel_for(std::size_t{0}, count, in_turn, own);
 }
 
 }  // namespace lamella

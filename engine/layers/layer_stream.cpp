@@ -56,12 +56,15 @@ class LayerStream {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         tbb::task_arena arena(threads);
+        HandOver hand_over;
         arena.execute([&] {
+            const HandOver::Turn turn(hand_over);
             const Rejoin rejoin{in_order_, slots_};
             using tbb::filter_mode;
             tbb::parallel_pipeline(
                 slots_.size(),
-                tbb::make_filter<void, int>(filter_mode::serial_in_order, [this](tbb::flow_control& control) {
+                tbb::make_filter<void, int>(filter_mode::serial_in_order, [&](tbb::flow_control& control) {
+                    const HandOver::Turn next(hand_over);
                     return issue(control);
                 }) & tbb::make_filter<int, int>(filter_mode::parallel, [this](int index) {
                     return render(index);
