@@ -201,7 +201,9 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
     const std::vector<std::string> wanted = keys_of(*kind);
     for (const std::string& key : keys_of(section)) {
         const Entry* given = entry(section.section, key, number);
-        if (!given || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
+        // A misspelt key stands for the nearest one, without a place: it has been told already.
+        if (!given || given->where.empty()) continue;
+        if (std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
         const bool no_shape = section.section == "part" && word == "none";
         refuse(
             0,

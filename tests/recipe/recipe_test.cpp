@@ -295,6 +295,8 @@ TEST_CASE("unknown keys and sections are refused, with the near one named") {
     CHECK(mentions(complaint("cell = 3\n" + sphere),
                    "test.toml:1: cell: stands outside a section, `cell` belongs to [foam]"));
     CHECK(mentions(complaint(sphere + "[printer]\nantialiasing = \"row\"\n"), "did you mean `rows`?"));
+    // The nearest key does not apply to this kind of foam, which is no second mistake.
+    CHECK(complaints(sphere + "[foam]\ncell = 3\nbeam = 0.3\nwal = 1\n").size() == 1);
     CHECK(mentions(complaint("foam = 3\n" + sphere), "test.toml:1: foam: a whole number was found"));
     CHECK(mentions(complaint("[[foam]]\ncell = 3\n" + sphere), "foam: an array of 1 was found"));
 }
