@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-/// A field that makes shells of its solid better than by subtracting its offset. Meshes do: their distance is
-/// one of surfaces, wherever triangles lie inside the solid.
+/// A field with shells in closed form, beside or instead of its offset. Meshes have them: the union of the
+/// balls about all points of their triangles.
 class ShellMaker {
   public:
     virtual ~ShellMaker() = default;

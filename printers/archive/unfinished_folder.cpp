@@ -114,9 +114,9 @@ nlohmann::ordered_json UnfinishedFolder::open(const JobStamp& stamp, bool resume
     }
     nlohmann::ordered_json state;
     if (is_present(path_)) check_replaceable();
+    if (is_present(partial_)) lock_.take(partial_);
     // A run that died after removing its stamp and before renaming the folder leaves a job.json. The folder
     // is made anew.
-    if (is_present(partial_)) lock_.take(partial_);
     if (resume && !is_present(partial_ / stamp_file) && is_ours_whole(partial_)) remove_ours(partial_);
     if (is_present(partial_) && !holds_nothing(partial_)) {
         if (resume) {
