@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "printers/serial/gcode_line.h"
+#include "tests/app/commands/child_process.h"
 #include "tests/app/commands/command_run.h"
 #include "tests/printers/serial/pty_machine.h"
 
@@ -29,31 +30,12 @@ std::vector<std::string> clean_lines(const std::string& path) {
     return lines;
 }
 
-template <class Condition>
-bool wait_for(double seconds, Condition when) {
-    for (int i = 0; i < seconds * 200; ++i) {
-        if (when()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
 /// Whether a journal is written that knows of all that was until now; it is written at least every two
 /// seconds.
 bool journal_follows(const std::string& journal) {
     const auto settled = fs::file_time_type::clock::now() + std::chrono::seconds(1);
     std::error_code absent;
     return wait_for(30, [&] { return fs::last_write_time(journal, absent) > settled && !absent; });
-}
-
-int exit_code(pid_t child) {
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::ptrdiff_t count_of(const std::vector<std::string>& lines, const std::string& line) {
-    return std::count(lines.begin(), lines.end(), line);
 }
 
 }  // namespace

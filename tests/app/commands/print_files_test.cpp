@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tests/app/commands/child_process.h"
 #include "tests/app/commands/command_run.h"
 #include "tests/printers/serial/pty_machine.h"
 
@@ -12,19 +13,6 @@ namespace print_files_test {
 using namespace lamella;
 using namespace lamella::test;
 namespace fs = std::filesystem;
-
-namespace {
-
-template <class Condition>
-bool wait_for(double seconds, Condition when) {
-    for (int i = 0; i < seconds * 200; ++i) {
-        if (when()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
-}  // namespace
 
 TEST_CASE("resuming without a journal prints nothing, and names the journal that is missing") {
     const Folder folder;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "printers/serial/gcode_line.h"
+#include "tests/app/commands/child_process.h"
 #include "tests/app/commands/command_run.h"
 #include "tests/printers/serial/pty_machine.h"
 
@@ -16,25 +17,6 @@ using namespace lamella::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-template <class Condition>
-bool wait_for(double seconds, Condition when) {
-    for (int i = 0; i < seconds * 200; ++i) {
-        if (when()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
-int exit_code(pid_t child) {
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::ptrdiff_t count_of(const std::vector<std::string>& lines, const std::string& line) {
-    return std::count(lines.begin(), lines.end(), line);
-}
 
 /// A file of moves that keeps a machine of pace 10 busy for some seconds.
 struct Ready {

@@ -5,6 +5,7 @@
 
 #include "printers/serial/print_link.h"
 #include "tests/printers/serial/pty_machine.h"
+#include "tests/wait_for.h"
 
 namespace lamella::test {
 
@@ -33,15 +34,6 @@ inline std::vector<std::string> layer(int index, int count) {
 }
 
 inline const std::vector<std::string> start{"G28", "G90", "M83", "M109 S200", "G1 X10 Y20 F6000"};
-
-template <class Condition>
-bool wait_for(double seconds, Condition when) {
-    for (int i = 0; i < seconds * 500; ++i) {
-        if (when()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return false;
-}
 
 inline std::ptrdiff_t index_of(const std::vector<std::string>& lines, const std::string& line) {
     return std::find(lines.begin(), lines.end(), line) - lines.begin();
