@@ -49,12 +49,13 @@ TEST_CASE("a port that is away longer than a busy printer's patience leaves no t
         REQUIRE(wait_for(20, [&] { return machine.executed().size() > 300; }));
         machine.with([](SimulatedMarlin& printer, double) { printer.say("echo:busy: processing"); });
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        // The next program that opens a pseudo-terminal may get this one's name.
+        std::filesystem::remove(name);
         machine.unplug();
         REQUIRE(wait_for(5, [&] { return link.status().lost; }));
         // A busy printer is given 3 s to answer.
         std::this_thread::sleep_for(std::chrono::milliseconds(3500));
         CHECK(link.status().lost);
-        std::filesystem::remove(name);
         machine.plug();
         std::filesystem::create_symlink(machine.path(), name);
         link.finish();
