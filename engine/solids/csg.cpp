@@ -11,7 +11,7 @@ using Slices = std::vector<const SliceField*>;
 
 bool meet(const Rect& a, const Rect& b) { return !intersect(a, b).empty(); }
 
-void empty_rows(const RowBand& band, RunRows& out) {
+void fill_with_empty_lines(const RowBand& band, RunRows& out) {
     out.clear();
     for (int l = 0; l < band.lines(); ++l) out.end_line();
 }
@@ -88,11 +88,11 @@ class SetSlice : public SliceField {
             unite(out, *more, *both);
             std::swap(out, *both);
         }
-        if (first) empty_rows(band, out);
+        if (first) fill_with_empty_lines(band, out);
     }
 
     void intersect_spans(const RowBand& band, Scratch& scratch, RunRows& out) const {
-        if (!meet(bounds_, band.rect())) return empty_rows(band, out);
+        if (!meet(bounds_, band.rect())) return fill_with_empty_lines(band, out);
         parts_.front()->runs(band, scratch, out);
         for (std::size_t i = 1; i < parts_.size() && !out.runs().empty(); ++i) {
             const auto more = scratch.rows(), both = scratch.rows();
