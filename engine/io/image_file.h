@@ -25,6 +25,7 @@ struct ImagePage {
     bool deep = false;  ///< several samples a pixel
     SampleType samples = SampleType::u8;
     std::string stored_as;  ///< sample type in the file, for messages
+    int alpha = -1;         ///< channel that says how opaque a pixel is; negative if there is none
 };
 
 /// Iterates over the pages of a file, from first to last.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 #include "engine/base/error.h"
 #include "engine/io/image_file.h"
@@ -90,7 +91,8 @@ std::vector<std::string> files_in(const fs::path& folder, const std::string& pat
 /// Collects the pages of a stack, one after the other in memory.
 class StackReader {
   public:
-    StackReader(int channel, std::size_t expected_pages) : channel_(channel), expected_(expected_pages) {}
+    StackReader(int channel, std::size_t expected_pages, bool on_white)
+        : channel_(channel), expected_(expected_pages), on_white_(on_white) {}
 
     /// Appends all pages of a file.
     void add(const std::string& path) {
@@ -134,7 +136,12 @@ class StackReader {
             fail("its samples are " + image.stored_as + ", those of the first page " + stored_as_);
         }
         check_total(pages_ + 1, path);
-        std::visit([&](auto& samples) { read_into(samples, input, fail); }, volume_.samples);
+        std::visit(
+            [&](auto& samples) {
+                read_into(samples, input, channel_, fail);
+                if (on_white_ && image.alpha >= 0) put_on_white(samples, input, image.alpha, fail);
+            },
+            volume_.samples);
         ++pages_;
     }
 
@@ -171,10 +178,10 @@ class StackReader {
 
     /// Reads one channel and reverses its rows: the lowest comes first.
     template <class T, class Fail>
-    void read_into(std::vector<T>& samples, ImageReader& input, const Fail& fail) {
+    void read_into(std::vector<T>& samples, ImageReader& input, int channel, const Fail& fail) {
         const std::size_t width = volume_.size[0], height = volume_.size[1], begin = samples.size();
         samples.resize(begin + width * height);
-        const std::string why = input.read_channel(channel_, samples.data() + begin);
+        const std::string why = input.read_channel(channel, samples.data() + begin);
         if (!why.empty()) fail("cannot be read (" + why + ")");
         const auto row = [&](std::size_t y) {
             return samples.begin() + static_cast<std::ptrdiff_t>(begin + y * width);
@@ -184,8 +191,23 @@ class StackReader {
         }
     }
 
+    /// Mixes the page that was read last with white, as far as its pixels are transparent.
+    template <class T, class Fail>
+    void put_on_white(std::vector<T>& samples, ImageReader& input, int alpha, const Fail& fail) {
+        std::vector<T> opacity;
+        read_into(opacity, input, alpha, fail);
+        const double full = volume_.full_scale;
+        T* const page = samples.data() + (samples.size() - opacity.size());
+        for (std::size_t i = 0; i < opacity.size(); ++i) {
+            const double share = static_cast<double>(opacity[i]) / full;
+            const double mixed = full + (static_cast<double>(page[i]) - full) * share;
+            page[i] = static_cast<T>(std::is_integral_v<T> ? mixed + 0.5 : mixed);
+        }
+    }
+
     int channel_;
     std::size_t expected_;
+    bool on_white_;
     std::size_t pages_ = 0;
     std::string stored_as_;  ///< type of the first page's samples
     Volume volume_;
@@ -215,19 +237,21 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
     }
 }
 
-Volume read_image_stack(std::span<const std::string> files, int channel) {
+namespace {
+
+Volume read_stack(std::span<const std::string> files, int channel, bool on_white) {
     if (files.empty()) throw InputError("an image stack needs at least one file");
-    StackReader reader(channel, files.size());
+    StackReader reader(channel, files.size(), on_white);
     for (const std::string& file : files) reader.add(file);
     return reader.finish();
 }
 
-Volume read_volume(const std::string& path, int channel) {
+Volume read_any(const std::string& path, int channel, bool on_white) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
         const auto files = files_in(path, "*");
         if (files.empty()) reject_volume(path, "the folder holds no files; a stack of images was expected");
-        return read_image_stack(files, channel);
+        return read_stack(files, channel, on_white);
     }
     if (!fs::exists(path, error)) {
         const fs::path pattern(path);
@@ -236,11 +260,21 @@ Volume read_volume(const std::string& path, int channel) {
         const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
         const auto files = files_in(folder, name);
         if (files.empty()) reject_volume(path, "no file's name fits this pattern");
-        return read_image_stack(files, channel);
+        return read_stack(files, channel, on_white);
     }
-    if (!is_nrrd(path)) return read_image_stack(std::vector<std::string>{path}, channel);
+    if (!is_nrrd(path)) return read_stack(std::vector<std::string>{path}, channel, on_white);
     std::ifstream in(path, std::ios::binary);
     return read_nrrd(in, path, fs::path(path).parent_path().string());
 }
+
+}  // namespace
+
+Volume read_image_stack(std::span<const std::string> files, int channel) {
+    return read_stack(files, channel, false);
+}
+
+Volume read_volume(const std::string& path, int channel) { return read_any(path, channel, false); }
+
+Volume read_picture(const std::string& path) { return read_any(path, 0, true); }
 
 }  // namespace lamella

@@ -46,6 +46,10 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
 /// so that a page looks the same seen from above. `channel` counts from 0.
 Volume read_volume(const std::string& path, int channel = 0);
 
+/// Reads a picture, or pages of pictures, as read_volume() does its first channel, with white under what is
+/// transparent.
+Volume read_picture(const std::string& path);
+
 /// Reads the pages of a stack, lowest first, in the given order.
 Volume read_image_stack(std::span<const std::string> files, int channel = 0);
 

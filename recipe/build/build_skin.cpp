@@ -49,7 +49,7 @@ FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, doubl
     const SkinRecipe& skin = *recipe.skin;
     const auto strut = gradings.resolve(skin.strut)->constant();
     if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
-    StrutImage picture(read_volume(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
+    StrutImage picture(read_picture(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
     report.islands = picture.islands();
     report.open_share = picture.open_share();
     return make_patterned_shell(std::move(shell),

@@ -26,7 +26,7 @@ void add_formulas(std::vector<Setting>& t) {
         t, "file",
         {.fallback = "required by vm, mesh, 3mf",
          .help = "Program with one operation per line (.vm), a mesh (STL, OBJ, PLY, 3MF), or a 3MF with "
-                 "level sets or functions, relative to the recipe's folder.",
+                 "level sets, beams or functions, relative to the recipe's folder.",
          .is_path = true});
     add_field_row<&FieldRecipe::object>(
         t, "object",

@@ -72,11 +72,12 @@ void add_pattern(std::vector<Setting>& t) {
 }
 
 void add_image_pattern(std::vector<Setting>& t) {
-    add_skin_row<&S::image>(
-        t, "image", "--skin-image",
-        {.fallback = "required by image",
-         .help = "Picture whose dark parts are solid; in a recipe, relative to the recipe's folder.",
-         .is_path = true});
+    add_skin_row<&S::image>(t, "image", "--skin-image",
+                            {.fallback = "required by image",
+                             .help = "Picture whose dark parts are solid, on white where it is transparent; "
+                                     "in a recipe, relative to the "
+                                     "recipe's folder.",
+                             .is_path = true});
     add_skin_row<&S::image_size>(t, "image_size", "--skin-image-size",
                                  {.unit = "mm",
                                   .limits = {0.01, 1e5},

@@ -22,8 +22,8 @@ class Reader : public ImageReader {
         }
         ++page_;
         const OIIO::ImageSpec& spec = input_->spec();
-        ImagePage page{spec.width, spec.height, spec.depth,         spec.nchannels,
-                       spec.deep,  {},          spec.format.c_str()};
+        ImagePage page{spec.width, spec.height, spec.depth,          spec.nchannels,
+                       spec.deep,  {},          spec.format.c_str(), spec.alpha_channel};
         if (spec.format == OIIO::TypeDesc::UINT8) {
             type_ = OIIO::TypeDesc::UINT8;
             page.samples = SampleType::u8;
