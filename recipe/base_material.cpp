@@ -11,6 +11,7 @@
 #include "procedural/elasticity/foam_law.h"
 #include "recipe/settings.h"
 #include "recipe/shipped_texts.h"
+#include "recipe/toml_depth.h"
 
 namespace lamella {
 
@@ -64,6 +65,7 @@ class MaterialReader {
 
 std::vector<BaseMaterial> read_materials(std::string_view text, const std::string& name) {
     std::vector<BaseMaterial> materials;
+    require_shallow_toml(text, name);
     try {
         const toml::table all = toml::parse(text, name);
         for (const auto& [key, value] : all) {

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "recipe/recipe_draft.h"
+#include "recipe/toml_depth.h"
 
 namespace lamella {
 
@@ -174,6 +175,7 @@ std::optional<Value> value_of(const Setting& setting, const toml::node& node) {
 }
 
 toml::table parse(std::string_view text, const std::string& path) {
+    require_shallow_toml(text, path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {

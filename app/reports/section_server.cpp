@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 
 namespace lamella {
 namespace {
@@ -130,6 +131,11 @@ ServerReply SectionServer::answer(const std::string& text) {
         reply = {{{"ok", false}, {"status", status}, {"message", message}}, ""};
     };
     try {
+        if (shallow_json(text).empty() && !text.empty())
+            refuse(
+                fmt::format("the request is nested too deep; accepted: up to {} lists and objects in each "
+                            "other",
+                            deepest_json));
         const Json request = Json::parse(text);
         if (!request.is_object()) refuse("the request is not an object; accepted: {\"method\": ...}");
         if (request.contains("id")) id = request["id"];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/json_depth.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/common/carried_layers.h"
 
@@ -101,7 +102,8 @@ void ShardFile::read_stamp() {
     line.resize(std::strlen(line.c_str()));
     if (!line.starts_with(shard_magic)) refuse("is no shard");
     try {
-        const auto json = nlohmann::ordered_json::parse(line.substr(shard_magic.size()));
+        const auto json =
+            nlohmann::ordered_json::parse(shallow_json(std::string_view(line).substr(shard_magic.size())));
         stamp_.identity = json.at("identity").get<std::string>();
         stamp_.settings = json.at("settings").get<std::string>();
         stamp_.range = {json.at("first_layer").get<int>(), json.at("last_layer").get<int>()};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 
 namespace lamella {
 namespace fs = std::filesystem;
@@ -29,12 +30,12 @@ bool UnfinishedFile::read_journal(const JobStamp& stamp, int& next, std::uint64_
         throw InputError(partial_.string() + " cannot be continued, its journal " + journal_path_.string() +
                          " is missing or empty; discard it with --force");
     }
-    check_same_job(nlohmann::ordered_json::parse(line, nullptr, false), stamp, partial_);
+    check_same_job(nlohmann::ordered_json::parse(shallow_json(line), nullptr, false), stamp, partial_);
     const std::uint64_t have = fs::file_size(partial_);
     bool found = false;
     // A truncated last line does not parse; a size beyond the file's end was never reached.
     while (std::getline(in, line)) {
-        const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
+        const auto record = nlohmann::ordered_json::parse(shallow_json(line), nullptr, false);
         if (!record.is_object() || !record.contains("next") || !record.contains("size")) break;
         if (!record["next"].is_number_integer() || !record["size"].is_number_unsigned()) break;
         const auto record_next = record["next"].get<std::int64_t>();

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 
 namespace lamella {
 namespace fs = std::filesystem;
@@ -20,7 +22,8 @@ constexpr std::string_view sheet_prefix = "sheet_";
 nlohmann::ordered_json read_json(const fs::path& path) {
     std::ifstream in(path);
     if (!in) return nullptr;
-    return nlohmann::ordered_json::parse(in, nullptr, false);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    return nlohmann::ordered_json::parse(shallow_json(text), nullptr, false);
 }
 
 /// Returns true if a run died before it could record which job the folder belongs to.
@@ -177,7 +180,7 @@ void UnfinishedFolder::read_journal(const JobStamp& stamp) {
     std::string line;
     for (int layer = stamp.range.first; layer < stamp.range.last; ++layer) {
         if (!is_present(partial_ / file_name(layer)) || !std::getline(in, line)) return;
-        const auto areas = nlohmann::json::parse(line, nullptr, false);
+        const auto areas = nlohmann::json::parse(shallow_json(line), nullptr, false);
         if (!areas.is_array() || areas.size() != 2 || !areas[0].is_number() || !areas[1].is_number()) return;
         areas_.push_back(areas[0]);
         support_areas_.push_back(areas[1]);

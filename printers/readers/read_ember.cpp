@@ -9,6 +9,7 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "printers/readers/job_number.h"
 #include "printers/readers/job_readers.h"
 #include "printers/readers/mask_decoder.h"
@@ -160,7 +161,7 @@ class EmberFile : public JobFile {
     void read_settings() {
         const auto found = files_.find("printsettings");
         if (found == files_.end()) reject("'printsettings' is missing in the archive");
-        const Json json = Json::parse(found->second, nullptr, false);
+        const Json json = Json::parse(shallow_json(found->second), nullptr, false);
         if (!json.is_object() || !json.contains("Settings") || !json["Settings"].is_object())
             reject("'printsettings' is no JSON object with \"Settings\"");
         const Json& settings = json["Settings"];

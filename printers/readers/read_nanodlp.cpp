@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "printers/readers/job_number.h"
 #include "printers/readers/job_readers.h"
 #include "printers/readers/mask_decoder.h"
@@ -56,7 +57,8 @@ class NanoDlpFile : public JobFile {
     /// Returns the JSON object of an entry; an empty one if there is no such entry.
     Json description(const std::string& name) const {
         if (!archive_.has(name)) return Json::object();
-        Json json = Json::parse(archive_.read(name, max_json_bytes), nullptr, false);
+        const std::string text = archive_.read(name, max_json_bytes);
+        Json json = Json::parse(shallow_json(text), nullptr, false);
         if (!json.is_object()) throw InputError(archive_.path() + ": '" + name + "' is no JSON object");
         return json;
     }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "printers/readers/job_number.h"
 #include "printers/readers/job_readers.h"
 #include "printers/readers/mask_decoder.h"
@@ -44,8 +45,8 @@ class PngStackFile : public JobFile {
                              ": this folder holds no job.json, which a folder of masks has once it is "
                              "complete");
         }
-        const Json job = Json::parse(read_bounded(description, max_description_bytes, description.string()),
-                                     nullptr, false);
+        const std::string text = read_bounded(description, max_description_bytes, description.string());
+        const Json job = Json::parse(shallow_json(text), nullptr, false);
         if (text_of(job, "format") != "lamella-layers")
             throw InputError(description.string() + ": this is no description of layers by lamella");
         read_facts(job);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/base/json_depth.h"
 #include "engine/base/number_format.h"
 #include "printers/archive/output_file.h"
 
@@ -95,7 +96,8 @@ class SerialOutput : public GcodeOutput {
   private:
     nlohmann::ordered_json read_journal(const JobStamp& stamp) const {
         std::ifstream in(settings_.journal);
-        auto record = nlohmann::ordered_json::parse(in, nullptr, false);
+        const std::string text(std::istreambuf_iterator<char>(in), {});
+        auto record = nlohmann::ordered_json::parse(shallow_json(text), nullptr, false);
         if (!record.is_object() || !record.contains("stamp")) throw damaged_state();
         check_same_job(record["stamp"], stamp, settings_.journal);
         return record;

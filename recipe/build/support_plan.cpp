@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "engine/base/json_depth.h"
 #include "recipe/identity.h"
 
 namespace lamella {
@@ -140,7 +141,8 @@ std::optional<SupportPlan> read_plan(const fs::path& folder, const std::string& 
     if (error || size > largest_file) return std::nullopt;
     try {
         std::ifstream file(file_of(folder, hash), std::ios::binary);
-        const Json json = Json::parse(file);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const Json json = Json::parse(shallow_json(text));
         if (json.at("plan") != "lamella supports" || json.at("version") != version ||
             json.at("hash") != hash || json.at("contents_hash") != contents_hash(json.at("contents"))) {
             return std::nullopt;
