@@ -57,7 +57,8 @@ AreaSummary measure_areas(const JobFile& job, int threads, bool quiet) {
         try {
             arena.execute([&] {
                 parallel_for(last - first, [&](int i) {
-                    areas[static_cast<std::size_t>(first + i)] = lit_pixels(job.layer(first + i));
+                    const int layer = first + i;
+                    areas[static_cast<std::size_t>(layer)] = lit_pixels(job.layer(layer));
                 });
             });
         } catch (const InputError&) {

@@ -57,9 +57,11 @@ TpmsSettings checked(const TpmsSettings& settings) {
     const double limit = greatest_tpms_thickness(settings.kind, settings.network);
     if (!(thickest < limit)) {
         throw InputError(fmt::format(
-            "the {}'s thickness goes up to {:.4g} of its period, which leaves nothing open; it must be less "
-            "than {:.4g} of the period",
-            name, thickest, limit));
+            "the {}'s thickness goes up to {:.4g} of its period, which {}; it must be less than {:.4g} of "
+            "the "
+            "period",
+            name, thickest, settings.network ? "closes the way between its struts" : "leaves nothing open",
+            limit));
     }
     return result;
 }
@@ -88,8 +90,8 @@ class Tpms : public Field {
 }  // namespace
 
 double greatest_tpms_thickness(TpmsKind kind, bool network) {
-    const TpmsConstants g = tpms_constants(kind);
-    return network ? (g.greatest - g.joined) / (pi * g.steepest) : g.greatest / (pi * g.steepest_surface);
+    const double half = network ? TpmsNetwork(kind).greatest_half() : tpms_constants(kind).farthest;
+    return half / pi;
 }
 
 FieldPtr make_tpms(const TpmsSettings& settings) { return std::make_shared<Tpms>(checked(settings)); }

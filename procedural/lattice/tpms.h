@@ -18,13 +18,13 @@ enum class TpmsKind : unsigned char {
 /// Parameters of a triply periodic solid. The angles at a point p are (p - c) 2 pi / period(p), where c is
 /// the region's centre.
 ///
-/// A sheet is |g| < m (pi / period) thickness, where m is the largest gradient of g on the surface g = 0,
-/// with respect to the angles. So to first order the wall is nowhere thinner than `thickness`, and thicker
-/// where g is less steep.
+/// A sheet holds the points within half of `thickness` of the surface g = 0. So the wall has this thickness
+/// everywhere, and its volume is that of a parallel body: area times thickness, plus the small term of the
+/// surface's curvature.
 ///
-/// A network is g < s + M (pi / period) thickness, where s is the lowest level at which the solid g < s is
-/// connected and M the largest gradient of g anywhere. So all points within half the thickness of the struts'
-/// axes, the paths along which g <= s, are solid.
+/// A network is g < level, with the lowest level at which all points within half of `thickness` of the
+/// struts' axes are solid. The axes are the straight lines between the minima of g, over its saddles. So a
+/// strut is thinnest, near its saddle, by exactly `thickness`.
 ///
 /// A graded period compresses and shears the pattern far from the centre: over a displacement dp the angles
 /// change by (dp - (p - c) (grad period . dp) / period) 2 pi / period. Walls there may be thinner than wanted
@@ -40,14 +40,17 @@ struct TpmsSettings {
 };
 
 /// Makes the solid. It fills space; the region is its bounds, and runs are only made there. If period and
-/// thickness are constant over the region, runs have closed forms and the metric is `bound`. Otherwise the
-/// metric is `sign`, and runs are found by walk_lines, which sees features wider than a quarter pixel. It
+/// thickness are constant over the region, the runs of one period per line are found to 1e-8 periods and
+/// repeated, and the metric is `bound`; a sheet's features below 1/128 of the period may be missed. Otherwise
+/// the metric is `sign`, and runs are found by walk_lines, which sees features wider than a quarter pixel. It
 /// estimates the slopes of the gradings from differences over 1/16 of the region, times 1.5 for safety.
 /// Throws InputError for numbers out of range over the region: not positive, more than 10,000 periods along a
-/// side, or so thick that nothing is left open.
+/// side, or so thick that nothing is left open (see
+/// greatest_tpms_thickness).
 FieldPtr make_tpms(const TpmsSettings& settings);
 
-/// Returns the maximum thickness, in periods, that leaves something open.
+/// Returns the maximum thickness, in periods: beyond it a sheet leaves nothing open, and a network's open
+/// side is no longer connected.
 double greatest_tpms_thickness(TpmsKind kind, bool network);
 
 }  // namespace lamella

@@ -1,10 +1,11 @@
-// Runs from one wave per line; with gradings, from a walk along the lines.
+// Runs of one period per line, repeated; with gradings, from a walk along the lines.
 #include "procedural/lattice/tpms_slice.h"
 
 #include <array>
 
 #include "engine/solids/closed_slice.h"
 #include "procedural/lattice/line_walk.h"
+#include "procedural/lattice/wave_runs.h"
 
 namespace lamella {
 namespace {
@@ -24,21 +25,13 @@ Rect region_at(const Box& region, double z) {
 /// The solid's value along the lines of a band.
 class TpmsLines : public LineFunction {
   public:
-    TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
-              const SineCosine& height)
+    TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z)
         : solid_(solid),
           band_(band),
           along_(band.axis == Axis::x ? 0 : 1),
           z_(z),
           unit_(std::abs(band.along_pitch) / run_unit) {
-        for (const int l : lines) {
-            places_.push_back(band.line(l));
-            if (solid.has_constant_period()) {
-                const double distance = places_.back() - solid.center()[1 - along_];
-                const SineCosine angle = TpmsSolid::angle(distance, solid.period());
-                waves_.push_back(tpms_wave(solid.kind(), band.axis, angle, height));
-            }
-        }
+        for (const int l : lines) places_.push_back(band.line(l));
     }
 
     void values(std::span<const LinePoint> points, std::span<double> out) const override {
@@ -48,21 +41,9 @@ class TpmsLines : public LineFunction {
             places[i][along_] = band_.along(points[i].u);
             places[i][1 - along_] = places_[points[i].line];
         }
-        if (!solid_.has_constant_period()) return solid_.values(places, out);
-        const double period = solid_.period(), center = solid_.center()[along_];
-        std::vector<double> angles(points.size());
-        std::vector<SineCosine> turns(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i)
-            angles[i] = TpmsSolid::angle_of(places[i][along_] - center, period);
-        sines_cosines(angles, turns);
-        solid_.thicknesses(places, out);
-        for (std::size_t i = 0; i < points.size(); ++i)
-            out[i] = solid_.value_of(waves_[points[i].line].at(turns[i]), period, out[i]);
+        solid_.bounds(places, out);
     }
-    double steepest(std::size_t line) const override {
-        return unit_ *
-               (waves_.empty() ? solid_.steepest(along_) : solid_.steepest(along_, waves_[line].amplitude()));
-    }
+    double steepest(std::size_t /*line*/) const override { return unit_ * solid_.steepest(along_); }
 
   private:
     const TpmsSolid& solid_;
@@ -70,7 +51,6 @@ class TpmsLines : public LineFunction {
     int along_;
     double z_, unit_;
     std::vector<double> places_;  // of the lines, mm
-    std::vector<Wave> waves_;     // along the lines, where the period is constant
 };
 
 }  // namespace
@@ -93,21 +73,19 @@ void TpmsSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) co
 
 void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
     const double period = solid_.period();
-    const Interval levels = solid_.solid_levels(period, solid_.thickness_at(solid_.center()));
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const Interval lines = across(region_, band.axis), extent = along(region_, band.axis);
     // One pixel more than the band, because runs are clipped after rounding.
     const Interval wanted = along(grown(band.rect(), std::abs(band.along_pitch)), band.axis);
     const Interval clip{std::max(extent.lo, wanted.lo), std::min(extent.hi, wanted.hi)};
-    std::vector<Interval> intervals;
+    std::vector<Interval> parts, intervals;
     for (int l = 0; l < band.lines(); ++l) {
         const double place = band.line(l);
         intervals.clear();
         if (lines.contains(place)) {
             const double distance = place - solid_.center()[across_axis];
-            const Wave wave =
-                tpms_wave(solid_.kind(), band.axis, TpmsSolid::angle(distance, period), height_);
-            append_wave_runs(wave_runs(wave, levels), solid_.center()[along_axis], period, clip, intervals);
+            solid_.find_runs(band.axis, TpmsSolid::angle(distance, period), height_, parts);
+            append_periodic_runs(parts, solid_.center()[along_axis], period, clip, intervals);
         }
         push_intervals(band, intervals, out);
     }
@@ -126,7 +104,7 @@ void TpmsSlice::walked_spans(const RowBand& band, RunRows& out) const {
         for (int l = 0; l < count; ++l) out.end_line();
     };
     end_lines(walked.empty() ? band.lines() : walked.front());
-    walk_lines(TpmsLines(solid_, band, walked, z_, height_), walked.size(), lo, hi, out);
+    walk_lines(TpmsLines(solid_, band, walked, z_), walked.size(), lo, hi, out);
     if (!walked.empty()) end_lines(band.lines() - 1 - walked.back());
 }
 
@@ -151,15 +129,14 @@ void TpmsSlice::sample(const Tile& tile, std::span<float> out) const {
 void TpmsSlice::sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
                            std::span<float> out) const {
     const double period = solid_.period();
-    const Wave wave =
-        tpms_wave(solid_.kind(), Axis::x, TpmsSolid::angle(y - solid_.center().y, period), height_);
+    const SineCosine row = TpmsSolid::angle(y - solid_.center().y, period);
     std::array<dvec3, columns_at_once> places;
     std::array<double, columns_at_once> thicknesses;
     for (std::size_t i = 0; i < columns.size(); ++i)
         places[i] = {tile.origin.x + (first + static_cast<int>(i)) * tile.step.x, y, z_};
     solid_.thicknesses(std::span(places).first(columns.size()), std::span(thicknesses).first(columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i)
-        out[i] = static_cast<float>(solid_.value_of(wave.at(columns[i]), period, thicknesses[i]));
+        out[i] = static_cast<float>(solid_.value_at({columns[i], row, height_}, period, thicknesses[i]));
 }
 
 }  // namespace lamella

@@ -1,5 +1,5 @@
-// TpmsSlice: the slice of a triply periodic solid, with runs in closed form if period and thickness are
-// constant.
+// TpmsSlice: the slice of a triply periodic solid, with runs of one period, repeated, if period and
+// thickness are constant.
 #pragma once
 
 #include "engine/field/tile_walk.h"

@@ -1,7 +1,9 @@
-// Values scaled by the maximum gradient; ranges from the ranges of the angles.
+// Values of walls and networks in mm; ranges from the ranges of the angles.
 #include "procedural/lattice/tpms_solid.h"
 
 #include <algorithm>
+
+#include "procedural/lattice/wave_runs.h"
 
 namespace lamella {
 namespace {
@@ -25,11 +27,13 @@ Interval product(Interval a, Interval positive) {
 TpmsSolid::TpmsSolid(const TpmsSettings& settings)
     : settings_(settings),
       g_(tpms_constants(settings.kind)),
+      wall_(settings.kind),
       center_(settings.region.center()),
       period_(settings.period->at(center_)),
       thickness_(settings.thickness->at(center_)),
       constant_period_(is_constant_over(*settings.period, settings.region)),
       constant_thickness_(is_constant_over(*settings.thickness, settings.region)) {
+    if (settings.network) network_.emplace(settings.kind);
     if (!is_constant()) graded_change_ = survey_gradings();
 }
 
@@ -50,6 +54,9 @@ dvec3 TpmsSolid::survey_gradings() const {
     std::vector<double> period(points.size()), thickness(points.size());
     periods(points, period);
     thicknesses(points, thickness);
+    // A network's level follows its thickness in periods, as many times as fast as the value changes.
+    const double level = network_ ? std::max(network_->steepest() / g_.steepest, 1.0) : 1;
+    const double farthest = network_ ? 2 * g_.greatest / g_.steepest : g_.farthest;
     dvec3 most(0);
     for (std::size_t i = 0; i < points.size(); i += group) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,34 +66,37 @@ dvec3 TpmsSolid::survey_gradings() const {
             const double of_period = std::abs(period[j] - period[i]) / step[k];
             const double of_thickness = std::abs(thickness[j] - thickness[i]) / step[k];
             const double farther = std::max(length(points[i] - center_), length(points[j] - center_));
+            const double half = network_ ? thickness[i] / (2 * period[i]) : 0;
             const double stretch = of_period * farther / std::min(period[i], period[j]);
-            const double scale = of_period * 2 * g_.greatest / (turn * g_.steepest);
-            most[k] = std::max(most[k], stretch + scale + of_thickness / 2);
+            const double scale = of_period * farthest / turn;
+            most[k] = std::max(most[k], stretch + scale + level * (of_thickness / 2 + of_period * half));
         }
     }
     return most * survey_safety;
 }
 
-double TpmsSolid::value_of(double g, double period, double thickness) const {
-    const double scale = period / (turn * g_.steepest);
-    if (settings_.network) return (g - g_.joined) * scale - thickness / 2;
-    return std::abs(g) * scale - g_.steepest_surface / g_.steepest * (thickness / 2);
+double TpmsSolid::value_at(const TpmsPoint& point, double period, double thickness) const {
+    const double half = half_angle(thickness, period), scale = period / turn;
+    if (!network_) return wall_.value(point, half) * scale;
+    return (tpms_sample(kind(), point).g - network_->level(half)) * (scale / g_.steepest);
 }
 
-Interval TpmsSolid::solid_levels(double period, double thickness) const {
-    const double steps = turn * (thickness / 2) / period;
-    if (settings_.network) return {-infinity, g_.joined + g_.steepest * steps};
-    return {-g_.steepest_surface * steps, g_.steepest_surface * steps};
+void TpmsSolid::find_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+                          std::vector<Interval>& out) const {
+    const double half = half_angle(thickness_, period_);
+    if (!network_) return wall_.find_runs(axis, across, z, half, out);
+    const WaveRuns runs = wave_runs(tpms_wave(kind(), axis, across, z), {-infinity, network_->level(half)});
+    out.assign(runs.parts().begin(), runs.parts().end());
 }
 
 double TpmsSolid::value(dvec3 p) const {
     const double period = period_at(p);
     const dvec3 d = p - center_;
-    const Wave wave = tpms_wave(kind(), Axis::x, angle(d.y, period), angle(d.z, period));
-    return value_of(wave.at(angle(d.x, period)), period, thickness_at(p));
+    return value_at({angle(d.x, period), angle(d.y, period), angle(d.z, period)}, period, thickness_at(p));
 }
 
-void TpmsSolid::values(std::span<const dvec3> points, std::span<double> out) const {
+template <class Value>
+void TpmsSolid::compute(std::span<const dvec3> points, std::span<double> out, const Value& value) const {
     std::vector<double> period(points.size()), angles(3 * points.size());
     std::vector<SineCosine> turns(angles.size());
     periods(points, period);
@@ -98,10 +108,21 @@ void TpmsSolid::values(std::span<const dvec3> points, std::span<double> out) con
     }
     sines_cosines(angles, turns);
     thicknesses(points, out);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Wave wave = tpms_wave(kind(), Axis::x, turns[3 * i + 1], turns[3 * i + 2]);
-        out[i] = value_of(wave.at(turns[3 * i]), period[i], out[i]);
-    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+        out[i] = value(TpmsPoint{turns[3 * i], turns[3 * i + 1], turns[3 * i + 2]}, period[i], out[i]);
+}
+
+void TpmsSolid::values(std::span<const dvec3> points, std::span<double> out) const {
+    compute(points, out, [this](const TpmsPoint& point, double period, double thickness) {
+        return value_at(point, period, thickness);
+    });
+}
+
+void TpmsSolid::bounds(std::span<const dvec3> points, std::span<double> out) const {
+    if (network_) return values(points, out);
+    compute(points, out, [this](const TpmsPoint& point, double period, double thickness) {
+        return wall_.bound(point, half_angle(thickness, period)) * (period / turn);
+    });
 }
 
 void TpmsSolid::periods(std::span<const dvec3> points, std::span<double> out) const {
@@ -120,16 +141,16 @@ Interval TpmsSolid::range(const Box& box) const {
     Box angles{(box.lo - center_) * turn, (box.hi - center_) * turn};
     angles = {glm::min(angles.lo / period.lo, angles.lo / period.hi),
               glm::max(angles.hi / period.lo, angles.hi / period.hi)};
-    Interval g = tpms_range(kind(), angles);
-    const double scale = 1 / (turn * g_.steepest);
-    if (settings_.network) {
-        const Interval part = product({(g.lo - g_.joined) * scale, (g.hi - g_.joined) * scale}, period);
-        return {part.lo - thickness.hi / 2, part.hi - thickness.lo / 2};
+    const Interval half{half_angle(thickness.lo, period.hi), half_angle(thickness.hi, period.lo)};
+    const double scale = 1 / turn;
+    if (!network_) {
+        const Interval value = wall_.range(angles, half);
+        return product({value.lo * scale, value.hi * scale}, period);
     }
-    g = {g.contains(0) ? 0 : std::min(std::abs(g.lo), std::abs(g.hi)),
-         std::max(std::abs(g.lo), std::abs(g.hi))};
-    const double share = g_.steepest_surface / g_.steepest / 2;
-    return {g.lo * scale * period.lo - share * thickness.hi, g.hi * scale * period.hi - share * thickness.lo};
+    const Interval g = tpms_range(kind(), angles);
+    const double to_value = scale / g_.steepest;
+    return product(
+        {(g.lo - network_->level(half.hi)) * to_value, (g.hi - network_->level(half.lo)) * to_value}, period);
 }
 
 }  // namespace lamella

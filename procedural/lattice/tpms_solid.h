@@ -2,8 +2,10 @@
 // tpms.h.
 #pragma once
 
-#include "procedural/lattice/tpms_surface.h"
-#include "procedural/lattice/wave_runs.h"
+#include <optional>
+
+#include "procedural/lattice/tpms_network.h"
+#include "procedural/lattice/tpms_wall.h"
 
 namespace lamella {
 
@@ -36,31 +38,37 @@ class TpmsSolid {
     }
     /// Returns that angle, in the unit of sine_cosine().
     static double angle_of(double distance, double period) { return distance * turn / period; }
-    /// Returns the field's value for a value of g, mm.
-    double value_of(double g, double period, double thickness) const;
-    /// Returns an upper bound of the change of the value per mm along a line parallel to `axis` (0 to 2) on
-    /// which g changes by at most `change_of_g` per radian. The contribution of gradings is estimated from
-    /// their differences on a lattice over the region.
-    double steepest(int axis, double change_of_g) const {
-        return change_of_g / g_.steepest + graded_change_[axis];
-    }
-    /// Returns this bound for any line parallel to the axis.
-    double steepest(int axis) const { return steepest(axis, g_.steepest_along); }
-    /// Returns the open interval of the values of g that are solid.
-    Interval solid_levels(double period, double thickness) const;
+    /// Returns the field's value at a point with these angles, mm.
+    double value_at(const TpmsPoint& point, double period, double thickness) const;
+    /// Returns an upper bound of the change of the value per mm along a line parallel to `axis` (0 to 2). The
+    /// contribution of gradings is estimated from their differences on a lattice over the region.
+    double steepest(int axis) const { return 1 + graded_change_[axis]; }
+    /// Finds the turns in which one period of a line is solid, as TpmsWall::find_runs() and wave_runs() do.
+    /// Period and thickness are those at the region's centre.
+    void find_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+                   std::vector<Interval>& out) const;
 
     double value(dvec3 p) const;
     void values(std::span<const dvec3> points, std::span<double> out) const;
+    /// Computes numbers of the same sign that are faster to compute and bound the same distances, but jump.
+    void bounds(std::span<const dvec3> points, std::span<double> out) const;
     Interval range(const Box& box) const;
 
   private:
+    template <class Value>
+    void compute(std::span<const dvec3> points, std::span<double> out, const Value& value) const;
     void periods(std::span<const dvec3> points, std::span<double> out) const;
     dvec3 survey_gradings() const;
 
     static constexpr double turn = 6.28318530717958647693;
 
+    /// Half of a thickness, in radians.
+    static double half_angle(double thickness, double period) { return turn / 2 * thickness / period; }
+
     TpmsSettings settings_;
     TpmsConstants g_;
+    TpmsWall wall_;
+    std::optional<TpmsNetwork> network_;  ///< empty for a sheet
     dvec3 center_;
     double period_, thickness_;
     bool constant_period_, constant_thickness_;

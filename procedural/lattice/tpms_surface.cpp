@@ -50,15 +50,73 @@ Interval interval_range(TpmsKind kind, const Box& angles) {
 TpmsConstants tpms_constants(TpmsKind kind) {
     switch (kind) {
         case TpmsKind::gyroid:
-            return {root_3, root_2, root_3, -root_2, 1.5};
+            return {root_3, root_2, 2, -root_2, 1.5, 1.4357};
         case TpmsKind::schwarz_p:
-            return {root_3, 1, root_3, -1, 3};
+            return {root_3, 1, 1, -1, 3, 2.6573};
         case TpmsKind::schwarz_d:
-            return {root_3, root_2, root_3, -1, root_2};
+            return {root_3, root_2, 2, -1, root_2, 1.3316};
         case TpmsKind::neovius:
             break;
     }
-    return {7, 7, 3 * root_3, -0.75, 13};
+    return {7, 7, 7, -0.75, 13, 2.5457};
+}
+
+TpmsPoint tpms_point(dvec3 p) { return {sine_cosine(p.x), sine_cosine(p.y), sine_cosine(p.z)}; }
+
+TpmsPoint tpms_point_beside(const TpmsPoint& point, dvec3 offset) {
+    const auto turned = [](const SineCosine& from, double by) {
+        const SineCosine turn = sine_cosine(by);
+        return SineCosine{from.sine * turn.cosine + from.cosine * turn.sine,
+                          from.cosine * turn.cosine - from.sine * turn.sine};
+    };
+    return {turned(point.x, offset.x), turned(point.y, offset.y), turned(point.z, offset.z)};
+}
+
+TpmsSample tpms_sample(TpmsKind kind, const TpmsPoint& point) {
+    const auto& [sx, cx] = point.x;
+    const auto& [sy, cy] = point.y;
+    const auto& [sz, cz] = point.z;
+    switch (kind) {
+        case TpmsKind::gyroid:
+            return {sx * cy + sy * cz + sz * cx, {cx * cy - sz * sx, cy * cz - sx * sy, cz * cx - sy * sz}};
+        case TpmsKind::schwarz_p:
+            return {cx + cy + cz, {-sx, -sy, -sz}};
+        case TpmsKind::schwarz_d:
+            return {sx * (sy * sz + cy * cz) + cx * (sy * cz + cy * sz),
+                    {cx * (sy * sz + cy * cz) - sx * (sy * cz + cy * sz),
+                     cy * (sx * sz + cx * cz) - sy * (sx * cz + cx * sz),
+                     cz * (sx * sy + cx * cy) - sz * (sx * cy + cx * sy)}};
+        case TpmsKind::neovius:
+            break;
+    }
+    return {3 * (cx + cy + cz) + 4 * cx * cy * cz,
+            {-sx * (3 + 4 * cy * cz), -sy * (3 + 4 * cz * cx), -sz * (3 + 4 * cx * cy)}};
+}
+
+glm::dmat3 tpms_hessian(TpmsKind kind, const TpmsPoint& point) {
+    const auto& [sx, cx] = point.x;
+    const auto& [sy, cy] = point.y;
+    const auto& [sz, cz] = point.z;
+    const auto symmetric = [](dvec3 diagonal, double xy, double yz, double zx) {
+        return glm::dmat3({diagonal.x, xy, zx}, {xy, diagonal.y, yz}, {zx, yz, diagonal.z});
+    };
+    switch (kind) {
+        case TpmsKind::gyroid:
+            return symmetric({-sx * cy - sz * cx, -sy * cz - sx * cy, -sz * cx - sy * cz}, -cx * sy, -cy * sz,
+                             -cz * sx);
+        case TpmsKind::schwarz_p:
+            return symmetric({-cx, -cy, -cz}, 0, 0, 0);
+        case TpmsKind::schwarz_d: {
+            const double g = tpms_sample(kind, point).g;
+            return symmetric(dvec3(-g), cx * (cy * sz - sy * cz) - sx * (cy * cz - sy * sz),
+                             cy * (cz * sx - sz * cx) - sy * (cz * cx - sz * sx),
+                             cz * (cx * sy - sx * cy) - sz * (cx * cy - sx * sy));
+        }
+        case TpmsKind::neovius:
+            break;
+    }
+    return symmetric({-cx * (3 + 4 * cy * cz), -cy * (3 + 4 * cz * cx), -cz * (3 + 4 * cx * cy)},
+                     4 * sx * sy * cz, 4 * sy * sz * cx, 4 * sz * sx * cy);
 }
 
 Wave tpms_wave(TpmsKind kind, Axis axis, const SineCosine& across, const SineCosine& z) {

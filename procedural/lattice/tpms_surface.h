@@ -20,15 +20,37 @@ struct Wave {
 };
 
 /// Constants of a function g that the formulas of tpms.h need. All four g are antisymmetric: shifted by half
-/// a period along some axes, g becomes -g.
+/// a period along some axes, g becomes -g. Derivatives are those with respect to the angles.
 struct TpmsConstants {
-    double steepest;          ///< maximum gradient anywhere, with respect to the angles
-    double steepest_along;    ///< maximum derivative along one axis
-    double steepest_surface;  ///< maximum gradient on g = 0
-    double joined;            ///< lowest level at which g < level is connected
-    double greatest;          ///< maximum of |g|
+    double steepest;        ///< maximum gradient anywhere
+    double steepest_along;  ///< maximum derivative along one axis
+    double sharpest;        ///< maximum second derivative along any direction
+    double joined;          ///< lowest level at which g < level is connected
+    double greatest;        ///< maximum of |g|
+    double farthest;        ///< maximum distance of a point from g = 0, radians
 };
 TpmsConstants tpms_constants(TpmsKind kind);
+
+/// Sines and cosines of a point's angles.
+struct TpmsPoint {
+    SineCosine x, y, z;
+};
+
+/// Returns the point at the angles p.
+TpmsPoint tpms_point(dvec3 p);
+
+/// Returns the point that lies `offset` (radians) from another.
+TpmsPoint tpms_point_beside(const TpmsPoint& point, dvec3 offset);
+
+/// The value of g and its gradient.
+struct TpmsSample {
+    double g;
+    dvec3 gradient;
+};
+TpmsSample tpms_sample(TpmsKind kind, const TpmsPoint& point);
+
+/// Returns the second derivatives of g.
+glm::dmat3 tpms_hessian(TpmsKind kind, const TpmsPoint& point);
 
 /// Returns g along a line in the direction `axis` of a plane, given the sines and cosines of the angle across
 /// the line and of that of the plane's height.

@@ -40,18 +40,18 @@ WaveRuns wave_runs(const Wave& wave, Interval levels) {
     return {{{crest - far, crest - near}, {crest + near, crest + far}}, 2};
 }
 
-void append_wave_runs(const WaveRuns& runs, double origin, double period, Interval clip,
-                      std::vector<Interval>& out) {
-    if (runs.count == 0 || clip.empty()) return;
-    if (runs.part[0].lo == -infinity) {
+void append_periodic_runs(std::span<const Interval> parts, double origin, double period, Interval clip,
+                          std::vector<Interval>& out) {
+    if (parts.empty() || clip.empty()) return;
+    if (parts.front().lo == -infinity) {
         out.push_back(clip);
         return;
     }
     // Intervals lie within [-1, 3/2] turns.
     for (double n = std::floor((clip.lo - origin) / period) - 2;; ++n) {
-        for (int i = 0; i < runs.count; ++i) {
-            const double lo = origin + (runs.part[i].lo + n) * period;
-            const double hi = origin + (runs.part[i].hi + n) * period;
+        for (const Interval& part : parts) {
+            const double lo = origin + (part.lo + n) * period;
+            const double hi = origin + (part.hi + n) * period;
             if (lo >= clip.hi) return;
             if (hi > clip.lo) out.push_back({std::max(lo, clip.lo), std::min(hi, clip.hi)});
         }

@@ -2,6 +2,7 @@
 // functions of the C library.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/base/geometry.h"
@@ -17,13 +18,15 @@ double turns_of(double cosine, double sine);
 /// ascending, disjoint, within [-1, 3/2]; one infinite interval if the wave is always between them.
 struct WaveRuns {
     Interval part[2];
-    int count = 0;
+    std::size_t count = 0;
+    std::span<const Interval> parts() const { return {part, count}; }
 };
 WaveRuns wave_runs(const Wave& wave, Interval levels);
 
-/// Appends the intervals (mm, ascending) of a line in which the wave lies between the levels, clipped to
-/// `clip` (finite). The wave has angle 0 at `origin`, mm.
-void append_wave_runs(const WaveRuns& runs, double origin, double period, Interval clip,
-                      std::vector<Interval>& out);
+/// Appends the intervals (mm, ascending) of a line, clipped to `clip` (finite), that repeat those of one
+/// period: `parts` in turns, ascending, within [-1, 3/2], or one infinite interval. Turn 0 lies at `origin`,
+/// mm.
+void append_periodic_runs(std::span<const Interval> parts, double origin, double period, Interval clip,
+                          std::vector<Interval>& out);
 
 }  // namespace lamella

@@ -16,7 +16,7 @@ namespace lamella {
 namespace {
 
 /// A field's value and its line number.
-struct Field {
+struct HeaderField {
     std::string value;
     std::size_t line = 0;
 };
@@ -110,13 +110,13 @@ class HeaderReader {
         throw InputError(name_ + ":" + std::to_string(line) + ": " + what);
     }
 
-    const Field* find(const std::string& field) const {
+    const HeaderField* find(const std::string& field) const {
         const auto found = fields_.find(field);
         return found == fields_.end() ? nullptr : &found->second;
     }
 
-    const Field& demand(const std::string& field) const {
-        const Field* found = find(field);
+    const HeaderField& demand(const std::string& field) const {
+        const HeaderField* found = find(field);
         if (!found) throw InputError(name_ + ": the NRRD header lacks the field \"" + field + "\"");
         return *found;
     }
@@ -180,7 +180,7 @@ class HeaderReader {
     }
 
     void take_type() {
-        const Field& field = demand("type");
+        const HeaderField& field = demand("type");
         bool known = false;
         header_.type = type_named(lower_case(field.value), known);
         if (known) return;
@@ -190,7 +190,7 @@ class HeaderReader {
     }
 
     void take_encoding() {
-        const Field& field = demand("encoding");
+        const HeaderField& field = demand("encoding");
         const std::string name = lower_case(field.value);
         if (name == "raw") {
             header_.encoding = NrrdEncoding::raw;
@@ -205,8 +205,8 @@ class HeaderReader {
     }
 
     void take_sizes() {
-        const Field& dimension = demand("dimension");
-        const Field& field = demand("sizes");
+        const HeaderField& dimension = demand("dimension");
+        const HeaderField& field = demand("sizes");
         const auto count = parse_integer(dimension.value);
         if (!count || (*count != 3 && *count != 4)) {
             fail(dimension.line, "the dimension must be 3 (or 4 with a first axis of size 1), not " +
@@ -231,7 +231,7 @@ class HeaderReader {
     }
 
     void take_data_file() {
-        const Field* field = find("datafile");
+        const HeaderField* field = find("datafile");
         if (!field) return;
         if (field->value.empty()) fail(field->line, "the data file has no name");
         if (field->value.starts_with("LIST") || field->value.find('%') != std::string::npos) {
@@ -241,7 +241,7 @@ class HeaderReader {
     }
 
     void take_endian() {
-        const Field& field = demand("endian");
+        const HeaderField& field = demand("endian");
         const std::string name = lower_case(field.value);
         if (name != "little" && name != "big") {
             fail(field.line, "endian must be little or big, not " + excerpt(field.value));
@@ -250,7 +250,7 @@ class HeaderReader {
     }
 
     std::int64_t whole_number(const std::string& field, std::int64_t least) const {
-        const Field* found = find(field);
+        const HeaderField* found = find(field);
         if (!found) return 0;
         const auto number = parse_integer(found->value);
         if (!number || *number < least) fail(found->line, excerpt(found->value) + " is no number to skip");
@@ -259,7 +259,7 @@ class HeaderReader {
 
     /// Returns true if all quoted words of a field are "mm", or if there is no such field.
     bool is_millimetres(const std::string& field) const {
-        const Field* found = find(field);
+        const HeaderField* found = find(field);
         if (!found) return true;
         std::string value = lower_case(found->value);
         std::replace(value.begin(), value.end(), '"', ' ');
@@ -270,9 +270,9 @@ class HeaderReader {
     }
 
     void take_box() {
-        const Field* directions = find("spacedirections");
-        const Field* spacings = find("spacings");
-        const Field* origin = find("spaceorigin");
+        const HeaderField* directions = find("spacedirections");
+        const HeaderField* spacings = find("spacings");
+        const HeaderField* origin = find("spaceorigin");
         dvec3 step(0.0);
         if (directions) {
             const auto vectors = vectors_of(*directions);
@@ -317,7 +317,7 @@ class HeaderReader {
     }
 
     /// Parses vectors written as "(x,y,z)" or "none".
-    std::vector<std::optional<dvec3>> vectors_of(const Field& field) const {
+    std::vector<std::optional<dvec3>> vectors_of(const HeaderField& field) const {
         std::vector<std::optional<dvec3>> vectors;
         std::string_view rest = trim_blanks(field.value);
         while (!rest.empty()) {
@@ -349,7 +349,7 @@ class HeaderReader {
 
     std::istream& in_;
     const std::string& name_;
-    std::map<std::string, Field> fields_;
+    std::map<std::string, HeaderField> fields_;
     std::size_t line_ = 0;
     std::size_t length_ = 0;
     std::size_t axes_ = 3;

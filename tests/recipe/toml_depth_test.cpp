@@ -58,7 +58,7 @@ TEST_CASE("arrays and tables that are nested too deep are refused", "[depth]") {
 
 TEST_CASE("dots and brackets in strings and comments do not count", "[depth]") {
     const std::string dots = key(100), brackets(100, '[');
-    for (const std::string text :
+    for (const std::string& text :
          {"\"" + dots + brackets + "\"", "'" + dots + brackets + "'",
           "\"\"\"" + dots + "\n" + brackets + "\"\"\"", "'''" + dots + "\n'" + brackets + "'''",
           "\"\\\"" + dots + "\"", "'\\'  # " + dots + brackets, "\"\"\"a\"\"\"\"\"  # " + dots,

@@ -34,7 +34,7 @@ TEST_CASE("a wave lies between its levels on its runs and nowhere else", "[wave_
         const double period = narrow(random), origin = number(random);
         const Interval clip{-3.1, 4.2};
         std::vector<Interval> intervals;
-        append_wave_runs(wave_runs(wave, levels), origin, period, clip, intervals);
+        append_periodic_runs(wave_runs(wave, levels).parts(), origin, period, clip, intervals);
         for (std::size_t i = 1; i < intervals.size(); ++i) REQUIRE(intervals[i - 1].hi <= intervals[i].lo);
         for (int k = 0; k < 200; ++k) {
             const double p = clip.lo + clip.width() * k / 199, angle = (p - origin) * 2 * pi / period;
@@ -52,7 +52,7 @@ TEST_CASE("a flat wave is between its levels everywhere or nowhere", "[wave_runs
     CHECK(wave_runs({0, 0, 1.5}, {0, 1}).count == 0);
     CHECK(wave_runs({0, 0, 1}, {0, 1}).count == 0);
     std::vector<Interval> intervals;
-    append_wave_runs(wave_runs({0, 0, 0.5}, {0, 1}), 0, 1, {2, 5}, intervals);
+    append_periodic_runs(wave_runs({0, 0, 0.5}, {0, 1}).parts(), 0, 1, {2, 5}, intervals);
     REQUIRE(intervals.size() == 1);
     CHECK(intervals[0].lo == 2);
     CHECK(intervals[0].hi == 5);

@@ -64,8 +64,8 @@ TEST_CASE("a skin has the same windows of a transparent picture as of one on whi
         const std::string path = (folder / (std::to_string(channels) + ".png")).string();
         write_cross(path, channels);
         const Outcome run = run_lamella(
-            "section --shape box --shape-size 20,20,10 --skin 0.8 --skin-pattern image --skin-image " + path +
-            " --skin-image-size 5 --skin-strut 0.5 --z 4.8 --format json");
+            "section --shape box --shape-size 6,6,4 --skin 0.8 --skin-pattern image --skin-image " + path +
+            " --skin-image-size 5 --skin-strut 0.5 --z 1.9 --format json");
         INFO(run.err);
         REQUIRE(run.code == 0);
         return nlohmann::json::parse(run.out);

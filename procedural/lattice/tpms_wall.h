@@ -1,0 +1,53 @@
+// TpmsWall: which points lie closer to a surface g = 0 than half a wall's thickness. Distances and
+// thicknesses are in radians of the angles.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "procedural/lattice/tpms_surface.h"
+
+namespace lamella {
+
+/// Walls of any thickness along one surface.
+///
+/// Two bounds of the distance d of a point from the surface need no search. With L for the maximum second
+/// derivative, |g| <= |grad g| d + L d^2 / 2, and the surface is met along the gradient within the smaller
+/// root of |g| = |grad g| d - L d^2 / 2. Between them, the nearest point of the surface is found by Newton's
+/// method for the conditions g = 0 and offset + multiplier grad g = 0.
+class TpmsWall {
+  public:
+    explicit TpmsWall(TpmsKind kind);
+
+    /// Returns a bound of the signed distance to the wall of half thickness `half`: negative inside, and
+    /// exact there and nearby. It changes by at most 1 per radian.
+    double value(const TpmsPoint& point, double half) const;
+    /// Returns a bound of the same sign that is faster to compute, but jumps.
+    double bound(const TpmsPoint& point, double half) const;
+    /// Returns bounds of the values over a box of angles, for all half thicknesses of an interval.
+    Interval range(const Box& angles, Interval half) const;
+    /// Finds the turns, ascending and within [-1, 1], in which one period of a line in the direction `axis`
+    /// of a plane lies in the wall; one infinite interval if all of it does. Wall and openings thinner than
+    /// 1/128 of the period may be missed.
+    void find_runs(Axis axis, const SineCosine& across, const SineCosine& z, double half,
+                   std::vector<Interval>& out) const;
+
+  private:
+    struct Line;
+
+    double nearest(const TpmsPoint& point, const TpmsSample& sample, double half, bool exact) const;
+    double search(const TpmsPoint& point, dvec3 offset, double half, bool exact) const;
+    double bound_on(const Line& line, const SineCosine& turn) const;
+    void find_crossings(const Line& line, Interval turns, Interval values, int depth,
+                        std::vector<double>& crossings) const;
+    double crossing(const Line& line, Interval turns, Interval values) const;
+
+    static constexpr int first_parts = 16;  // of a period; halved further
+
+    TpmsKind kind_;
+    TpmsConstants g_;
+    double sole_;  ///< points nearer than this are known to have one nearest point, which the search finds
+    std::array<SineCosine, first_parts> turns_;
+};
+
+}  // namespace lamella
