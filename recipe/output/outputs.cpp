@@ -66,10 +66,10 @@ void choose_by_ending(Output& output, const std::string& named, const std::strin
                        (wanted == LayerContent::pixels && made == LayerContent::beads);
     if (clash && !machine.empty()) {
         throw InputError(
-            fmt::format("--output {}: {} makes {}, and the ending is that of {}; accepted: the ending of "
-                        "its own files, or PATH@PROFILE with another machine",
-                        named, machine, made == LayerContent::beads ? "beads" : "masks",
-                        wanted == LayerContent::beads ? "beads" : "masks"));
+            fmt::format("--output {}: {} files hold {}, and {} makes {}; accepted: the ending of its own "
+                        "files, or PATH@PROFILE with another machine",
+                        named, file_type(output.path), wanted == LayerContent::beads ? "beads" : "masks",
+                        machine, made == LayerContent::beads ? "beads" : "masks"));
     }
     output.printer.backend = chosen;
 }

@@ -94,4 +94,30 @@ TEST_CASE("a foam that repeats is another one by another seed, and none where no
           sample_field(*foam, {dvec3(0), dvec3(4)}, 32).present);
 }
 
+TEST_CASE("sampling stops within a few planes", "[elasticity]") {
+    /// Asks to stop when its third slice is made.
+    class Stopping : public Field {
+      public:
+        explicit Stopping(CancelToken& cancel) : cancel_(cancel) {}
+        double value(dvec3 p) const override { return ball_->value(p); }
+        Interval range(const Box& box) const override { return ball_->range(box); }
+        Metric metric() const override { return ball_->metric(); }
+        Box bounds() const override { return ball_->bounds(); }
+        const SliceField& slice(SliceContext& context, double z) const override {
+            if (++slices == 3) cancel_.cancel();
+            return ball_->slice(context, z);
+        }
+        mutable std::atomic<int> slices{0};
+
+      private:
+        CancelToken& cancel_;
+        FieldPtr ball_ = make_sphere(dvec3(0), 1);
+    };
+    CancelToken cancel;
+    const Stopping field(cancel);
+    CHECK_THROWS_AS(sample_field(field, {dvec3(-1), dvec3(1)}, 512, &cancel), Interrupted);
+    // Planes under way in other threads are finished.
+    CHECK(field.slices < 100);
+}
+
 }  // namespace field_sample_test

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "procedural/elasticity/elastic_multigrid.h"
+#include "procedural/elasticity/hex_element.h"
 
 namespace homogenization_test {
 
@@ -256,9 +258,36 @@ TEST_CASE("work on a structure is told of, and can be stopped", "[elasticity]") 
         if (iteration == 2) cancel.cancel();
     };
     CHECK_THROWS_AS(homogenize(sample, {}, options), Interrupted);
+    // Stopped before the first iteration, it is not begun.
+    told = 0;
+    options.on_progress = [&](int, double) { ++told; };
+    CHECK_THROWS_WITH(homogenize(sample, {}, options), Catch::Contains("stopped"));
+    CHECK(told == 0);
+    options.on_progress = {};
     options.cancel = nullptr;
     options.max_iterations = 2;
     CHECK_THROWS_AS(homogenize(sample, {}, options), FaultError);
+}
+
+TEST_CASE("a multigrid stops within a sweep, not at its end", "[elasticity]") {
+    const ElementMask sample = random_sample({32, 32, 32}, 4, 0.4);
+    const HexElement element = make_hex_element(stiffness_of({}));
+    CancelToken cancel;
+    ElasticMultigrid multigrid(sample, element, &cancel);
+    const std::vector<float> b(multigrid.grid().nodes() * node_numbers, 1.0F);
+    std::vector<float> x(b.size(), 0.0F);
+    multigrid.solve(b, x);
+    const auto sum_of = [](const std::vector<float>& numbers) {
+        double sum = 0;
+        for (const float v : numbers) sum += std::abs(v);
+        return sum;
+    };
+    CHECK(sum_of(x) > 0);
+    cancel.cancel();
+    std::ranges::fill(x, 0.0F);
+    CHECK_THROWS_AS(multigrid.solve(b, x), Interrupted);
+    CHECK(sum_of(x) == 0);
+    CHECK_THROWS_AS(ElasticMultigrid(sample, element, &cancel), Interrupted);
 }
 
 TEST_CASE("what is no sample or no material is refused", "[elasticity]") {
