@@ -13,8 +13,9 @@ targets=("$@")
 [ ${#targets[@]} -gt 0 ] ||
     mapfile -t targets < <(sed -n 's/^foreach(format \(.*\))$/\1/p' tests/fuzz/CMakeLists.txt | tr ' ' '\n')
 cmake --build $build --target "${targets[@]/#/fuzz_}" | tail -n 1
+export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
 # What tests read already is where the fuzzers begin.
-declare -A seeds=([stl]='*.stl' [obj]='*.obj' [ply]='*.ply' [3mf]='*.3mf' [attribute]='*.ply' [recipe]='*.toml')
+declare -A seeds=([stl]='*.stl' [obj]='*.obj' [ply]='*.ply' [3mf]='*.3mf' [attribute]='*.ply' [picture]='*.png' [recipe]='*.toml')
 run_target() {
     local corpus=$build/corpus/$1 findings=$build/findings/$1 known=$build/seeds/$1
     mkdir -p "$corpus" "$findings" "$known"
