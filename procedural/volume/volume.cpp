@@ -91,8 +91,8 @@ std::vector<std::string> files_in(const fs::path& folder, const std::string& pat
 /// Collects the pages of a stack, one after the other in memory.
 class StackReader {
   public:
-    StackReader(int channel, std::size_t expected_pages, bool on_white)
-        : channel_(channel), expected_(expected_pages), on_white_(on_white) {}
+    StackReader(int channel, std::size_t expected_pages, bool as_picture)
+        : channel_(channel), expected_(expected_pages), as_picture_(as_picture) {}
 
     /// Appends all pages of a file.
     void add(const std::string& path) {
@@ -139,7 +139,9 @@ class StackReader {
         std::visit(
             [&](auto& samples) {
                 read_into(samples, input, channel_, fail);
-                if (on_white_ && image.alpha >= 0) put_on_white(samples, input, image.alpha, fail);
+                if (as_picture_ && image.channels >= 3 && (image.alpha < 0 || image.alpha >= 3))
+                    mix_colours(samples, input, fail);
+                if (as_picture_ && image.alpha >= 0) put_on_white(samples, input, image.alpha, fail);
             },
             volume_.samples);
         ++pages_;
@@ -191,6 +193,21 @@ class StackReader {
         }
     }
 
+    /// Turns red, the channel of the page that was read last, into the page's luma (Rec. ITU-R BT.709).
+    template <class T, class Fail>
+    void mix_colours(std::vector<T>& samples, ImageReader& input, const Fail& fail) {
+        std::vector<T> green, blue;
+        read_into(green, input, 1, fail);
+        read_into(blue, input, 2, fail);
+        T* const page = samples.data() + (samples.size() - green.size());
+        for (std::size_t i = 0; i < green.size(); ++i) {
+            const double luma = 0.2126 * static_cast<double>(page[i]) +
+                                0.7152 * static_cast<double>(green[i]) +
+                                0.0722 * static_cast<double>(blue[i]);
+            page[i] = static_cast<T>(std::is_integral_v<T> ? luma + 0.5 : luma);
+        }
+    }
+
     /// Mixes the page that was read last with white, as far as its pixels are transparent.
     template <class T, class Fail>
     void put_on_white(std::vector<T>& samples, ImageReader& input, int alpha, const Fail& fail) {
@@ -207,7 +224,7 @@ class StackReader {
 
     int channel_;
     std::size_t expected_;
-    bool on_white_;
+    bool as_picture_;
     std::size_t pages_ = 0;
     std::string stored_as_;  ///< type of the first page's samples
     Volume volume_;
@@ -239,19 +256,19 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
 
 namespace {
 
-Volume read_stack(std::span<const std::string> files, int channel, bool on_white) {
+Volume read_stack(std::span<const std::string> files, int channel, bool as_picture) {
     if (files.empty()) throw InputError("an image stack needs at least one file");
-    StackReader reader(channel, files.size(), on_white);
+    StackReader reader(channel, files.size(), as_picture);
     for (const std::string& file : files) reader.add(file);
     return reader.finish();
 }
 
-Volume read_any(const std::string& path, int channel, bool on_white) {
+Volume read_any(const std::string& path, int channel, bool as_picture) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
         const auto files = files_in(path, "*");
         if (files.empty()) reject_volume(path, "the folder holds no files; a stack of images was expected");
-        return read_stack(files, channel, on_white);
+        return read_stack(files, channel, as_picture);
     }
     if (!fs::exists(path, error)) {
         const fs::path pattern(path);
@@ -260,9 +277,9 @@ Volume read_any(const std::string& path, int channel, bool on_white) {
         const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
         const auto files = files_in(folder, name);
         if (files.empty()) reject_volume(path, "no file's name fits this pattern");
-        return read_stack(files, channel, on_white);
+        return read_stack(files, channel, as_picture);
     }
-    if (!is_nrrd(path)) return read_stack(std::vector<std::string>{path}, channel, on_white);
+    if (!is_nrrd(path)) return read_stack(std::vector<std::string>{path}, channel, as_picture);
     std::ifstream in(path, std::ios::binary);
     return read_nrrd(in, path, fs::path(path).parent_path().string());
 }

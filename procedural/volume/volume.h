@@ -46,8 +46,8 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
 /// so that a page looks the same seen from above. `channel` counts from 0.
 Volume read_volume(const std::string& path, int channel = 0);
 
-/// Reads a picture, or pages of pictures, as read_volume() does its first channel, with white under what is
-/// transparent.
+/// Reads the luma of a picture, or of pages of pictures, with white under what is transparent; else as
+/// read_volume().
 Volume read_picture(const std::string& path);
 
 /// Reads the pages of a stack, lowest first, in the given order.

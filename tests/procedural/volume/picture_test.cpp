@@ -53,6 +53,21 @@ TEST_CASE("what is transparent in a picture is as bright as paper", "[picture]")
         CAPTURE(channels);
         CHECK(bytes_of(read_picture(path(channels))) == bytes_of(white));
     }
+    // A colour is as dark as it looks: blue on white as dark as black, nearly; yellow on white hardly.
+    const auto painted = [&](std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+        ImageData image;
+        std::vector<std::uint8_t> pixels;
+        for (const std::uint8_t v : {r, g, b}) pixels.push_back(v);
+        image.width = image.height = 1;
+        image.channels = 3;
+        image.pixels = pixels;
+        write_image(path(5), image);
+        return int{bytes_of(read_picture(path(5)))[0]};
+    };
+    CHECK(painted(255, 0, 0) == 54);
+    CHECK(painted(0, 0, 255) == 18);
+    CHECK(painted(255, 255, 0) == 237);
+    CHECK(painted(77, 77, 77) == 77);
     // A volume keeps the numbers of its channel.
     CHECK(bytes_of(read_volume(path(4))) == std::vector<std::uint8_t>(side * side, 0));
     CHECK(bytes_of(read_volume(path(4), 3))[0] == 0);
