@@ -11,6 +11,7 @@
 #include "engine/mesh/mesh_repair.h"
 #include "engine/mesh/triangle_tree.h"
 #include "engine/mesh/triangulate.h"
+#include "engine/morphology/in_plane_offset.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/shell.h"
 #include "tests/engine/field/gradings.h"
@@ -289,6 +290,39 @@ TEST_CASE("contours of skins on whole numbers enclose the area between the outli
         CHECK(contours.size() == 2);
         CHECK(area == Approx(w * h - (w - 2 * thickness) * (h - 2 * thickness)).margin(0.01));
     }
+}
+
+TEST_CASE("outlines on whole numbers move by their offset, in rows on edges and corners too", "[lattice]") {
+    std::mt19937 random(395);
+    Counts counts;
+    constexpr double tolerance = 0.02;  // mm
+    const double offsets[] = {-0.75, -0.5, -0.25, 0.25, 0.5, 1};
+    for (int round = 0; round < 90; ++round) {
+        Prism prism = random_prism(random);
+        prism.axis = 2;
+        const double by = offsets[random() % 6];
+        INFO("round " << round << ", by " << by);
+        const FieldPtr body = make_mesh_field(close_mesh(mesh_of(prism, random)));
+        const FieldPtr moved = make_in_plane_offset(body, {[by](double) { return by; }, {by, by}}, tolerance);
+        const double z = prism.low + 0.25 * (1 + static_cast<int>(random() % 3));
+        const auto from_outline = [&](dvec2 p) {
+            double least = infinity;
+            for (std::size_t i = 0, j = prism.polygon.size() - 1; i < prism.polygon.size(); j = i++) {
+                const dvec2 a = prism.polygon[j], side = prism.polygon[i] - a;
+                const double t = std::clamp(glm::dot(p - a, side) / glm::dot(side, side), 0.0, 1.0);
+                least = std::min(least, glm::length(a + side * t - p));
+            }
+            return least;
+        };
+        const auto truth = [&](dvec3 p) {
+            const double inside = (prism.holds(p) ? 1 : -1) * from_outline(dvec2(p)) + by;
+            return std::abs(inside) < 1.5 * tolerance ? -1 : inside > 0 ? 1 : 0;
+        };
+        judge(*moved, z, lines(round % 2 == 0 ? Axis::x : Axis::y, 0.25, 0.25), truth, counts);
+    }
+    CHECK(counts.judged > 100'000);
+    CHECK(counts.solid > 20'000);
+    CHECK(counts.wrong == 0);
 }
 
 }  // namespace lattice_aligned_test
