@@ -5,6 +5,7 @@
 
 #include "engine/solids/closed_slice.h"
 #include "procedural/lattice/line_walk.h"
+#include "procedural/lattice/wall_line.h"
 #include "procedural/lattice/wave_runs.h"
 
 namespace lamella {
@@ -25,13 +26,23 @@ Rect region_at(const Box& region, double z) {
 /// The solid's value along the lines of a band.
 class TpmsLines : public LineFunction {
   public:
-    TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z)
+    TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
+              const SineCosine& height)
         : solid_(solid),
           band_(band),
           along_(band.axis == Axis::x ? 0 : 1),
           z_(z),
           unit_(std::abs(band.along_pitch) / run_unit) {
-        for (const int l : lines) places_.push_back(band.line(l));
+        const double period = solid.period(), center = solid.center()[1 - along_];
+        const bool tabulates = solid.wall() != nullptr && solid.has_constant_period() &&
+                               TpmsSolid::half_angle(solid.thickness_over(solid.region()).hi, period) <=
+                                   WallLine::greatest_half(*solid.wall());
+        for (const int l : lines) {
+            places_.push_back(band.line(l));
+            if (!tabulates) continue;
+            const SineCosine across = TpmsSolid::angle(places_.back() - center, period);
+            walls_.emplace_back(*solid.wall(), band.axis, across, height);
+        }
     }
 
     void values(std::span<const LinePoint> points, std::span<double> out) const override {
@@ -41,7 +52,14 @@ class TpmsLines : public LineFunction {
             places[i][along_] = band_.along(points[i].u);
             places[i][1 - along_] = places_[points[i].line];
         }
-        solid_.bounds(places, out);
+        if (walls_.empty()) return solid_.bounds(places, out);
+        const double period = solid_.period(), center = solid_.center()[along_];
+        solid_.thicknesses(places, out);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double turns = (places[i][along_] - center) / period;
+            const double half = TpmsSolid::half_angle(out[i], period);
+            out[i] = walls_[points[i].line].bound(turns, half) * (period / (2 * pi));
+        }
     }
     double steepest(std::size_t /*line*/) const override { return unit_ * solid_.steepest(along_); }
 
@@ -50,7 +68,8 @@ class TpmsLines : public LineFunction {
     const RowBand& band_;
     int along_;
     double z_, unit_;
-    std::vector<double> places_;  // of the lines, mm
+    std::vector<double> places_;   // of the lines, mm
+    std::vector<WallLine> walls_;  // along the lines, where they can be tabulated
 };
 
 }  // namespace
@@ -104,7 +123,7 @@ void TpmsSlice::walked_spans(const RowBand& band, RunRows& out) const {
         for (int l = 0; l < count; ++l) out.end_line();
     };
     end_lines(walked.empty() ? band.lines() : walked.front());
-    walk_lines(TpmsLines(solid_, band, walked, z_), walked.size(), lo, hi, out);
+    walk_lines(TpmsLines(solid_, band, walked, z_, height_), walked.size(), lo, hi, out);
     if (!walked.empty()) end_lines(band.lines() - 1 - walked.back());
 }
 

@@ -23,6 +23,10 @@ class TpmsSolid {
     /// The period at the region's centre, mm.
     double period() const { return period_; }
     double period_at(dvec3 p) const { return constant_period_ ? period_ : settings_.period->at(p); }
+    /// Half of a thickness, in radians.
+    static double half_angle(double thickness, double period) { return turn / 2 * thickness / period; }
+    /// The wall of a sheet; null for a network.
+    const TpmsWall* wall() const { return network_ ? nullptr : &wall_; }
     double thickness_at(dvec3 p) const {
         return constant_thickness_ ? thickness_ : settings_.thickness->at(p);
     }
@@ -61,9 +65,6 @@ class TpmsSolid {
     dvec3 survey_gradings() const;
 
     static constexpr double turn = 6.28318530717958647693;
-
-    /// Half of a thickness, in radians.
-    static double half_angle(double thickness, double period) { return turn / 2 * thickness / period; }
 
     TpmsSettings settings_;
     TpmsConstants g_;

@@ -36,6 +36,13 @@ struct TpmsPoint {
     SineCosine x, y, z;
 };
 
+/// Returns a point of a line in the direction `axis` of a plane, given its angle along the line, the line's
+/// across it and the plane's.
+inline TpmsPoint tpms_point_on(Axis axis, const SineCosine& along, const SineCosine& across,
+                               const SineCosine& z) {
+    return axis == Axis::x ? TpmsPoint{along, across, z} : TpmsPoint{across, along, z};
+}
+
 /// Returns the point at the angles p.
 TpmsPoint tpms_point(dvec3 p);
 

@@ -33,7 +33,7 @@ dvec3 gradient_step(const TpmsSample& sample) {
     return sample.gradient * (-sample.g / std::max(glm::dot(sample.gradient, sample.gradient), flat));
 }
 
-double radius_of_uniqueness(TpmsKind kind) {
+double sole_distance(TpmsKind kind) {
     switch (kind) {
         case TpmsKind::gyroid:
         case TpmsKind::schwarz_p:
@@ -66,12 +66,10 @@ struct TpmsWall::Line {
     SineCosine across, z;
     double half;
 
-    TpmsPoint point(const SineCosine& turn) const {
-        return axis == Axis::x ? TpmsPoint{turn, across, z} : TpmsPoint{across, turn, z};
-    }
+    TpmsPoint point(const SineCosine& turn) const { return tpms_point_on(axis, turn, across, z); }
 };
 
-TpmsWall::TpmsWall(TpmsKind kind) : kind_(kind), g_(tpms_constants(kind)), sole_(radius_of_uniqueness(kind)) {
+TpmsWall::TpmsWall(TpmsKind kind) : kind_(kind), g_(tpms_constants(kind)), sole_(sole_distance(kind)) {
     for (std::size_t i = 0; i < first_parts; ++i)
         turns_[i] = sine_cosine(static_cast<double>(i) * (turn_angle / first_parts));
 }
@@ -95,7 +93,8 @@ double TpmsWall::bound(const TpmsPoint& point, double half) const {
 }
 
 double TpmsWall::nearest(const TpmsPoint& point, const TpmsSample& sample, double half, bool exact) const {
-    double value = search(point, gradient_step(sample), half, exact);
+    dvec3 first = gradient_step(sample);
+    double value = search(point, first, half, exact);
     const bool is_sole = exact ? value + half <= sole_ : value < 0 || half <= sole_;
     if (!is_sole) {
         // The surface may be nearer on another side, most likely where g comes closest to the other sign.
@@ -107,9 +106,9 @@ double TpmsWall::nearest(const TpmsPoint& point, const TpmsSample& sample, doubl
         }
         std::partial_sort(found.begin(), found.begin() + searches, found.end());
         for (std::size_t i = 0; i < searches; ++i) {
-            const dvec3 offset = ways[found[i].second] * half;
-            const dvec3 step = gradient_step(tpms_sample(kind_, tpms_point_beside(point, offset)));
-            value = std::min(value, search(point, offset + step, half, exact));
+            dvec3 offset = ways[found[i].second] * half;
+            offset += gradient_step(tpms_sample(kind_, tpms_point_beside(point, offset)));
+            value = std::min(value, search(point, offset, half, exact));
         }
     }
     value = std::min(value, longest(std::abs(sample.g), glm::length(sample.gradient), g_.sharpest) - half);
@@ -117,7 +116,7 @@ double TpmsWall::nearest(const TpmsPoint& point, const TpmsSample& sample, doubl
     return value < infinity ? std::max(value, std::abs(sample.g) / g_.steepest - half) : 0;
 }
 
-double TpmsWall::search(const TpmsPoint& point, dvec3 offset, double half, bool exact) const {
+double TpmsWall::search(const TpmsPoint& point, dvec3& offset, double half, bool exact) const {
     double multiplier = 0;
     for (int i = 0; i < max_newton_steps; ++i) {
         const TpmsPoint at = tpms_point_beside(point, offset);
@@ -142,6 +141,16 @@ double TpmsWall::search(const TpmsPoint& point, dvec3 offset, double half, bool 
             return value < 0 ? value + length : value - length;
     }
     return infinity;
+}
+
+std::optional<TpmsWall::Nearest> TpmsWall::signed_distance(const TpmsPoint& point) const {
+    const TpmsSample sample = tpms_sample(kind_, point);
+    if (shortest(std::abs(sample.g), glm::length(sample.gradient), g_.sharpest) > sole_) return std::nullopt;
+    dvec3 offset = gradient_step(sample);
+    const double distance = search(point, offset, 0, true);
+    if (!(distance <= sole_)) return std::nullopt;
+    const dvec3 normal = glm::normalize(tpms_sample(kind_, tpms_point_beside(point, offset)).gradient);
+    return Nearest{sample.g < 0 ? -distance : distance, normal};
 }
 
 Interval TpmsWall::range(const Box& angles, Interval half) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "procedural/lattice/tpms_surface.h"
@@ -24,6 +25,15 @@ class TpmsWall {
     double value(const TpmsPoint& point, double half) const;
     /// Returns a bound of the same sign that is faster to compute, but jumps.
     double bound(const TpmsPoint& point, double half) const;
+    /// The distance from the surface, with the sign of g, and the direction in which it grows.
+    struct Nearest {
+        double distance;
+        dvec3 normal;
+    };
+    /// Returns these where the nearest point of the surface is known to be the only one; elsewhere the
+    /// distance is at least about radius_of_uniqueness().
+    std::optional<Nearest> signed_distance(const TpmsPoint& point) const;
+    double radius_of_uniqueness() const { return sole_; }
     /// Returns bounds of the values over a box of angles, for all half thicknesses of an interval.
     Interval range(const Box& angles, Interval half) const;
     /// Finds the turns, ascending and within [-1, 1], in which one period of a line in the direction `axis`
@@ -36,7 +46,7 @@ class TpmsWall {
     struct Line;
 
     double nearest(const TpmsPoint& point, const TpmsSample& sample, double half, bool exact) const;
-    double search(const TpmsPoint& point, dvec3 offset, double half, bool exact) const;
+    double search(const TpmsPoint& point, dvec3& offset, double half, bool exact) const;
     double bound_on(const Line& line, const SineCosine& turn) const;
     void find_crossings(const Line& line, Interval turns, Interval values, int depth,
                         std::vector<double>& crossings) const;
