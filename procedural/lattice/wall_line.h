@@ -22,7 +22,7 @@ class WallLine {
     double bound(double turns, double half) const;
 
   private:
-    static constexpr int parts = 32;
+    static constexpr int parts = 40;
     static constexpr double step = 2 * pi / parts;  // radians
 
     struct Node {

@@ -1,0 +1,45 @@
+// Tabulated distances along lines against those of single points.
+#include "procedural/lattice/wall_line.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+namespace wall_line_test {
+
+using namespace lamella;
+
+TEST_CASE("a line of a wall has the distances of its points, for every thickness", "[tpms]") {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> turns(-3, 3), angle(0, 2 * pi);
+    for (const TpmsKind kind :
+         {TpmsKind::gyroid, TpmsKind::schwarz_p, TpmsKind::schwarz_d, TpmsKind::neovius}) {
+        INFO("kind " << static_cast<int>(kind));
+        const TpmsWall wall(kind);
+        const double greatest = WallLine::greatest_half(wall);
+        REQUIRE(greatest > 0);
+        double error = 0;
+        int solid = 0, wrong = 0;
+        for (int i = 0; i < 60; ++i) {
+            const Axis axis = i % 2 == 0 ? Axis::x : Axis::y;
+            const SineCosine across = sine_cosine(angle(random)), z = sine_cosine(angle(random));
+            const WallLine line(wall, axis, across, z);
+            for (int k = 0; k < 400; ++k) {
+                const double t = turns(random);
+                const TpmsPoint point = tpms_point_on(axis, sine_cosine(2 * pi * t), across, z);
+                for (const double half : {greatest, greatest / 2, greatest / 8}) {
+                    const double exact = wall.value(point, half), tabulated = line.bound(t, half);
+                    if (std::abs(exact) > 1e-4 && (exact < 0) != (tabulated < 0)) ++wrong;
+                    if (!(exact < 0)) continue;
+                    ++solid;
+                    // Where no piece is tabulated the bound may be nearer to zero.
+                    error = std::max(error, exact - tabulated);
+                }
+            }
+        }
+        CHECK(solid > 1000);
+        CHECK(wrong == 0);
+        CHECK(error < 1e-4);
+    }
+}
+
+}  // namespace wall_line_test
