@@ -6,7 +6,6 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -16,23 +15,30 @@
 namespace lamella {
 namespace {
 
-/// A slot for one layer in flight. The pipeline itself synchronises the hand-over between threads; the lock
-/// makes it visible to tools that cannot see into the pipeline, such as a race detector.
+/// A slot for one layer in flight. The pipeline synchronises the hand-over between threads.
 struct Slot {
-    std::mutex busy;
     std::optional<Layer> layer;
     std::unique_ptr<LayerProduct> product;
 };
 
-/// Locks and unlocks every mutex when the stream is left, on any path, so that a race detector sees that the
-/// threads' work happened before.
-struct Rejoin {
-    std::mutex& in_order;
-    std::vector<Slot>& slots;
-    ~Rejoin() {
-        for (Slot& slot : slots) const std::lock_guard lock(slot.busy);
-        const std::lock_guard lock(in_order);
+/// One stage of the pipeline: work() with its hand-over.
+template <typename Work>
+class PipelineStage {
+  public:
+    PipelineStage(HandOver& hand_over, const Work& work) : hand_over_(hand_over), work_(work) {}
+
+    template <typename Input>
+    auto operator()(Input&& input) const {
+        const HandOver::Turn turn(stage_hand_over());
+        return work_(std::forward<Input>(input));
     }
+
+  private:
+    /// A function, so that tests/tsan.supp can name the one read that comes before the hand-over.
+    HandOver& stage_hand_over() const { return hand_over_; }
+
+    HandOver& hand_over_;
+    Work work_;
 };
 
 /// One stream of layers: indices in order, layers rendered in parallel, products written in order. At most
@@ -56,37 +62,35 @@ class LayerStream {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         tbb::task_arena arena(threads);
-        HandOver hand_over;
-        arena.execute([&] {
-            const HandOver::Turn turn(hand_over);
-            const Rejoin rejoin{in_order_, slots_};
-            using tbb::filter_mode;
-            tbb::parallel_pipeline(
-                slots_.size(),
-                tbb::make_filter<void, int>(filter_mode::serial_in_order, [&](tbb::flow_control& control) {
-                    const HandOver::Turn next(hand_over);
-                    return issue(control);
-                }) & tbb::make_filter<int, int>(filter_mode::parallel, [this](int index) {
-                    return render(index);
-                }) & tbb::make_filter<int, void>(filter_mode::serial_in_order, [this](int index) {
-                    write(index);
-                }));
-        });
+        run_on(arena);
         return !(cancelled() && (stopped_ || next_ < end_));
     }
 
     const Progress& progress() const { return progress_; }
 
   private:
-    bool cancelled() const { return control_.cancel != nullptr && control_.cancel->cancelled(); }
-
-    Slot& slot_of(int index) {
-        const std::lock_guard lock(in_order_);
-        return slots_[static_cast<std::size_t>(index) % slots_.size()];
+    void run_on(oneapi::tbb::task_arena& arena) {
+        using namespace oneapi::tbb;
+        HandOver hand_over;
+        const auto stage = [&](const auto& work) { return PipelineStage(hand_over, work); };
+        arena.execute([&] {
+            const HandOver::Turn turn(hand_over);
+            parallel_pipeline(
+                slots_.size(),
+                make_filter<void, int>(filter_mode::serial_in_order,
+                                       stage([this](flow_control& control) { return issue(control); })) &
+                    make_filter<int, int>(filter_mode::parallel,
+                                          stage([this](int index) { return render(index); })) &
+                    make_filter<int, void>(filter_mode::serial_in_order,
+                                           stage([this](int index) { write(index); })));
+        });
     }
 
+    bool cancelled() const { return control_.cancel != nullptr && control_.cancel->cancelled(); }
+
+    Slot& slot_of(int index) { return slots_[static_cast<std::size_t>(index) % slots_.size()]; }
+
     int issue(oneapi::tbb::flow_control& control) {
-        const std::lock_guard lock(in_order_);
         if (next_ >= end_ || cancelled()) {
             control.stop();
             return -1;
@@ -97,7 +101,6 @@ class LayerStream {
     /// Leaves the slot without a product when the stream is cancelled before or while the layer is rendered.
     int render(int index) {
         Slot& slot = slot_of(index);
-        const std::lock_guard lock(slot.busy);
         if (cancelled()) return index;
         slot.layer.emplace(job_, index, control_.cancel);
         try {
@@ -112,7 +115,6 @@ class LayerStream {
     /// Writes nothing from the first missing layer on.
     void write(int index) {
         Slot& slot = slot_of(index);
-        const std::lock_guard lock(slot.busy);
         stopped_ = stopped_ || !slot.product;
         if (!stopped_) {
             pass_.write(*slot.layer, *slot.product);
@@ -124,7 +126,6 @@ class LayerStream {
         }
         slot.product.reset();
         slot.layer.reset();
-        const std::lock_guard done(in_order_);
     }
 
     const Job& job_;
@@ -132,7 +133,6 @@ class LayerStream {
     const PassControl& control_;
     int end_, next_;
     std::vector<Slot> slots_;
-    std::mutex in_order_;
     Progress progress_;
     bool stopped_ = false;
 };

@@ -1,12 +1,11 @@
 // Planes served from slabs, against the query asked for each plane anew.
 #include "procedural/foam/piece_slabs.h"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "engine/base/parallel.h"
 #include "procedural/foam/voronoi_foam.h"
 #include "tests/engine/field/gradings.h"
 
@@ -92,7 +91,7 @@ TEST_CASE("threads share slabs and find the same planes", "[piece_slabs]") {
         return foam.beams_touching(box);
     };
     std::vector<std::vector<Beam>> planes(60);
-    tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t i) {
+    parallel_for(planes.size(), [&](std::size_t i) {
         planes[i] = slabs.at(0, left, 0.05 * static_cast<double>(i), query).beams;
     });
     const auto quiet = [&](const Box& box) { return foam.beams_touching(box); };
