@@ -77,7 +77,7 @@ enum {
 
 /* Returns the interface version of the library; compare it with LAMELLA_ABI_VERSION. */
 LAMELLA_API uint32_t lamella_abi_version(void);
-/* Returns the version of the library, "0.1.0". */
+/* Returns the version of the library, "0.2.0". */
 LAMELLA_API const char* lamella_version(void);
 /* Returns a status as words: "ok", "bad input", ... */
 LAMELLA_API const char* lamella_status_name(int32_t status);

@@ -6,7 +6,7 @@
 # name = "Lamella"
 # description = "Fills what is sliced with the foam of a Lamella recipe."
 # author = "Lamella"
-# version = "0.1.0"
+# version = "0.2.0"
 # type = "slicing-pipeline"
 # ///
 """OrcaSlicer plugin: fills slices with the foam of a Lamella recipe.
