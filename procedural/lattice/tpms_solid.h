@@ -64,7 +64,7 @@ class TpmsSolid {
     void periods(std::span<const dvec3> points, std::span<double> out) const;
     dvec3 survey_gradings() const;
 
-    static constexpr double turn = 6.28318530717958647693;
+    static constexpr double turn = 2 * pi;
 
     TpmsSettings settings_;
     TpmsConstants g_;

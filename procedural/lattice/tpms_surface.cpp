@@ -50,15 +50,15 @@ Interval interval_range(TpmsKind kind, const Box& angles) {
 TpmsConstants tpms_constants(TpmsKind kind) {
     switch (kind) {
         case TpmsKind::gyroid:
-            return {root_3, root_2, 2, -root_2, 1.5, 1.4357};
+            return {root_3, 2, -root_2, 1.5, 1.4357};
         case TpmsKind::schwarz_p:
-            return {root_3, 1, 1, -1, 3, 2.6573};
+            return {root_3, 1, -1, 3, 2.6573};
         case TpmsKind::schwarz_d:
-            return {root_3, root_2, 2, -1, root_2, 1.3316};
+            return {root_3, 2, -1, root_2, 1.3316};
         case TpmsKind::neovius:
             break;
     }
-    return {7, 7, 7, -0.75, 13, 2.5457};
+    return {7, 7, -0.75, 13, 2.5457};
 }
 
 TpmsPoint tpms_point(dvec3 p) { return {sine_cosine(p.x), sine_cosine(p.y), sine_cosine(p.z)}; }

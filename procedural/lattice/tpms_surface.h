@@ -22,12 +22,11 @@ struct Wave {
 /// Constants of a function g that the formulas of tpms.h need. All four g are antisymmetric: shifted by half
 /// a period along some axes, g becomes -g. Derivatives are those with respect to the angles.
 struct TpmsConstants {
-    double steepest;        ///< maximum gradient anywhere
-    double steepest_along;  ///< maximum derivative along one axis
-    double sharpest;        ///< maximum second derivative along any direction
-    double joined;          ///< lowest level at which g < level is connected
-    double greatest;        ///< maximum of |g|
-    double farthest;        ///< maximum distance of a point from g = 0, radians
+    double steepest;  ///< maximum gradient anywhere
+    double sharpest;  ///< maximum second derivative along any direction
+    double joined;    ///< lowest level at which g < level is connected
+    double greatest;  ///< maximum of |g|
+    double farthest;  ///< maximum distance of a point from g = 0, radians
 };
 TpmsConstants tpms_constants(TpmsKind kind);
 

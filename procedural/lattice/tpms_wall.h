@@ -33,6 +33,7 @@ class TpmsWall {
     /// Returns these where the nearest point of the surface is known to be the only one; elsewhere the
     /// distance is at least about radius_of_uniqueness().
     std::optional<Nearest> signed_distance(const TpmsPoint& point) const;
+    /// The distance below which a point of space has one nearest point, which the search finds; measured.
     double radius_of_uniqueness() const { return sole_; }
     /// Returns bounds of the values over a box of angles, for all half thicknesses of an interval.
     Interval range(const Box& angles, Interval half) const;
@@ -45,7 +46,11 @@ class TpmsWall {
   private:
     struct Line;
 
+    /// The value where the bounds leave it open. `exact` asks for that of value(), else for one of bound().
     double nearest(const TpmsPoint& point, const TpmsSample& sample, double half, bool exact) const;
+    /// Moves `offset` from the point to a nearest point of the surface, by Newton's method from where it
+    /// starts. Returns its length less `half`, or a number of the same sign nearer to zero unless `exact`;
+    /// infinity if the method fails.
     double search(const TpmsPoint& point, dvec3& offset, double half, bool exact) const;
     double bound_on(const Line& line, const SineCosine& turn) const;
     void find_crossings(const Line& line, Interval turns, Interval values, int depth,
@@ -56,7 +61,8 @@ class TpmsWall {
 
     TpmsKind kind_;
     TpmsConstants g_;
-    double sole_;  ///< points nearer than this are known to have one nearest point, which the search finds
+    double sole_;  ///< radians; the search finds the nearest point of the surface for all points nearer than
+                   ///< this
     std::array<SineCosine, first_parts> turns_;
 };
 
