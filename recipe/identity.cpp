@@ -90,6 +90,7 @@ std::string job_identity(const Recipe& recipe) {
         if (section.name == "foam" && !recipe.foam) continue;
         if (section.name == "frame" && !recipe.frame) continue;
         if (section.name == "skin" && !recipe.skin) continue;
+        if (section.name == "optimize" && !recipe.optimize) continue;
         if (section.name == "cavity" && !recipe.cavity) continue;
         if (section.name == "shield" && !recipe.shield) continue;
         if (section.name == "process" && !recipe.process) continue;

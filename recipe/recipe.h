@@ -14,6 +14,8 @@
 #include "engine/solids/shell.h"
 #include "printers/common/profile.h"
 #include "procedural/grading/attractors.h"
+#include "recipe/number_rows.h"
+#include "recipe/optimize_recipe.h"
 
 namespace lamella {
 
@@ -41,12 +43,6 @@ using GradedTriple = std::array<GradedNumber, 3>;
 
 /// Returns the numbers of a triple; nothing when one is a formula.
 std::optional<dvec3> constant(const GradedTriple& triple);
-
-/// Rows of numbers, all of one length: points, corners, ends of segments, rows of a table.
-using NumberRows = std::vector<std::vector<double>>;
-
-/// Returns the box between two corners, mm; empty when the first is not the lower one.
-Box box_of(const NumberRows& corners);
 
 struct PartRecipe {
     std::string mesh;   ///< path of the mesh file; empty when the body is something else
@@ -275,6 +271,9 @@ struct Recipe {
     std::vector<FieldRecipe> fields;
     std::vector<GradingRecipe> gradings;
     std::vector<RegionRecipe> regions;
+    std::vector<LoadRecipe> loads;
+    std::vector<AnchorRecipe> anchors;
+    std::optional<OptimizeRecipe> optimize;
     std::optional<FoamRecipe> foam;
     std::optional<MaterialRecipe> material;
     std::optional<FrameRecipe> frame;

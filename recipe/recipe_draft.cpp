@@ -38,7 +38,8 @@ std::vector<std::string> keys_of(const Kind& kind) {
 /// Keys of every entry of a list section.
 std::vector<std::string> needs_of_list(std::string_view section) {
     if (section == "hole") return {"at", "radius"};
-    if (section == "region") return {};
+    if (section == "load") return {"force|pressure"};
+    if (section == "region" || section == "anchor") return {};
     return {"name"};
 }
 
@@ -162,21 +163,28 @@ std::string RecipeDraft::where_begins(const std::string& section, std::size_t nu
 
 void RecipeDraft::check_need(const Part& part, const std::string& need, const std::string& why) {
     const std::vector<std::string> keys = alternatives(need);
-    std::vector<std::string> given;
-    for (const std::string& key : keys) {
-        if (entry(part.section, key, part.entry)) given.push_back(key);
-    }
-    const Setting& setting = *find_setting(part.section, keys.front());
-    if (given.empty()) {
+    const auto is_given = [&](const std::string& key) {
+        return entry(part.section, key, part.entry) != nullptr;
+    };
+    if (std::none_of(keys.begin(), keys.end(), is_given)) {
+        const Setting& setting = *find_setting(part.section, keys.front());
         const std::string other =
             keys.size() > 1 ? fmt::format(" (or {})", listed({keys.begin() + 1, keys.end()}, " or ")) : "";
         refuse(0, fmt::format("{}: missing, required by {}{}; accepted: {}",
                               where(part.section, keys.front(), part.entry), why, other, accepted(setting)));
-    } else if (given.size() > 1) {
-        refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of {}",
-                              where(part.section, given[1], part.entry),
-                              where(part.section, given[0], part.entry), listed(keys)));
     }
+    check_at_most_one(part, keys);
+}
+
+void RecipeDraft::check_at_most_one(const Part& part, const std::vector<std::string>& keys) {
+    std::vector<std::string> given;
+    for (const std::string& key : keys) {
+        if (entry(part.section, key, part.entry)) given.push_back(key);
+    }
+    if (given.size() < 2) return;
+    refuse(0, fmt::format("{}: conflicts with {}; accepted: only one of {}",
+                          where(part.section, given[1], part.entry),
+                          where(part.section, given[0], part.entry), listed(keys)));
 }
 
 /// Returns true if a foam's modulus determines its cells or its members.
@@ -204,14 +212,21 @@ void RecipeDraft::check_kind(const KindSection& section, std::size_t number) {
         // A misspelt key stands for the nearest one, without a place: it has been told already.
         if (!given || given->where.empty()) continue;
         if (std::find(wanted.begin(), wanted.end(), key) != wanted.end()) continue;
+        std::string right = listed(wanted);
+        if (wanted.empty()) {  // the kind has no key of its own: those that have this one are told
+            for (const Kind& other : section.kinds) {
+                const std::vector<std::string> its = keys_of(other);
+                if (std::find(its.begin(), its.end(), key) == its.end()) continue;
+                right += (right.empty() ? section.key + " " : ", ") + other.word;
+            }
+        }
         const bool no_shape = section.section == "part" && word == "none";
-        refuse(
-            0,
-            no_shape
-                ? fmt::format(
-                      "{}: applies only to a shape; accepted: this key together with part.shape / --shape",
-                      given->where)
-                : fmt::format("{}: does not apply to {}; accepted: {}", given->where, why, listed(wanted)));
+        refuse(0,
+               no_shape
+                   ? fmt::format(
+                         "{}: applies only to a shape; accepted: this key together with part.shape / --shape",
+                         given->where)
+                   : fmt::format("{}: does not apply to {}; accepted: {}", given->where, why, right));
     }
 }
 
@@ -261,6 +276,7 @@ void RecipeDraft::check_structure() {
     if (count(*find_section("cavity")) > 0) check_need({"cavity", 0}, "wall", "a cavity");
     if (count(*find_section("shield")) > 0) check_need({"shield", 0}, "gap", "a shield");
     if (count(*find_section("frame")) > 0) check_need({"frame", 0}, "beam", "a frame");
+    check_problem_keys();
 }
 
 /// Checks that the pixel size is given in one way: by its edge, both its sides, or dots per inch. A flag has
@@ -334,7 +350,13 @@ Recipe RecipeDraft::assemble() {
     hand_over("grading", recipe.gradings, host_gradings_);
     for (std::size_t i = 0; i < recipe.regions.size(); ++i)
         recipe.regions[i].where = where_begins("region", i);
+    for (std::size_t i = 0; i < recipe.loads.size(); ++i) recipe.loads[i].where = where_begins("load", i);
+    for (std::size_t i = 0; i < recipe.anchors.size(); ++i)
+        recipe.anchors[i].where = where_begins("anchor", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
+    if (count(*find_section("optimize")) > 0 && !recipe.optimize) recipe.optimize.emplace();
+    if (recipe.optimize && recipe.optimize->kind == OptimizeKind::appearance && !entry("optimize", "method"))
+        recipe.optimize->method = OptimizeMethod::mma;
     // A skin of no thickness is none, unless a region gives it one: its other keys hold there.
     const auto makes_skin = [](const RegionRecipe& region) { return region.make == RegionMake::skin; };
     if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin)) {
@@ -374,6 +396,7 @@ Recipe RecipeDraft::finish() {
         check_numbers(recipe);
         for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
         for (std::string& mistake : region_mistakes(recipe)) refuse(0, std::move(mistake));
+        check_problem(recipe);
     } else if (knows_all_gradings()) {
         for (std::string& mistake : formula_text_mistakes(recipe)) refuse(0, std::move(mistake));
     }

@@ -105,6 +105,8 @@ class RecipeDraft {
     void check_kind(const KindSection& section, std::size_t number);
     bool is_chosen_for_modulus(const KindSection& section, const std::string& need) const;
     void check_need(const Part& part, const std::string& need, const std::string& why);
+    /// Refuses all but the first of the keys that are given.
+    void check_at_most_one(const Part& part, const std::vector<std::string>& keys);
     void check_structure();
     void check_printer();
     bool knows_all_gradings() const;
@@ -127,6 +129,20 @@ class RecipeDraft {
     void check_foam(const FoamRecipe& foam);
     void check_modulus(const Recipe& recipe);
     void check_material(const Recipe& recipe);
+
+    // Loads, anchors and what is optimised: recipe_optimize.cpp.
+    void check_problem_keys();
+    void check_place_keys(const std::string& section, std::size_t number);
+    void check_axes(const std::string& section, const std::string& key, std::size_t number);
+    void check_problem(const Recipe& recipe);
+    void check_place(const Recipe& recipe, const std::string& section, std::size_t number,
+                     const PlaceRecipe& place);
+    void check_weights(const Recipe& recipe);
+    void check_held(const Recipe& recipe);
+    void check_two_dimensions(const Recipe& recipe);
+    void check_density(const Recipe& recipe);
+    void check_optimize(const Recipe& recipe);
+    void check_driven_foam(const Recipe& recipe);
 
     std::map<Place, Entry> entries_;
     std::map<Part, std::string> sections_;  ///< sections in the file, with the places where they begin

@@ -112,14 +112,8 @@ class FormulaCheck {
     void check_body_name() {
         const std::string& name = recipe_.part.field;
         if (name.empty()) return;
-        std::vector<std::string> known;
-        for (const FieldRecipe& field : recipe_.fields) known.push_back(field.name);
-        if (std::find(known.begin(), known.end(), name) != known.end()) return;
-        const std::string near = nearest(name, known);
-        refuse("part.field",
-               fmt::format("no [[field]] is named \"{}\"", name.substr(0, 64)) +
-                   (near.empty() ? "" : fmt::format(", did you mean `{}`?", near)),
-               known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
+        if (std::string wrong = unknown_field(recipe_, "part.field", name); !wrong.empty())
+            mistakes_.push_back(std::move(wrong));
     }
 
     void check_formulas() {
@@ -280,6 +274,8 @@ std::string unused_entries(const Recipe& recipe) {
         solids.insert(region.field);
         for (const RegionNumber& given : numbers_of(region)) open.push_back(given.number);
     }
+    for (const LoadRecipe& load : recipe.loads) solids.insert(load.field);
+    for (const AnchorRecipe& anchor : recipe.anchors) solids.insert(anchor.field);
     for (const FieldRecipe& field : recipe.fields) {
         if (solids.contains(field.name)) {
             open.push_back(&field.formula);

@@ -42,6 +42,13 @@ const std::vector<KindSection>& kind_sections() {
           {"skin", {"field", "thickness"}, {"blend"}},
           {"blocker", {"field"}, {}},
           {"enforcer", {"field"}, {}}}},
+        {"optimize",
+         "kind",
+         "stiffness",
+         {{"stiffness", {}, {}},
+          {"appearance",
+           {"image", "image_size"},
+           {"volume_min", "compliance", "invert", "neighbourhood", "exponent", "spread", "levels"}}}},
         {"foam", "kind", "voronoi", keys_of(foam_builders())},
         {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;

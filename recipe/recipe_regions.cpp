@@ -17,17 +17,6 @@ bool is_given(const GradedNumber& number, bool zero_counts) {
     return number.is_formula() || number.number() > 0 || (zero_counts && number.number() == 0);
 }
 
-std::string unknown_field(const Recipe& recipe, const RegionRecipe& region) {
-    std::vector<std::string> known;
-    for (const FieldRecipe& field : recipe.fields) known.push_back(field.name);
-    if (std::find(known.begin(), known.end(), region.field) != known.end()) return "";
-    const std::string near = nearest(region.field, known);
-    return fmt::format("{}.field: no [[field]] is named \"{}\"{}; accepted: {}", region.where,
-                       region.field.substr(0, 64),
-                       near.empty() ? "" : fmt::format(", did you mean `{}`?", near),
-                       known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
-}
-
 /// Returns the limits of a number in the foam or skin; nothing when it has no such number.
 std::optional<Interval> limits_of(const Recipe& recipe, const std::string& key) {
     if (key == "skin.thickness") return Interval{recipe.skin->thickness_min, recipe.skin->thickness_max};
@@ -68,7 +57,7 @@ void check_number(const Recipe& recipe, const RegionNumber& given, std::vector<s
 }
 
 void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<std::string>& mistakes) {
-    if (std::string wrong = unknown_field(recipe, region); !wrong.empty())
+    if (std::string wrong = unknown_field(recipe, region.where + ".field", region.field); !wrong.empty())
         mistakes.push_back(std::move(wrong));
     const std::vector<RegionNumber> numbers = numbers_of(region);
     const bool rules_supports = region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
@@ -97,6 +86,16 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
 }
 
 }  // namespace
+
+std::string unknown_field(const Recipe& recipe, const std::string& where, const std::string& name) {
+    std::vector<std::string> known;
+    for (const FieldRecipe& field : recipe.fields) known.push_back(field.name);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return "";
+    const std::string near = nearest(name, known);
+    return fmt::format("{}: no [[field]] is named \"{}\"{}; accepted: {}", where, name.substr(0, 64),
+                       near.empty() ? "" : fmt::format(", did you mean `{}`?", near),
+                       known.empty() ? "the name of a [[field]]" : fmt::format("{}", fmt::join(known, ", ")));
+}
 
 std::vector<RegionNumber> numbers_of(const RegionRecipe& region) {
     std::vector<RegionNumber> numbers;

@@ -18,6 +18,9 @@ const std::vector<std::string>& choice_names(Falloff);
 const std::vector<std::string>& choice_names(SkinSide);
 const std::vector<std::string>& choice_names(SupportKind);
 const std::vector<std::string>& choice_names(RegionMake);
+const std::vector<std::string>& choice_names(OptimizeKind);
+const std::vector<std::string>& choice_names(OptimizeResult);
+const std::vector<std::string>& choice_names(OptimizeMethod);
 const std::vector<std::string>& choice_names(ImageFormat);
 const std::vector<std::string>& choice_names(Antialiasing);
 const std::vector<std::string>& choice_names(CliFormat);
@@ -34,6 +37,11 @@ const std::vector<std::string>& choice_names(SeverityOverride);
 /// The rows of the [[field]] and [[region]] sections.
 void add_field_settings(std::vector<Setting>& table);
 void add_region_settings(std::vector<Setting>& table);
+
+/// The rows of the [[load]], [[anchor]] and [optimize] sections.
+void add_load_settings(std::vector<Setting>& table);
+void add_anchor_settings(std::vector<Setting>& table);
+void add_optimize_settings(std::vector<Setting>& table);
 
 /// The rows of the [foam] section about stiffness, and of the [material] section.
 void add_stiffness_settings(std::vector<Setting>& table);

@@ -325,6 +325,9 @@ std::vector<Setting> make_table() {
     add_frame_settings(table);
     add_skin_settings(table);
     add_region_settings(table);
+    add_load_settings(table);
+    add_anchor_settings(table);
+    add_optimize_settings(table);
     add_cavity_settings(table);
     add_layers(table);
     add_process_settings(table);
@@ -390,6 +393,13 @@ std::span<const Section> sections() {
         {"hole", "a hole drilled through the skin", [](const Recipe& r) { return r.holes.size(); }},
         {"region", "a part of the body with other content or numbers; later ones win",
          [](const Recipe& r) { return r.regions.size(); }},
+        {"load", "a force or pressure on a place of the body; a place is a field, a box, a plane or a face",
+         [](const Recipe& r) { return r.loads.size(); }},
+        {"anchor", "a place of the body that is held; a place is a field, a box, a plane or a face",
+         [](const Recipe& r) { return r.anchors.size(); }},
+        {"optimize",
+         "the best shape within the part, or its best foam, under the loads; without this section the part "
+         "stays as it is"},
         {"cavity",
          "cavities inside the part whose roofs print without supports; without this section there are none"},
         {"layers", "how the part is cut into layers"},

@@ -1,4 +1,5 @@
 // What a recipe may say, and what it is told when it says something else.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -65,7 +66,7 @@ Value another_value(const Setting& setting) {
         case ValueType::boolean:
             return !std::get<bool>(held);
         case ValueType::integer:
-            return std::int64_t{setting.limits.hi < 7 ? 2 : 7};
+            return static_cast<std::int64_t>(std::max(setting.limits.lo, setting.limits.hi < 7 ? 2.0 : 7.0));
         case ValueType::number:
             return setting.limits.hi <= 1 ? 0.375 : 3.0625;
         case ValueType::text:
