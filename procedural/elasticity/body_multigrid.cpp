@@ -1,0 +1,400 @@
+// The V-cycle: Chebyshev smoothing, restriction, a dense solve on the coarsest grid, interpolation.
+#include "procedural/elasticity/body_multigrid.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <optional>
+
+#include "procedural/elasticity/galerkin.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int power_steps = 10;         // of the power iteration for the largest eigenvalue
+constexpr double safety = 1.1;          // factor on the eigenvalue estimate
+constexpr double smoothed_share = 6;    // the smoother damps eigenvalues down to this fraction of the largest
+constexpr std::size_t max_dense = 600;  // unknowns of a coarsest grid
+// The coarsest matrix comes from single precision: what is softer than this share of its diagonal is noise.
+constexpr double negligible = 1e-7;
+
+/// Returns the largest eigenvalue of D^-1 k for one element, D being the diagonal of k. It bounds that of any
+/// body of such elements, whatever their moduli: both K and its diagonal are sums over elements.
+template <std::size_t Dim>
+double greatest_of(const GridElement<Dim>& element) {
+    constexpr auto n = static_cast<Eigen::Index>(GridElement<Dim>::unknowns);
+    Eigen::MatrixXd k(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const auto& s = element.stiffness;
+            const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+            k(i, j) = s[a][b] / std::sqrt(s[a][a] * s[b][b]);
+        }
+    }
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+}  // namespace
+
+template <std::size_t Dim>
+struct BodyMultigrid<Dim>::Level {
+    using Vector = NodalVector<Dim, float>;
+
+    Level(const NodeGrid<Dim>& nodes, const std::vector<std::uint8_t>& present)
+        : grid(nodes),
+          runs(used_nodes(grid, present)),
+          inverse(grid.size()),
+          b(grid.size()),
+          x(grid.size()),
+          next(grid.size()),
+          step(grid.size()) {}
+
+    NodeGrid<Dim> grid;
+    NodeRuns runs;
+    ElementForces<Dim, float> elements;
+    std::optional<Stencils<Dim>> stencils;  // not on the finest grid
+    StencilForces<Dim> forces;
+    Vector inverse;       // of the diagonal; 0 where nothing moves
+    double greatest = 1;  // upper bound of the eigenvalues of D^-1 K
+    Vector b, x, next, step;
+    // Of the coarsest grid: the unknowns that move, and their stiffness.
+    std::vector<std::pair<std::size_t, std::size_t>> unknowns;
+    Eigen::LLT<Eigen::MatrixXd> factors;
+
+    /// Calls combine(d, first, last, force) for each run and direction: force[i - first] is (K at)_i.
+    template <typename Combine>
+    void for_each_force(const Vector& at, const Combine& combine) const {
+        constexpr std::size_t most = 4096;
+        runs.for_each([&](std::size_t begin, std::size_t end) {
+            std::array<std::array<float, most>, Dim> buffer;
+            for (std::size_t from = begin; from < end; from += most) {
+                const std::size_t to = std::min(end, from + most);
+                std::array<float*, Dim> out;
+                for (std::size_t d = 0; d < Dim; ++d) out[d] = buffer[d].data();
+                if (stencils) {
+                    multiply(forces, at.data(), out, from, to);
+                } else {
+                    multiply(elements, at.data(), out, from, to);
+                }
+                for (std::size_t d = 0; d < Dim; ++d) combine(d, from, to, out[d]);
+            }
+        });
+    }
+    void find_inverse();
+    void find_greatest();
+    void first_step(double take);
+    void next_step(double keep, double take);
+    void smooth(bool from_zero);
+    void find_rest();
+    void factorise();
+    void solve_directly();
+};
+
+/// Computes the inverse of the diagonal from the stencils.
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::find_inverse() {
+    constexpr std::size_t own = NodeGrid<Dim>::neighbours / 2 * Dim * Dim;
+    runs.for_each([&](std::size_t begin, std::size_t end) {
+        for (std::size_t d = 0; d < Dim; ++d) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const float diagonal = stencils->at(i, own + d * Dim + d);
+                inverse.along[d][i] = diagonal > 0 ? 1 / diagonal : 0;
+            }
+        }
+    });
+}
+
+/// Estimates the largest eigenvalue by power iteration.
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::find_greatest() {
+    for (std::size_t d = 0; d < Dim; ++d) {
+        std::uint32_t state = 12345 + static_cast<std::uint32_t>(d);
+        for (std::size_t i = 0; i < x.along[d].size(); ++i) {
+            state = state * 1664525U + 1013904223U;
+            x.along[d][i] =
+                inverse.along[d][i] > 0 ? static_cast<float>(state >> 8) / 16777216.0F - 0.5F : 0.0F;
+        }
+    }
+    const auto squares = [&](const Vector& v) {
+        return runs.sum([&](std::size_t begin, std::size_t end) {
+            double sum = 0;
+            for (std::size_t d = 0; d < Dim; ++d) {
+                for (std::size_t i = begin; i < end; ++i)
+                    sum += static_cast<double>(v.along[d][i]) * static_cast<double>(v.along[d][i]);
+            }
+            return sum;
+        });
+    };
+    double norm = std::sqrt(squares(x));
+    greatest = 0;
+    for (int k = 0; k < power_steps && norm > 0; ++k) {
+        for_each_force(x, [&](std::size_t d, std::size_t begin, std::size_t end, const float* force) {
+            for (std::size_t i = begin; i < end; ++i)
+                next.along[d][i] = inverse.along[d][i] * force[i - begin] / static_cast<float>(norm);
+        });
+        std::swap(x, next);
+        norm = std::sqrt(squares(x));
+        greatest = safety * norm;
+    }
+    if (!(greatest > 0)) greatest = 1;
+}
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::first_step(double take) {
+    const auto factor = static_cast<float>(take);
+    runs.for_each([&](std::size_t begin, std::size_t end) {
+        for (std::size_t d = 0; d < Dim; ++d) {
+            for (std::size_t i = begin; i < end; ++i)
+                x.along[d][i] = step.along[d][i] = factor * (inverse.along[d][i] * b.along[d][i]);
+        }
+    });
+}
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::next_step(double keep, double take) {
+    const auto old = static_cast<float>(keep), factor = static_cast<float>(take);
+    for_each_force(x, [&](std::size_t d, std::size_t begin, std::size_t end, const float* force) {
+        const float *right = b.along[d].data(), *scale = inverse.along[d].data(), *at = x.along[d].data();
+        float *way = step.along[d].data(), *to = next.along[d].data();
+        for (std::size_t i = begin; i < end; ++i) {
+            way[i] = old * way[i] + factor * (scale[i] * (right[i] - force[i - begin]));
+            to[i] = at[i] + way[i];
+        }
+    });
+    std::swap(x, next);
+}
+
+/// Performs two steps of Chebyshev iteration, preconditioned by the diagonal.
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::smooth(bool from_zero) {
+    const double high = greatest, low = greatest / smoothed_share, middle = (high + low) / 2,
+                 half = (high - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
+    if (from_zero) {
+        first_step(1 / middle);
+    } else {
+        next_step(0, 1 / middle);
+    }
+    next_step(rho / sigma, 2 * rho / half);
+}
+
+/// Stores the residual in `step`; 0 where nothing moves.
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::find_rest() {
+    for_each_force(x, [&](std::size_t d, std::size_t begin, std::size_t end, const float* force) {
+        for (std::size_t i = begin; i < end; ++i)
+            step.along[d][i] = inverse.along[d][i] > 0 ? b.along[d][i] - force[i - begin] : 0.0F;
+    });
+}
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::factorise() {
+    unknowns.clear();
+    std::vector<Eigen::Index> index(Dim * grid.size(), -1);
+    for (std::size_t node = 0; node < grid.size(); ++node) {
+        for (std::size_t d = 0; d < Dim; ++d) {
+            if (!(inverse.along[d][node] > 0)) continue;
+            index[Dim * node + d] = static_cast<Eigen::Index>(unknowns.size());
+            unknowns.emplace_back(node, d);
+        }
+    }
+    const auto size = static_cast<Eigen::Index>(unknowns.size());
+    const auto steps = grid.neighbour_steps();
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index row = 0; row < size; ++row) {
+        const auto [node, i] = unknowns[static_cast<std::size_t>(row)];
+        for (std::size_t n = 0; n < steps.size(); ++n) {
+            const auto other = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node) + steps[n]);
+            for (std::size_t j = 0; j < Dim; ++j) {
+                const Eigen::Index column = index[Dim * other + j];
+                if (column >= 0)
+                    k(row, column) = static_cast<double>(stencils->at(node, (n * Dim + i) * Dim + j));
+            }
+        }
+    }
+    const Eigen::VectorXd diagonal = k.diagonal();
+    for (double share = negligible; share < 1; share *= 10) {
+        k.diagonal() = (1 + share) * diagonal;
+        factors.compute(k);
+        if (factors.info() == Eigen::Success) break;
+    }
+}
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::Level::solve_directly() {
+    Eigen::VectorXd right(static_cast<Eigen::Index>(unknowns.size()));
+    for (Eigen::Index i = 0; i < right.size(); ++i) {
+        const auto [node, d] = unknowns[static_cast<std::size_t>(i)];
+        right[i] = static_cast<double>(b.along[d][node]);
+    }
+    const Eigen::VectorXd found = factors.solve(right);
+    for (Eigen::Index i = 0; i < right.size(); ++i) {
+        const auto [node, d] = unknowns[static_cast<std::size_t>(i)];
+        x.along[d][node] = static_cast<float>(found[i]);
+    }
+}
+
+template <std::size_t Dim>
+BodyMultigrid<Dim>::BodyMultigrid(const ElasticBody<Dim>& body, const CancelToken* cancel)
+    : body_(body), cancel_(cancel) {
+    std::vector<std::uint8_t> present = body.present;
+    levels_.push_back(std::make_unique<Level>(body.grid, present));
+    Level& finest = *levels_.front();
+    for (std::size_t i = 0; i < finest.elements.stiffness.size(); ++i) {
+        constexpr std::size_t n = GridElement<Dim>::unknowns;
+        finest.elements.stiffness[i] = static_cast<float>(body.element.stiffness[i / n][i % n]);
+    }
+    finest.elements.corners = body.grid.corner_steps();
+    finest.greatest = greatest_of(body.element);
+    do {
+        stop_if_cancelled(cancel_);
+        const NodeGrid<Dim> fine = levels_.back()->grid;
+        present = coarse_elements(fine, present);
+        levels_.push_back(std::make_unique<Level>(coarser(fine), present));
+        Level& level = *levels_.back();
+        level.stencils.emplace(level.grid);
+        level.forces.stencils = level.stencils->numbers.data();
+        level.forces.neighbours = level.grid.neighbour_steps();
+        const glm::ivec3 n = level.grid.nodes();
+        if (Dim * static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+                static_cast<std::size_t>(n.z) <=
+            max_dense)
+            break;
+    } while (true);
+}
+
+template <std::size_t Dim>
+BodyMultigrid<Dim>::~BodyMultigrid() = default;
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::set_moduli(std::span<const float> moduli) {
+    Level& finest = *levels_.front();
+    finest.elements.moduli = moduli.data();
+    finest.runs.for_each([&](std::size_t begin, std::size_t end) {
+        for (std::size_t node = begin; node < end; ++node) {
+            for (std::size_t d = 0; d < Dim; ++d) {
+                float diagonal = 0;
+                for (std::size_t c = 0; c < GridElement<Dim>::corners; ++c) {
+                    const std::size_t row = Dim * c + d;
+                    const auto element = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node) -
+                                                                  finest.elements.corners[c]);
+                    diagonal +=
+                        moduli[element] * finest.elements.stiffness[row * GridElement<Dim>::unknowns + row];
+                }
+                const bool moves = diagonal > 0 && (body_.fixed[node] >> d & 1) == 0;
+                finest.inverse.along[d][node] = moves ? 1 / diagonal : 0.0F;
+            }
+        }
+    });
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+        stop_if_cancelled(cancel_);
+        Level& level = *levels_[l];
+        if (l == 1) {
+            coarsen(body_, moduli, level.runs, *level.stencils);
+        } else {
+            coarsen(*levels_[l - 1]->stencils, *level.stencils);
+        }
+        level.find_inverse();
+        if (l + 1 < levels_.size()) {
+            level.find_greatest();
+        } else {
+            level.factorise();
+        }
+    }
+}
+
+template <std::size_t Dim>
+NodalVector<Dim, float>& BodyMultigrid<Dim>::right() {
+    return levels_.front()->b;
+}
+
+template <std::size_t Dim>
+const NodeRuns& BodyMultigrid<Dim>::used() const {
+    return levels_.front()->runs;
+}
+
+template <std::size_t Dim>
+const NodalVector<Dim, float>& BodyMultigrid<Dim>::solve() {
+    cycle(0);
+    return levels_.front()->x;
+}
+
+namespace {
+
+/// Sums fine nodes into coarse ones: the transpose of interpolate().
+template <std::size_t Dim>
+void restrict_to(const NodeGrid<Dim>& fine, const NodalVector<Dim, float>& from, const NodeGrid<Dim>& coarse,
+                 NodalVector<Dim, float>& to) {
+    const glm::ivec3 n = coarse.nodes(), most = fine.nodes();
+    const auto length = static_cast<std::size_t>(most.x);
+    parallel_for(n.y * n.z, [&](int row) {
+        const int y = row % n.y, z = row / n.y;
+        // One more on either side than the fine row has: coarse nodes reach beyond it.
+        std::vector<float> sum(length + 4);
+        for (std::size_t d = 0; d < Dim; ++d) {
+            std::fill(sum.begin(), sum.end(), 0.0F);
+            for (int dz = Dim == 2 ? 0 : -1; dz <= (Dim == 2 ? 0 : 1); ++dz) {
+                for (int dy = -1; dy <= 1; ++dy) {
+                    const int j = 2 * y + dy, k = 2 * z + dz;
+                    if (j < 0 || k < 0 || j >= most.y || k >= most.z) continue;
+                    const float w = (dy == 0 ? 1.0F : 0.5F) * (dz == 0 ? 1.0F : 0.5F);
+                    const float* values = from.along[d].data() + fine.number(0, j, k);
+                    for (std::size_t i = 0; i < length; ++i) sum[i + 1] += w * values[i];
+                }
+            }
+            float* out = to.along[d].data() + coarse.number(0, y, z);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(n.x); ++i)
+                out[i] = sum[2 * i + 1] + 0.5F * (sum[2 * i] + sum[2 * i + 2]);
+        }
+    });
+}
+
+/// Adds the interpolation of coarse nodes to the fine nodes that move.
+template <std::size_t Dim>
+void interpolate(const NodeGrid<Dim>& coarse, const NodalVector<Dim, float>& from, const NodeGrid<Dim>& fine,
+                 const NodalVector<Dim, float>& inverse, NodalVector<Dim, float>& to) {
+    const glm::ivec3 n = fine.nodes();
+    const auto length = static_cast<std::size_t>(coarse.nodes().x);
+    parallel_for(n.y * n.z, [&](int row) {
+        const int y = row % n.y, z = row / n.y, odd_y = y % 2, odd_z = z % 2;
+        const float w = (odd_y != 0 ? 0.5F : 1.0F) * (odd_z != 0 ? 0.5F : 1.0F);
+        std::vector<float> sum(length + 1);
+        for (std::size_t d = 0; d < Dim; ++d) {
+            std::fill(sum.begin(), sum.end(), 0.0F);
+            for (int dz = 0; dz <= odd_z; ++dz) {
+                for (int dy = 0; dy <= odd_y; ++dy) {
+                    const float* values = from.along[d].data() + coarse.number(0, y / 2 + dy, z / 2 + dz);
+                    for (std::size_t i = 0; i < length; ++i) sum[i] += w * values[i];
+                }
+            }
+            const std::size_t first = fine.number(0, y, z);
+            const float* moves = inverse.along[d].data() + first;
+            float* out = to.along[d].data() + first;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(n.x); ++i) {
+                const float value = i % 2 == 0 ? sum[i / 2] : 0.5F * (sum[i / 2] + sum[i / 2 + 1]);
+                if (moves[i] > 0) out[i] += value;
+            }
+        }
+    });
+}
+
+}  // namespace
+
+template <std::size_t Dim>
+void BodyMultigrid<Dim>::cycle(std::size_t l) {
+    Level& level = *levels_[l];
+    if (l + 1 == levels_.size()) return level.solve_directly();
+    stop_if_cancelled(cancel_);
+    Level& coarse = *levels_[l + 1];
+    level.smooth(true);
+    level.find_rest();
+    restrict_to(level.grid, level.step, coarse.grid, coarse.b);
+    cycle(l + 1);
+    interpolate(coarse.grid, coarse.x, level.grid, level.inverse, level.x);
+    level.smooth(false);
+}
+
+template class BodyMultigrid<2>;
+template class BodyMultigrid<3>;
+
+}  // namespace lamella
