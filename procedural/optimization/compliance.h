@@ -1,0 +1,40 @@
+// Compliance: how far the loads of a design move, and its gradient.
+#pragma once
+
+#include "procedural/optimization/topology_problem.h"
+
+namespace lamella {
+
+/// Finite element analysis of densities. Keeps the displacements of the last design, from which the next
+/// solve begins.
+template <std::size_t Dim>
+class Compliance {
+  public:
+    /// Keeps a reference to the problem.
+    Compliance(const TopologyProblem<Dim>& problem, const ElasticSolverOptions& options);
+
+    struct Result {
+        double total = 0;              ///< sum over cases of weight times compliance
+        std::vector<double> by_case;   ///< unweighted
+        std::vector<double> gradient;  ///< of the total with respect to the densities
+        int iterations = 0;            ///< of the solver, for the slowest case
+    };
+    Result evaluate(std::span<const double> density);
+    /// The displacements of a case for the last design, before scaling by modulus and size.
+    const NodalVector<Dim, double>& displacements(std::size_t load_case) const {
+        return displacements_[load_case];
+    }
+
+  private:
+    void add_weight(std::span<const double> density, NodalVector<Dim, double>& forces) const;
+
+    const TopologyProblem<Dim>& problem_;
+    std::vector<std::size_t> numbers_;
+    ElasticSolver<Dim> solver_;
+    std::vector<NodalVector<Dim, double>> displacements_;
+};
+
+extern template class Compliance<2>;
+extern template class Compliance<3>;
+
+}  // namespace lamella

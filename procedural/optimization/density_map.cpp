@@ -1,0 +1,116 @@
+// The links of the chain, forward and backward.
+#include "procedural/optimization/density_map.h"
+
+#include <utility>
+
+#include "procedural/optimization/projection.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr double middle = 0.5;  // threshold of the projection
+
+std::vector<std::uint8_t> inside(const std::vector<ElementUse>& use) {
+    std::vector<std::uint8_t> mask;
+    mask.reserve(use.size());
+    for (const ElementUse u : use) mask.push_back(u != ElementUse::outside);
+    return mask;
+}
+
+}  // namespace
+
+DensityMap::DensityMap(glm::ivec3 size, std::vector<ElementUse> use, const DensitySettings& settings)
+    : size_(size), use_(std::move(use)), domain_(inside(use_)), settings_(settings) {
+    if (settings.length_scale) {
+        robust_.emplace(size, domain_, *settings.length_scale, settings.padding);
+    } else {
+        filter_.emplace(size, domain_, settings.radius, settings.padding);
+    }
+    fields_.resize(robust_ ? 3 : 1);
+    if (settings.overhang) {
+        for (DensityField& field : fields_) field.overhang.emplace(size, domain_, *settings.overhang);
+    }
+}
+
+/// Returns the mean of each element and its mirror images inside the domain. Its own transpose.
+std::vector<double> DensityMap::symmetric(std::span<const double> values) const {
+    std::vector<double> sum(values.begin(), values.end());
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!settings_.mirrored[static_cast<std::size_t>(axis)]) continue;
+        std::size_t element = 0;
+        for (int z = 0; z < size_.z; ++z) {
+            for (int y = 0; y < size_.y; ++y) {
+                for (int x = 0; x < size_.x; ++x, ++element) {
+                    glm::ivec3 at(x, y, z);
+                    at[axis] = size_[axis] - 1 - at[axis];
+                    const auto other =
+                        static_cast<std::size_t>(at.x) +
+                        static_cast<std::size_t>(size_.x) *
+                            (static_cast<std::size_t>(at.y) +
+                             static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(at.z));
+                    if (other <= element || domain_[element] == 0 || domain_[other] == 0) continue;
+                    sum[element] = sum[other] = 0.5 * (sum[element] + sum[other]);
+                }
+            }
+        }
+    }
+    return sum;
+}
+
+void DensityMap::prescribe(std::vector<double>& values) const {
+    for (std::size_t i = 0; i < use_.size(); ++i) {
+        if (use_[i] != ElementUse::free) values[i] = use_[i] == ElementUse::solid ? 1 : 0;
+    }
+}
+
+void DensityMap::clear_prescribed(std::vector<double>& gradient) const {
+    for (std::size_t i = 0; i < use_.size(); ++i) {
+        if (use_[i] != ElementUse::free) gradient[i] = 0;
+    }
+}
+
+void DensityMap::forward(std::span<const double> design, double sharpness) {
+    sharpness_ = sharpness;
+    const std::vector<double> variables = symmetric(design);
+    if (robust_) {
+        RobustFields::Fields three = robust_->forward(variables, sharpness);
+        fields_[0].density = std::move(three.eroded);
+        fields_[1].density = std::move(three.dilated);
+        fields_[2].density = std::move(three.intermediate);
+    } else {
+        filtered_.resize(variables.size());
+        filter_->forward(variables, filtered_);
+        fields_[0].density.resize(variables.size());
+        project(filtered_, {sharpness, middle}, fields_[0].density);
+    }
+    for (DensityField& field : fields_) {
+        prescribe(field.density);
+        if (!field.overhang) continue;
+        field.overhang->forward(field.density, field.density);
+        prescribe(field.density);
+    }
+}
+
+std::vector<double> DensityMap::backward(Role role, std::span<const double> gradient) const {
+    std::vector<double> back(gradient.begin(), gradient.end());
+    clear_prescribed(back);
+    if (const auto& overhang = fields_[field_of(role)].overhang) {
+        overhang->backward(back, back);
+        clear_prescribed(back);
+    }
+    if (robust_) {
+        RobustFields::Gradients gradients;
+        (role == Role::stiffness ? gradients.eroded
+         : role == Role::volume  ? gradients.dilated
+                                 : gradients.intermediate) = back;
+        std::vector<double> out(back.size());
+        robust_->backward(gradients, out);
+        return symmetric(out);
+    }
+    project_backward(filtered_, {sharpness_, middle}, back, back);
+    filter_->backward(back, back);
+    return symmetric(back);
+}
+
+}  // namespace lamella

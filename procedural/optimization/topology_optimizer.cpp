@@ -1,0 +1,182 @@
+// The loop of analysis, sensitivities and update.
+#include "procedural/optimization/topology_optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "procedural/optimization/oc_update.h"
+#include "procedural/optimization/variable_blocks.h"
+
+namespace lamella {
+
+namespace {
+
+/// Returns the number of times the sharpness doubles, from 1 until it is reached, and once more for coming
+/// on.
+int phases_of(const TopologySettings& settings) {
+    if (!(settings.sharpness > 0)) return 0;
+    int phases = 1;
+    for (double sharpness = 1; sharpness < settings.sharpness; sharpness *= 2) ++phases;
+    return phases;
+}
+
+double mean_of(std::span<const double> density, double elements) {
+    return sum_over_variables<double>(density.size(),
+                                      [&](std::size_t i, double& sum) { sum += density[i]; }) /
+           elements;
+}
+
+}  // namespace
+
+template <std::size_t Dim>
+TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
+                                          const TopologySettings& settings)
+    : problem_(problem),
+      settings_(settings),
+      map_(problem.body.grid.elements(), problem.use, settings.density),
+      compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel}),
+      mma_(problem.use.size(), 1, {.move = settings.move}),
+      phases_(phases_of(settings)) {
+    double free = 0, solid = 0;
+    for (const ElementUse use : problem.use) {
+        const bool is_free = use == ElementUse::free;
+        free += is_free ? 1 : 0;
+        solid += use == ElementUse::solid ? 1 : 0;
+        elements_ += use != ElementUse::outside ? 1 : 0;
+        lower_.push_back(is_free ? problem.least_density : 0.0);
+        upper_.push_back(is_free ? problem.greatest_density : 0.0);
+    }
+    if (free == 0) throw InputError("a topology problem has no free element");
+    const double start = (problem.volume * elements_ - solid) / free;
+    if (!(start > problem.least_density))
+        throw InputError("what is kept solid fills " + std::to_string(100 * solid / elements_) +
+                         " % of the body; the volume may be " + std::to_string(100 * problem.volume) + " %");
+    for (const ElementUse use : problem.use)
+        state_.design.push_back(use == ElementUse::free ? std::min(start, problem.greatest_density) : 0.0);
+    // Thresholds of a length scale mean nothing without a projection.
+    if (map_.has_three_fields() && phases_ > 0) state_.phase = 1;
+}
+
+template <std::size_t Dim>
+void TopologyOptimizer<Dim>::set_state(TopologyState state) {
+    if (state.design.size() != problem_.use.size() || state.phase < 0 || state.phase > phases_)
+        throw InputError("the state of a topology optimisation does not fit the problem");
+    mma_.set_state(state.mma);
+    state_ = std::move(state);
+}
+
+template <std::size_t Dim>
+double TopologyOptimizer<Dim>::sharpness() const {
+    return state_.phase == 0 ? 0 : std::min(std::ldexp(1.0, state_.phase - 1), settings_.sharpness);
+}
+
+template <std::size_t Dim>
+typename Compliance<Dim>::Result TopologyOptimizer<Dim>::analyse() {
+    map_.forward(state_.design, sharpness());
+    return compliance_.evaluate(map_.density(DensityMap::Role::result));
+}
+
+template <std::size_t Dim>
+std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Compliance<Dim>::Result& found,
+                                                        const std::vector<double>& compliance_gradient,
+                                                        const std::vector<double>& volume_gradient,
+                                                        double excess) {
+    if (settings_.method == TopologyMethod::oc) {
+        std::vector<double> next =
+            oc_update(state_.design, compliance_gradient, volume_gradient, excess, {.move = settings_.move});
+        for (std::size_t i = 0; i < next.size(); ++i) next[i] = std::clamp(next[i], lower_[i], upper_[i]);
+        return next;
+    }
+    // Svanberg asks for values of 1 to 100.
+    constexpr double objective_scale = 10, constraint_scale = 100;
+    if (state_.first_compliance == 0) state_.first_compliance = found.total;
+    std::vector<double> objective(compliance_gradient), volume(volume_gradient);
+    const double bound = problem_.volume * elements_;
+    for (double& g : objective) g *= objective_scale / state_.first_compliance;
+    for (double& g : volume) g *= constraint_scale / bound;
+    const double constraint = constraint_scale * excess / bound;
+    return mma_
+        .update({.x = state_.design,
+                 .lower = lower_,
+                 .upper = upper_,
+                 .objective_gradient = objective,
+                 .constraints = {&constraint, 1},
+                 .gradients = {volume}})
+        .x;
+}
+
+/// Counts the iteration, and goes on to the next sharpness when it is time.
+template <std::size_t Dim>
+void TopologyOptimizer<Dim>::advance(double change) {
+    ++state_.iteration;
+    const int left = settings_.iterations - state_.iteration,
+              in_phase = state_.iteration - state_.phase_began;
+    const int needed = (phases_ - state_.phase) * settings_.iterations_a_sharpness;
+    const bool settled = change < settings_.tolerance;
+    const bool next =
+        state_.phase == 0 ? settled || left <= needed : in_phase >= settings_.iterations_a_sharpness;
+    if (state_.phase < phases_ && next) {
+        ++state_.phase;
+        state_.phase_began = state_.iteration;
+        mma_.reset_asymptotes();
+    } else if (state_.phase == phases_ && settled) {
+        finished_ = true;
+    }
+    if (left <= 0) finished_ = true;
+}
+
+template <std::size_t Dim>
+TopologyIteration TopologyOptimizer<Dim>::iterate() {
+    using Role = DensityMap::Role;
+    map_.forward(state_.design, sharpness());
+    std::span<const double> stiff =
+        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::stiffness);
+    const typename Compliance<Dim>::Result found = compliance_.evaluate(stiff);
+    std::span<const double> volume =
+        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::volume);
+    std::span<const double> result =
+        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::result);
+
+    std::vector<double> ones(problem_.use.size());
+    for (std::size_t i = 0; i < ones.size(); ++i) ones[i] = problem_.use[i] == ElementUse::free ? 1.0 : 0.0;
+    std::vector<double> compliance_gradient(found.gradient.size()), volume_gradient;
+    if (settings_.sensitivity_filter) {
+        map_.filter().sensitivities(state_.design, found.gradient, compliance_gradient);
+        volume_gradient = ones;
+    } else {
+        compliance_gradient = map_.backward(Role::stiffness, found.gradient);
+        volume_gradient = map_.backward(Role::volume, ones);
+    }
+    TopologyIteration report;
+    report.compliance = found.total;
+    report.volume = mean_of(result, elements_);
+    report.sharpness = sharpness();
+    report.solver_iterations = found.iterations;
+    double free = 0;
+    for (const double one : ones) free += one;
+    report.greyness = sum_over_variables<double>(result.size(),
+                                                 [&](std::size_t i, double& sum) {
+                                                     sum += ones[i] * 4 * result[i] * (1 - result[i]);
+                                                 }) /
+                      free;
+
+    // With three fields, the dilated one is bounded such that the result meets the volume (Wang et al. 2011).
+    const double present = mean_of(volume, elements_);
+    const double bound = report.volume > 0 ? problem_.volume * present / report.volume : problem_.volume;
+    const std::vector<double> next =
+        next_design(found, compliance_gradient, volume_gradient, (present - bound) * elements_);
+    for (std::size_t i = 0; i < next.size(); ++i)
+        report.change = std::max(report.change, std::abs(next[i] - state_.design[i]));
+    state_.design = next;
+    advance(report.change);
+    state_.mma = mma_.state();
+    report.index = state_.iteration;
+    return report;
+}
+
+template class TopologyOptimizer<2>;
+template class TopologyOptimizer<3>;
+
+}  // namespace lamella

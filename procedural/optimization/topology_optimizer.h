@@ -1,0 +1,92 @@
+// TopologyOptimizer: the stiffest distribution of a given volume of material.
+#pragma once
+
+#include "procedural/optimization/compliance.h"
+#include "procedural/optimization/mma.h"
+
+namespace lamella {
+
+enum class TopologyMethod : std::uint8_t { oc, mma };
+
+struct TopologySettings {
+    DensitySettings density;
+    TopologyMethod method = TopologyMethod::oc;
+    bool sensitivity_filter = false;  ///< instead of the density filter; for comparison with published values
+    double move = 0.2;                ///< most change of a variable in an iteration
+    double tolerance = 0.01;          ///< stops when no variable changes by more
+    int iterations = 100;             ///< at most
+    /// Of the projection at the end; 0: none. It comes on at 1 and doubles every `iterations_a_sharpness`.
+    double sharpness = 0;
+    int iterations_a_sharpness = 10;
+    double solver_tolerance = 1e-5;
+    const CancelToken* cancel = nullptr;  ///< may be null
+};
+
+/// What an iteration found, before it changed the design.
+struct TopologyIteration {
+    int index = 0;          ///< from 1
+    double compliance = 0;  ///< weighted sum over cases
+    double volume = 0;      ///< mean density
+    double greyness = 0;    ///< mean of 4 rho (1 - rho) over free elements: 0 for a design of 0 and 1
+    double change = 0;      ///< largest change of a variable that the iteration made
+    double sharpness = 0;
+    int solver_iterations = 0;
+};
+
+/// What is needed to go on: plain data.
+struct TopologyState {
+    std::vector<double> design;
+    MmaState mma;
+    int iteration = 0;
+    int phase = 0;        ///< of the projection
+    int phase_began = 0;  ///< iteration after which it came on
+    double first_compliance = 0;
+};
+
+/// Minimises compliance at a bounded volume (Bendsoe and Sigmund 2003, "Topology Optimization", section 1) by
+/// optimality criteria or the method of moving asymptotes. A pure function of problem and settings.
+template <std::size_t Dim>
+class TopologyOptimizer {
+  public:
+    /// Keeps a reference to the problem. Throws InputError for a problem without loads, supports or free
+    /// elements, and when the prescribed solid elements alone exceed the volume.
+    TopologyOptimizer(const TopologyProblem<Dim>& problem, const TopologySettings& settings);
+
+    /// Analyses the present design and improves it. Throws Interrupted once cancelled; then the state is that
+    /// before the iteration.
+    TopologyIteration iterate();
+    /// Whether the last iteration changed the design by less than the tolerance at full sharpness, or no
+    /// iteration is left.
+    bool is_finished() const { return finished_; }
+    /// Analyses the present design without changing it; see DensityMap::Role::result.
+    typename Compliance<Dim>::Result analyse();
+
+    const DensityMap& densities() const { return map_; }
+    const Compliance<Dim>& compliance() const { return compliance_; }
+    const TopologyState& state() const { return state_; }
+    /// Goes on where another object was. Throws InputError for a state that does not fit.
+    void set_state(TopologyState state);
+
+  private:
+    double sharpness() const;
+    std::vector<double> next_design(const typename Compliance<Dim>::Result& found,
+                                    const std::vector<double>& compliance_gradient,
+                                    const std::vector<double>& volume_gradient, double excess);
+    void advance(double change);
+
+    const TopologyProblem<Dim>& problem_;
+    TopologySettings settings_;
+    DensityMap map_;
+    Compliance<Dim> compliance_;
+    Mma mma_;
+    std::vector<double> lower_, upper_;
+    double elements_ = 0;  ///< not outside
+    int phases_ = 0;
+    TopologyState state_;
+    bool finished_ = false;
+};
+
+extern template class TopologyOptimizer<2>;
+extern template class TopologyOptimizer<3>;
+
+}  // namespace lamella
