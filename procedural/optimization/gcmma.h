@@ -32,7 +32,7 @@ inline constexpr int max_gcmma_evaluations = 16;
 /// As Mma, but a step is taken only once every approximation is at least the function there: else the
 /// approximation becomes more convex and the subproblem is solved again (Svanberg, "A class of globally
 /// convergent optimization methods based on conservative convex separable approximations", 2002; rules and
-/// constants of "MMA and GCMMA", 2007, section 5). So with a feasible x, the next is feasible and no worse.
+/// constants of "MMA and GCMMA", 2007). So with a feasible x, the next is feasible and no worse.
 class Gcmma {
   public:
     using Evaluate = std::function<MmaValues(std::span<const double> x)>;

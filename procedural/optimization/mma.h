@@ -19,7 +19,7 @@ struct MmaState {
 
 /// Svanberg's method of moving asymptotes. Each step replaces every function by a convex separable one around
 /// the present x, and goes to the minimum of these (Svanberg, "The method of moving asymptotes - a new method
-/// for structural optimization", 1987; rules and constants of "MMA and GCMMA", 2007, sections 3 and 4, with
+/// for structural optimization", 1987; rules and constants of "MMA and GCMMA", 2007, with
 /// asymptotes 0.01 to 10 ranges away). Convergence is not certain: around a minimum inside the bounds x may
 /// swing by about 0.01 ranges if slopes are large beside raa; Gcmma does not. The bits do not depend on the
 /// number of threads.

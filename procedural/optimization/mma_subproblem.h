@@ -13,7 +13,7 @@ inline constexpr std::size_t max_mma_constraints = 8;
 
 /// The problem is: minimise f_0(x) + a0 z + sum_i (c_i y_i + d_i y_i^2 / 2) subject to
 /// f_i(x) - a_i z - y_i <= 0, lower <= x <= upper, y >= 0, z >= 0 (Svanberg, "MMA and GCMMA - two methods for
-/// nonlinear optimization", 2007, section 1). y makes every subproblem feasible; z serves min-max problems.
+/// nonlinear optimization", 2007). y makes every subproblem feasible; z serves min-max problems.
 /// Functions should be scaled to magnitudes of 1 to 100, and c be larger than every multiplier.
 struct MmaOptions {
     double a0 = 1;
@@ -61,7 +61,7 @@ inline double mma_range(const MmaPoint& point, std::size_t j) {
 }
 
 /// Solves the subproblem at a point. Options have their a, c and d; sizes fit and low < x < upp.
-/// Approximations are those of Svanberg 2007, section 3; the dual is maximised by a primal-dual interior
+/// Approximations are those of Svanberg 2007; the dual is maximised by a primal-dual interior
 /// point method in lambda alone, as x, y and z are known in closed form. With many variables
 /// it costs some 10 to 20 sweeps over the gradients, each of about 30 ns a variable for one constraint and
 /// 110 ns for eight. The bits do not depend on the number of threads. Throws FaultError if the dual does not

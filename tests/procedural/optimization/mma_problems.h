@@ -65,7 +65,7 @@ inline double kkt_residual(const Problem& problem, const Numbers& x, const Numbe
     return worst;
 }
 
-/// A cantilever of five box sections, lightest for a given deflection of its tip: Svanberg 1987, section 5.
+/// A cantilever of five box sections, lightest for a given deflection of its tip: Svanberg 1987.
 inline Problem beam() {
     static constexpr std::array<double, 5> share{61, 37, 19, 7, 1};
     Problem problem{{}, Numbers(5, 1), Numbers(5, 10), Numbers(5, 5), {}, {}};
