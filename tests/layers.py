@@ -16,14 +16,15 @@ procedural/grading procedural/volume procedural/voronoi procedural/scaffold proc
 procedural/elasticity procedural/optimization procedural/lattice
 printers/common printers/polygons printers/readers printers/archive printers/toolpath printers/masks printers/vector
 printers/gcode printers/serial printers
-recipe recipe/keys recipe/build recipe/output
+recipe recipe/keys recipe/build recipe/structure recipe/output
 bindings
 app/console app/ranks app/reports app/commands
 """.split()
 # Folders that never include each other, though one stands above the other in the list.
 APART = [("procedural", "printers")]
-# recipe/ names kinds that recipe/build makes, and recipe/build reads what recipe/ holds.
-TOGETHER = {"recipe", "recipe/keys", "recipe/build"}
+# recipe/ names kinds that recipe/build makes, and recipe/build reads what recipe/ holds; the body that it builds may be
+# one that recipe/structure optimises.
+TOGETHER = {"recipe", "recipe/keys", "recipe/build", "recipe/structure"}
 MODULES = {"engine/io/modules": "engine/io", "app/ranks/modules": "app/ranks"}
 MOST_SOURCES = 45
 

@@ -23,6 +23,8 @@ void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
 void add_serve_command(CLI::App& root);
 void add_homogenize_command(CLI::App& root);
+void add_optimize_command(CLI::App& root);
+void add_analyze_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_materials_command(CLI::App& root);
 void add_keys_command(CLI::App& root);

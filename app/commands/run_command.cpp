@@ -75,6 +75,8 @@ int run_command(const std::vector<std::string>& arguments) {
         add_check_command(root);
         add_serve_command(root);
         add_homogenize_command(root);
+        add_optimize_command(root);
+        add_analyze_command(root);
         add_printers_command(root);
         add_materials_command(root);
         add_keys_command(root);

@@ -102,6 +102,11 @@ std::span<const GradingBuilder> grading_builders() {
 }
 
 /// Returns the grading behind a name other than x, y and z.
+void Gradings::set_body(FieldPtr body) {
+    body_ = std::move(body);
+    made_.erase(std::string(depth_name));
+}
+
 GradingPtr Gradings::named(const std::string& name) {
     if (const auto made = made_.find(name); made != made_.end()) return made->second;
     if (name == depth_name) {

@@ -46,7 +46,10 @@ class Gradings {
     explicit Gradings(const Recipe& recipe) : recipe_(recipe) {}
 
     /// Sets the body from whose surface depths are measured.
-    void set_body(FieldPtr body) { body_ = std::move(body); }
+    void set_body(FieldPtr body);
+
+    /// Makes a grading known to formulas under a name that the recipe does not define.
+    void define(const std::string& name, GradingPtr grading) { made_[name] = std::move(grading); }
 
     /// Returns the grading of a number or formula. Names in `more` have precedence over the recipe's. Throws
     /// InputError when it needs something that is missing: a file, or a part from which depths are measured.

@@ -54,9 +54,20 @@ double survey_pitch(const BuiltJob& built, Interval suited) {
     return std::min(std::max(pitch, suited.lo), suited.hi);
 }
 
+/// Makes the foam's cells or members those of the optimisation.
+void drive_foam(OptimizeResult result, const OptimizedPart& optimized, FoamRecipe& foam, Gradings& gradings) {
+    const std::string name = "optimized_size";
+    gradings.define(name, optimized.foam_sizes);
+    GradedNumber& driven = result == OptimizeResult::cell ? foam.cell
+                           : member_of(foam) == "wall"    ? foam.wall
+                                                          : foam.beam;
+    driven.value = name;
+    if (driven.where.empty()) driven.where = "optimize.result";
+}
+
 }  // namespace
 
-BuiltJob build_job(const Recipe& recipe) {
+BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
     BuiltJob built;
     Gradings gradings(recipe);
     built.body = build_body(recipe, gradings, built.mesh);
@@ -66,7 +77,15 @@ BuiltJob build_job(const Recipe& recipe) {
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
     built.regions = build_regions(recipe, job.bounds, gradings);
-    if (recipe.foam) built.foam = build_foam(*recipe.foam, job.bounds, gradings);
+    std::optional<FoamRecipe> foam = recipe.foam;
+    if (recipe.optimize) {
+        built.optimized = optimize_part(recipe, built.body, built.regions, gradings, optimizing);
+        built.body = built.optimized->shape;
+        gradings.set_body(built.body);
+        if (foam && built.optimized->foam_sizes)
+            drive_foam(recipe.optimize->result, *built.optimized, *foam, gradings);
+    }
+    if (foam) built.foam = build_foam(*foam, job.bounds, gradings);
     set_layers(recipe, job);
     job.part = with_regions(fill_body(recipe, built, gradings), built.body, recipe.foam || recipe.skin,
                             built.regions);

@@ -16,6 +16,7 @@
 #include "recipe/build/place_dowels.h"
 #include "recipe/build/place_drains.h"
 #include "recipe/recipe.h"
+#include "recipe/structure/optimize_part.h"
 
 namespace lamella {
 
@@ -26,28 +27,29 @@ struct RepairReport {
 };
 
 struct BuiltJob {
-    Job job;                               ///< the job to print
-    Job designed;                          ///< before [process]; its layers correspond to those of `job`
-    FieldPtr body;                         ///< the part without foam and skin
-    FieldPtr outside;                      ///< the body, including a skin outside it
-    std::optional<BuiltFoam> foam;         ///< empty without foam
-    std::optional<ModulusReport> modulus;  ///< empty when the foam's stiffness is unknown
-    std::optional<GradedUse> skin;         ///< empty when the skin's thickness is constant
-    std::optional<MeshReport> mesh;        ///< empty for shapes and fields
-    std::optional<PatternReport> pattern;  ///< empty when the skin is closed
-    std::vector<DrilledHole> holes;        ///< of the recipe's [[hole]] entries
-    std::optional<DrainReport> drains;     ///< empty when none are asked for
-    std::optional<DowelHoles> dowels;      ///< empty when none are asked for
-    std::optional<HollowReport> cavities;  ///< empty when none are asked for
-    FieldPtr before_cavities;              ///< the designed part before hollowing; null without cavities
+    Job job;                                 ///< the job to print
+    Job designed;                            ///< before [process]; its layers correspond to those of `job`
+    FieldPtr body;                           ///< the part without foam and skin
+    std::optional<OptimizedPart> optimized;  ///< empty unless the recipe optimises
+    FieldPtr outside;                        ///< the body, including a skin outside it
+    std::optional<BuiltFoam> foam;           ///< empty without foam
+    std::optional<ModulusReport> modulus;    ///< empty when the foam's stiffness is unknown
+    std::optional<GradedUse> skin;           ///< empty when the skin's thickness is constant
+    std::optional<MeshReport> mesh;          ///< empty for shapes and fields
+    std::optional<PatternReport> pattern;    ///< empty when the skin is closed
+    std::vector<DrilledHole> holes;          ///< of the recipe's [[hole]] entries
+    std::optional<DrainReport> drains;       ///< empty when none are asked for
+    std::optional<DowelHoles> dowels;        ///< empty when none are asked for
+    std::optional<HollowReport> cavities;    ///< empty when none are asked for
+    FieldPtr before_cavities;                ///< the designed part before hollowing; null without cavities
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty before drop_islands
     std::optional<RepairReport> repairs;  ///< empty before repair_job
 };
 
 /// Builds the job of a recipe. Surveys all layers when the recipe asks for cavities (for space inside the
-/// part), drains (for closed cavities) or dowels (for places inside all layers). Throws InputError when a
-/// file is unreadable or the part is empty.
+/// part), drains (for closed cavities) or dowels (for places inside all layers). Optimises first when the
+/// recipe asks for it. Throws InputError when a file is unreadable, the part is empty or cannot be optimised.
 /// ```
 ///     const Recipe recipe = read_recipe("part.toml", MachineProfiles());
 ///     BuiltJob built = build_job(recipe);
@@ -57,7 +59,7 @@ struct BuiltJob {
 ///     options.range = {0, built.job.layer_count};
 ///     const StreamReport report = stream_layers(built.job, *backend, options);
 /// ```
-BuiltJob build_job(const Recipe& recipe);
+BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing = {});
 
 /// Removes disconnected pieces (islands) from the part after a survey of all layers. The row spacing is the
 /// recipe's, or else a third of the thinnest beam's radius (of half the thinnest wall), clamped to the range

@@ -1,0 +1,155 @@
+// `lamella optimize` and `lamella analyze`: the shape that bears the loads, and how a part bears them.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
+#include "app/console/interrupt.h"
+#include "app/console/text_output.h"
+#include "app/reports/structure_text.h"
+#include "engine/base/error.h"
+#include "procedural/volume/write_nrrd.h"
+#include "recipe/structure/analyse_part.h"
+
+namespace lamella {
+
+namespace {
+
+struct StructureCommand : JobOptions {
+    std::string output;
+    std::string save;
+    std::string model = "auto";
+    bool json = false;
+};
+
+/// One line that is overwritten on a terminal; every tenth iteration otherwise.
+class IterationDisplay {
+  public:
+    explicit IterationDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+    ~IterationDisplay() {
+        if (open_) std::fputc('\n', stderr);
+    }
+    IterationDisplay(const IterationDisplay&) = delete;
+    IterationDisplay& operator=(const IterationDisplay&) = delete;
+
+    void show(const TopologyIteration& iteration, int iterations) {
+        constexpr int shown_every = 10;
+        if (quiet_ || (!terminal_ && iteration.index % shown_every != 0)) return;
+        const std::string text = iteration_text(iteration, iterations);
+        std::fputs((terminal_ ? "\r\033[K" + text : text + "\n").c_str(), stderr);
+        open_ = terminal_;
+    }
+
+  private:
+    bool quiet_, terminal_, open_ = false;
+};
+
+void write_report(const StructureCommand& command, const StructureReport& report) {
+    TextOutput out(command.output);
+    out.write(command.json ? structure_json(report).dump(2) + "\n" : structure_text(report));
+    out.close();
+}
+
+void save_densities(const OptimizedPart& part, const std::string& path) {
+    const std::vector<float> density(part.grid.density.begin(), part.grid.density.end());
+    const glm::ivec3 n = part.grid.size;
+    write_nrrd(path,
+               {static_cast<std::size_t>(n.x), static_cast<std::size_t>(n.y), static_cast<std::size_t>(n.z)},
+               density, part.box);
+}
+
+int optimize(const StructureCommand& command) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = command.recipe.read();
+    if (!recipe.optimize)
+        throw InputError(
+            "[optimize] is missing: there is nothing to optimise; accepted: a recipe with [optimize], "
+            "[[load]] and [[anchor]]");
+    OptimizeOptions options;
+    options.plans = command.plans;
+    options.anew = true;
+    options.threads = command.threads;
+    options.cancel = &cancel;
+    IterationDisplay display(command.quiet);
+    options.on_iteration = [&](const TopologyIteration& i, int iterations) { display.show(i, iterations); };
+    const BuiltJob built = build_job(recipe, options);
+    if (!command.save.empty()) save_densities(*built.optimized, command.save);
+    write_report(command, *built.optimized->report);
+    if (cancel.cancelled()) throw Interrupted("stopped; the report is that of the best design so far");
+    return 0;
+}
+
+int analyze(const StructureCommand& command) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = command.recipe.read();
+    OptimizeOptions optimizing;
+    optimizing.plans = command.plans;
+    optimizing.threads = command.threads;
+    optimizing.cancel = &cancel;
+    const BuiltJob built = build_job(recipe, optimizing);
+    AnalysisOptions options;
+    options.model = command.model == "law"        ? AnalysisModel::law
+                    : command.model == "elements" ? AnalysisModel::elements
+                                                  : AnalysisModel::automatic;
+    options.threads = command.threads;
+    options.cancel = &cancel;
+    write_report(command, analyse_part(recipe, built, options));
+    return 0;
+}
+
+void add_options(CLI::App& command, StructureCommand& options) {
+    options.recipe.add_to(command);
+    add_survey_options(command, options);
+    command.add_option("-o,--output", options.output, "File for the report; default: standard output")
+        ->type_name("FILE");
+    command.add_flag("--json", options.json, "Write the report as JSON");
+    command.add_flag("-q,--quiet", options.quiet, "Nothing on standard error but errors");
+}
+
+}  // namespace
+
+void add_optimize_command(CLI::App& root) {
+    auto options = std::make_shared<StructureCommand>();
+    CLI::App& command =
+        *root.add_subcommand("optimize", "Find the stiffest shape, or foam, of a part under its loads");
+    add_options(command, *options);
+    command
+        .add_option("--save", options->save,
+                    "Write the densities as a volume (NRRD): above 0.5 is solid; of a foam, its solid share")
+        ->type_name("FILE");
+    finish_command(
+        command,
+        "  lamella optimize bracket.toml\n"
+        "  lamella optimize bracket.toml --optimize-elements 96 --json -o report.json\n"
+        "  lamella slice bracket.toml -o bracket.sl1\n"
+        "The result is kept with the plans, where slice and all other commands find it. Ctrl-C ends the\n"
+        "search and reports the best design so far, which is not kept.");
+    command.callback([options] { optimize(*options); });
+}
+
+void add_analyze_command(CLI::App& root) {
+    auto options = std::make_shared<StructureCommand>();
+    CLI::App& command = *root.add_subcommand("analyze", "Compute how a part bends under its loads");
+    add_options(command, *options);
+    command
+        .add_option(
+            "--model", options->model,
+            "What stands for the part: elements inside it, the law of its foam, or auto: the law if it is "
+            "known")
+        ->check(CLI::IsMember({"auto", "elements", "law"}));
+    finish_command(
+        command,
+        "  lamella analyze bracket.toml\n"
+        "  lamella analyze foam.toml --model law\n"
+        "  lamella analyze foam.toml --model elements --optimize-elements 256\n"
+        "Elements are cubes: struts need four or more across, and peaks of stress at steps are guesses.");
+    command.callback([options] { analyze(*options); });
+}
+
+}  // namespace lamella

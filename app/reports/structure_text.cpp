@@ -1,0 +1,129 @@
+// A table for people, everything for programs.
+#include "app/reports/structure_text.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "recipe/build/json_triple.h"
+
+namespace lamella {
+
+namespace {
+
+std::string line(const char* name, const std::string& value) {
+    return fmt::format("{:<22}{}\n", name, value);
+}
+
+std::string size_text(const StructureReport& report) {
+    const std::string size = report.dimensions == 2
+                                 ? fmt::format("{} x {}", report.size.x, report.size.y)
+                                 : fmt::format("{} x {} x {}", report.size.x, report.size.y, report.size.z);
+    return fmt::format("{} in a grid of {}, {:.4g} mm each", report.elements, size, report.element);
+}
+
+/// Returns a compliance beside that of the full body.
+std::string compliance_text(double compliance, const StructureReport& report) {
+    return fmt::format("{:.5g} N mm, {:.4g} times that of the full body", compliance,
+                       compliance / report.full_compliance);
+}
+
+std::string triple(dvec3 at) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x, at.y, at.z); }
+
+std::string cases_text(const StructureReport& report) {
+    std::string text;
+    for (const CaseReport& load : report.cases) {
+        text += fmt::format("\ncase \"{}\"{}\n", load.name,
+                            load.weight == 1 ? "" : fmt::format(", weight {:.4g}", load.weight));
+        text += line("  compliance", fmt::format("{:.5g} N mm", load.compliance));
+        text += line("  displacement", fmt::format("at most {:.4g} mm, at {} mm", load.largest_displacement,
+                                                   triple(load.displacement_at)));
+        if (load.peak_stress > 0) {
+            text += line("  von Mises stress",
+                         fmt::format("at most {:.4g} MPa, at {} mm (elements are steps: a peak "
+                                     "at a notch or corner is a guess)",
+                                     load.peak_stress, triple(load.stress_at)));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string iteration_text(const TopologyIteration& iteration, int iterations) {
+    return fmt::format("{}/{}  C {:.5g}  volume {:.2f} %  change {:.3f}  grey {:.1f} %{}", iteration.index,
+                       iterations, iteration.compliance, 100 * iteration.volume, iteration.change,
+                       100 * iteration.greyness,
+                       iteration.sharpness > 0 ? fmt::format("  sharpness {:g}", iteration.sharpness) : "");
+}
+
+std::string structure_text(const StructureReport& report) {
+    std::string text = line("elements", size_text(report));
+    text += line("material", fmt::format("E = {:.5g} MPa, nu = {:.4g}{}", report.young, report.poisson,
+                                         report.material_is_assumed
+                                             ? " (assumed: the recipe has no [material]; displacements in mm "
+                                               "are those of E = 1 MPa)"
+                                             : ""));
+    text +=
+        line("full body", fmt::format("{:.5g} N mm, {:.5g} mm3", report.full_compliance, report.body_volume));
+    if (!report.history.empty()) {
+        text += line("densities",
+                     fmt::format("{} after {} iterations{}, {:.1f} % grey",
+                                 compliance_text(report.densities_compliance, report), report.history.size(),
+                                 report.is_converged ? "" : " (not settled)", 100 * report.greyness));
+    }
+    text += line("result", compliance_text(report.compliance, report));
+    if (report.volume > 0) {
+        text += line("volume", fmt::format("{:.2f} %{}{}", 100 * report.volume,
+                                           report.history.empty() ? ""
+                                                                  : fmt::format(" of at most {:.2f} %",
+                                                                                100 * report.volume_bound),
+                                           report.mass > 0 ? fmt::format(", {:.4g} g", report.mass) : ""));
+    }
+    if (report.stray_pieces > 0) text += line("stray pieces", fmt::format("{} dropped", report.stray_pieces));
+    for (const std::string& note : report.notes) text += line("note", note);
+    return text + cases_text(report);
+}
+
+nlohmann::ordered_json structure_json(const StructureReport& report) {
+    auto cases = nlohmann::ordered_json::array(), history = nlohmann::ordered_json::array();
+    for (const CaseReport& load : report.cases) {
+        cases.push_back({{"case", load.name},
+                         {"weight", load.weight},
+                         {"compliance_nmm", load.compliance},
+                         {"largest_displacement_mm", load.largest_displacement},
+                         {"displacement_at_mm", json_triple(load.displacement_at)},
+                         {"peak_von_mises_mpa", load.peak_stress},
+                         {"stress_at_mm", json_triple(load.stress_at)}});
+    }
+    for (const TopologyIteration& i : report.history) {
+        history.push_back({{"compliance", i.compliance},
+                           {"volume", i.volume},
+                           {"greyness", i.greyness},
+                           {"change", i.change},
+                           {"sharpness", i.sharpness},
+                           {"solver_iterations", i.solver_iterations}});
+    }
+    return {{"dimensions", report.dimensions},
+            {"grid", {report.size.x, report.size.y, report.size.z}},
+            {"elements", report.elements},
+            {"element_mm", report.element},
+            {"young_mpa", report.young},
+            {"poisson", report.poisson},
+            {"material_is_assumed", report.material_is_assumed},
+            {"body_volume_mm3", report.body_volume},
+            {"volume_bound", report.volume_bound},
+            {"full_compliance_nmm", report.full_compliance},
+            {"densities_compliance_nmm", report.densities_compliance},
+            {"compliance_nmm", report.compliance},
+            {"volume", report.volume},
+            {"mass_g", report.mass},
+            {"greyness", report.greyness},
+            {"stray_pieces", report.stray_pieces},
+            {"converged", report.is_converged},
+            {"cases", std::move(cases)},
+            {"notes", report.notes},
+            {"history", std::move(history)}};
+}
+
+}  // namespace lamella

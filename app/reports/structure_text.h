@@ -1,0 +1,17 @@
+// Reports of optimisations and analyses, as text and JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "recipe/structure/structure_report.h"
+
+namespace lamella {
+
+std::string structure_text(const StructureReport& report);
+nlohmann::ordered_json structure_json(const StructureReport& report);
+
+/// Returns one line about an iteration: "40/100  C 12.3 N mm  volume 30.0 %  change 0.043  grey 21 %".
+std::string iteration_text(const TopologyIteration& iteration, int iterations);
+
+}  // namespace lamella

@@ -1,0 +1,66 @@
+// Strains from the differences of corner displacements.
+#include "procedural/optimization/element_stress.h"
+
+#include <cmath>
+
+#include "engine/base/parallel.h"
+
+namespace lamella {
+
+namespace {
+
+/// Returns the gradient of the displacements at an element's centre: entry (i, j) is du_i/dx_j.
+template <std::size_t Dim>
+std::array<std::array<double, Dim>, Dim> gradient_at(
+    const std::array<std::ptrdiff_t, (std::size_t{1} << Dim)>& corners,
+    const NodalVector<Dim, double>& displacements, std::size_t element) {
+    std::array<std::array<double, Dim>, Dim> gradient{};
+    constexpr double share = 2.0 / static_cast<double>(std::size_t{1} << Dim);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const auto node = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(element) + corners[c]);
+        for (std::size_t i = 0; i < Dim; ++i) {
+            for (std::size_t j = 0; j < Dim; ++j)
+                gradient[i][j] += ((c >> j & 1) != 0 ? share : -share) * displacements.along[i][node];
+        }
+    }
+    return gradient;
+}
+
+double plane_stress(const std::array<std::array<double, 2>, 2>& g, double nu) {
+    const double factor = 1 / (1 - nu * nu), x = factor * (g[0][0] + nu * g[1][1]),
+                 y = factor * (g[1][1] + nu * g[0][0]), xy = factor * (1 - nu) / 2 * (g[0][1] + g[1][0]);
+    return std::sqrt(x * x - x * y + y * y + 3 * xy * xy);
+}
+
+double solid_stress(const std::array<std::array<double, 3>, 3>& g, double nu) {
+    const double shear = 0.5 / (1 + nu);
+    const double a = g[0][0] - g[1][1], b = g[1][1] - g[2][2], c = g[2][2] - g[0][0];
+    const double xy = g[0][1] + g[1][0], yz = g[1][2] + g[2][1], zx = g[2][0] + g[0][2];
+    return shear * std::sqrt(2 * (a * a + b * b + c * c) + 3 * (xy * xy + yz * yz + zx * zx));
+}
+
+double stress_of(const std::array<std::array<double, 2>, 2>& g, double nu) { return plane_stress(g, nu); }
+double stress_of(const std::array<std::array<double, 3>, 3>& g, double nu) { return solid_stress(g, nu); }
+
+}  // namespace
+
+template <std::size_t Dim>
+std::vector<double> von_mises(const ElasticBody<Dim>& body, double poisson,
+                              const NodalVector<Dim, double>& displacements) {
+    std::vector<double> stress(body.grid.size());
+    const auto corners = body.grid.corner_steps();
+    const glm::ivec3 n = body.grid.elements();
+    parallel_for(n.y * n.z, [&](int row) {
+        const std::size_t first = body.grid.number(0, row % n.y, row / n.y);
+        for (std::size_t e = first; e < first + static_cast<std::size_t>(n.x); ++e) {
+            if (body.present[e] != 0)
+                stress[e] = stress_of(gradient_at<Dim>(corners, displacements, e), poisson);
+        }
+    });
+    return stress;
+}
+
+template std::vector<double> von_mises(const ElasticBody<2>&, double, const NodalVector<2, double>&);
+template std::vector<double> von_mises(const ElasticBody<3>&, double, const NodalVector<3, double>&);
+
+}  // namespace lamella

@@ -1,0 +1,81 @@
+// Densities that stand for the part, and one analysis.
+#include "recipe/structure/analyse_part.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr double void_modulus = 1e-9;
+
+bool has_law(const BuiltJob& built) { return built.foam && built.foam->modulus && built.foam->modulus->made; }
+
+/// Sets the body's elements outside the part to outside: they carry nothing.
+void keep_part(const Field& part, const CancelToken* cancel, ElementDomain& domain) {
+    const std::vector<std::uint8_t> inside = elements_inside(part, domain, cancel);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        if (domain.use[i] == ElementUse::empty) domain.use[i] = ElementUse::outside;
+        if (inside[i] == 0) domain.use[i] = ElementUse::outside;
+    }
+    if (domain.elements() == 0)
+        throw InputError(
+            "analyze: no element has its centre in the part; accepted: smaller elements, by "
+            "optimize.element");
+}
+
+/// Returns the relative modulus of each element, by the foam's law; 1 where it is solid.
+std::vector<double> moduli_by_law(const ElementDomain& domain, const Grading& modulus, double young) {
+    std::vector<double> relative(domain.use.size(), 1.0);
+    const DensityGrid places{domain.size, {}, {}};
+    parallel_for(relative.size(), [&](std::size_t i) {
+        if (domain.use[i] != ElementUse::free) return;
+        const glm::ivec3 element = places.element(i);
+        relative[i] = modulus.at(0.5 * (domain.node(element) + domain.node(element + 1))) / young;
+    });
+    return relative;
+}
+
+template <std::size_t Dim>
+StructureReport analysed(const Recipe& recipe, ElementDomain domain, const GradingPtr& modulus,
+                         Gradings& gradings, const CancelToken* cancel) {
+    constexpr double unknown_poisson = -1;
+    const StructuralProblem<Dim> problem = structural_problem<Dim>(recipe, domain, gradings, unknown_poisson);
+    StructureReport report;
+    describe(problem, domain, report);
+    report.volume_bound = 1;
+    std::vector<double> density(domain.use.size(), 1.0);
+    if (modulus) density = moduli_by_law(domain, *modulus, problem.material.elastic.young);
+    analyse(problem, domain, make_penalty_law({1, void_modulus, 0}), density, modulus != nullptr, cancel,
+            report);
+    if (modulus) report.volume = report.mass = 0;  // what was summed were moduli
+    return report;
+}
+
+}  // namespace
+
+StructureReport analyse_part(const Recipe& recipe, const BuiltJob& built, const AnalysisOptions& options) {
+    if (recipe.loads.empty() || recipe.anchors.empty())
+        throw InputError(
+            "analyze: the part is not both loaded and held; accepted: a [[load]] and an [[anchor]]");
+    const bool by_law =
+        options.model == AnalysisModel::law || (options.model == AnalysisModel::automatic && has_law(built));
+    if (by_law && !has_law(built))
+        throw InputError("--model law: the part has no foam whose law is known; accepted: elements");
+    ThreadArena arena(options.threads);
+    return arena.execute([&] {
+        Gradings gradings(recipe);
+        gradings.set_body(built.body);
+        ElementDomain domain = element_domain(recipe, *built.body, built.regions, options.cancel);
+        if (!by_law) keep_part(*built.designed.part, options.cancel, domain);
+        const GradingPtr modulus = by_law ? built.foam->modulus->made : nullptr;
+        return domain.dimensions == 2
+                   ? analysed<2>(recipe, std::move(domain), modulus, gradings, options.cancel)
+                   : analysed<3>(recipe, std::move(domain), modulus, gradings, options.cancel);
+    });
+}
+
+}  // namespace lamella

@@ -1,0 +1,135 @@
+// Samples the body and its regions at the centres of elements.
+#include "recipe/structure/element_domain.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "procedural/elasticity/field_sample.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int default_elements_3d = 64, default_elements_2d = 200;
+// Solver, filters and update of one load case, measured; further cases add three numbers a node.
+constexpr double bytes_an_element = 700, bytes_a_case = 24;
+constexpr int most_along = 2048;
+
+/// Returns the edge of an element, mm.
+double edge_of(const OptimizeRecipe& optimize, dvec3 size) {
+    if (optimize.element > 0) return optimize.element;
+    const double longest =
+        optimize.dimensions == 2 ? std::max(size.x, size.y) : std::max({size.x, size.y, size.z});
+    const int standard = optimize.dimensions == 2 ? default_elements_2d : default_elements_3d;
+    return longest / (optimize.elements > 0 ? optimize.elements : standard);
+}
+
+void check_size(const OptimizeRecipe& optimize, glm::ivec3 size, std::size_t cases, double edge) {
+    for (int k = 0; k < 3; ++k) {
+        if (size[k] <= most_along) continue;
+        throw InputError(
+            fmt::format("optimize.element / --optimize-element: {:.4g} mm cuts the part into {} elements "
+                        "along a side; accepted: at most {}",
+                        edge, size[k], most_along));
+    }
+    const double elements = static_cast<double>(size.x) * size.y * size.z;
+    const double needed = elements * (bytes_an_element + bytes_a_case * static_cast<double>(cases));
+    const double memory =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (needed <= memory || memory <= 0) return;
+    const double suited = edge * std::pow(needed / memory, 1.0 / optimize.dimensions);
+    throw InputError(
+        fmt::format("optimize: {:.3g} million elements of {:.4g} mm need about {:.3g} GB of memory, "
+                    "and this machine has {:.3g} GB; accepted: optimize.element of {:.2g} mm or more",
+                    elements / 1e6, edge, needed / 1e9, memory / 1e9, suited));
+}
+
+/// Turns elements that are kept from free ones into another use.
+void prescribe(ElementDomain& domain, const std::vector<std::uint8_t>& inside, ElementUse use) {
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        if (inside[i] != 0 && domain.use[i] != ElementUse::outside) domain.use[i] = use;
+    }
+}
+
+/// Makes the elements under a skin of constant thickness solid: those whose centres are less deep.
+void prescribe_skin(const Recipe& recipe, const Field& body, ElementDomain& domain) {
+    if (!recipe.skin || recipe.skin->thickness.is_formula() || recipe.skin->side == SkinSide::outside) return;
+    const double thickness = recipe.skin->thickness.number();
+    parallel_for(domain.size.y * domain.size.z, [&](int row) {
+        for (int x = 0; x < domain.size.x; ++x) {
+            const glm::ivec3 at(x, row % domain.size.y, row / domain.size.y);
+            const std::size_t place = static_cast<std::size_t>(x) +
+                                      static_cast<std::size_t>(domain.size.x) * static_cast<std::size_t>(row);
+            if (domain.use[place] != ElementUse::free) continue;
+            const dvec3 centre = 0.5 * (domain.node(at) + domain.node(at + 1));
+            if (body.value(centre) > -thickness) domain.use[place] = ElementUse::solid;
+        }
+    });
+}
+
+}  // namespace
+
+std::size_t ElementDomain::elements() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(use, [](ElementUse u) { return u != ElementUse::outside; }));
+}
+
+dvec3 ElementDomain::node(glm::ivec3 at) const {
+    const dvec3 p = box.lo + dvec3(at) * edge;
+    return dimensions == 2 ? dvec3(p.x, p.y, 0.5 * (box.lo.z + box.hi.z)) : p;
+}
+
+std::vector<std::uint8_t> elements_inside(const Field& field, const ElementDomain& domain,
+                                          const CancelToken* cancel) {
+    Box box = domain.box;
+    if (domain.dimensions == 2) {  // one layer of cubes about half the height
+        const double middle = 0.5 * (box.lo.z + box.hi.z);
+        box.lo.z = middle - 0.5 * domain.edge;
+        box.hi.z = middle + 0.5 * domain.edge;
+    }
+    return sample_field(field, box, domain.size.x, cancel).present;
+}
+
+ElementDomain element_domain(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                             const CancelToken* cancel) {
+    const OptimizeRecipe optimize = recipe.optimize.value_or(OptimizeRecipe());
+    const Box bounds = body.bounds();
+    ElementDomain domain;
+    domain.dimensions = optimize.dimensions;
+    domain.edge = edge_of(optimize, bounds.size());
+    const auto along = [&](int axis) {
+        return std::max(1,
+                        static_cast<int>(std::ceil(std::min(bounds.size()[axis] / domain.edge, 1e9) - 1e-6)));
+    };
+    domain.size = {along(0), along(1), optimize.dimensions == 2 ? 1 : along(2)};
+    check_size(optimize, domain.size, std::max<std::size_t>(recipe.loads.size(), 1), domain.edge);
+    const dvec3 middle = 0.5 * (bounds.lo + bounds.hi), half = 0.5 * domain.edge * dvec3(domain.size);
+    domain.box = Box{middle - half, middle + half};
+    domain.thickness = domain.edge;
+    if (domain.dimensions == 2) {
+        domain.box.lo.z = bounds.lo.z;
+        domain.box.hi.z = bounds.hi.z;
+        domain.thickness = bounds.size().z;
+    }
+    for (const std::uint8_t inside : elements_inside(body, domain, cancel))
+        domain.use.push_back(inside != 0 ? ElementUse::free : ElementUse::outside);
+    if (domain.elements() == 0)
+        throw InputError(
+            fmt::format("optimize: no element of {:.4g} mm has its centre in the part; accepted: smaller "
+                        "elements, by optimize.element",
+                        domain.edge));
+    prescribe_skin(recipe, body, domain);
+    for (const BuiltRegion& region : regions.list) {
+        if (region.make != RegionMake::solid && region.make != RegionMake::empty) continue;
+        prescribe(domain, elements_inside(*region.field, domain, cancel),
+                  region.make == RegionMake::solid ? ElementUse::solid : ElementUse::empty);
+    }
+    return domain;
+}
+
+}  // namespace lamella

@@ -1,0 +1,39 @@
+// ElementDomain: a part as finite elements, for structural optimisation and analysis.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/cancel_token.h"
+#include "procedural/optimization/density_map.h"
+#include "recipe/build/build_regions.h"
+
+namespace lamella {
+
+/// A grid of cubic elements around the body. In two dimensions it is one layer of squares in the xy plane,
+/// each as high as the body.
+struct ElementDomain {
+    int dimensions = 3;
+    glm::ivec3 size{0};
+    double edge = 0;       ///< of an element in the plane, mm
+    double thickness = 0;  ///< of an element along z, mm
+    Box box;               ///< of the whole grid, mm
+    std::vector<ElementUse> use;
+
+    /// Number of elements that are not outside the body.
+    std::size_t elements() const;
+    double element_volume() const { return edge * edge * thickness; }  ///< mm^3
+    /// Returns the position of a node, mm; in two dimensions at half the body's height.
+    dvec3 node(glm::ivec3 at) const;
+};
+
+/// Divides the body into elements as [optimize] says: an element belongs to it if its centre does. Regions
+/// that are solid or empty, and a skin, prescribe elements. Throws InputError when the body has no element or
+/// the elements need more memory than the machine has, Interrupted when cancelled.
+ElementDomain element_domain(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                             const CancelToken* cancel);
+
+/// Returns the elements of a grid whose centres are inside a field; 1 for those.
+std::vector<std::uint8_t> elements_inside(const Field& field, const ElementDomain& domain,
+                                          const CancelToken* cancel);
+
+}  // namespace lamella

@@ -1,0 +1,48 @@
+// Optimises a part: from the recipe's loads, anchors and [optimize] to the shape or foam that carries them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "procedural/optimization/density_shape.h"
+#include "recipe/build/support_plan.h"
+#include "recipe/structure/structure_report.h"
+
+namespace lamella {
+
+struct OptimizeOptions {
+    std::filesystem::path plans =
+        default_plan_folder();  ///< folder for results; empty: none are read or kept
+    bool anew = false;          ///< optimises even if the folder has the result
+    int threads = 0;            ///< 0: one per core
+    /// Called after each iteration with the number of iterations at most; may be empty.
+    std::function<void(const TopologyIteration&, int iterations)> on_iteration{};
+    /// Ends the optimisation with the best design so far; may be null. A job that needs the result throws
+    /// Interrupted.
+    const CancelToken* cancel = nullptr;
+};
+
+/// An optimised part.
+struct OptimizedPart {
+    /// Density: above 0.5 is solid; of a foam its solid volume fraction. Smooth beyond the body.
+    DensityGrid grid;
+    Box box;                ///< of the grid, mm
+    GradingPtr density;     ///< the same, as a grading
+    GradingPtr foam_sizes;  ///< of the cells or members that are driven, mm; null without a foam
+    FieldPtr shape;         ///< the body, cut to where it is solid; the body itself for a foam
+    std::optional<StructureReport> report;  ///< empty when the result comes from a plan
+};
+
+/// Optimises the body as the recipe says, or reads the result from the plan folder when the same problem was
+/// solved before. A pure function of the recipe. Throws InputError for a problem without a solution (see
+/// structural_problem), Interrupted when cancelled before the first iteration ends.
+OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
+                            Gradings& gradings, const OptimizeOptions& options);
+
+/// Returns the hash of all that the result depends on.
+std::string optimize_hash(const Recipe& recipe);
+
+}  // namespace lamella

@@ -1,0 +1,104 @@
+// Two solves, and the extremes of displacement and stress.
+#include "recipe/structure/structure_report.h"
+
+#include <cmath>
+
+#include "procedural/optimization/density_shape.h"
+#include "procedural/optimization/element_stress.h"
+
+namespace lamella {
+
+namespace {
+
+template <std::size_t Dim>
+CaseReport case_report(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
+                       const NodalVector<Dim, double>& u, std::span<const double> density, bool is_foam) {
+    const NodeGrid<Dim>& nodes = problem.topology.body.grid;
+    const std::vector<std::size_t> numbers = element_numbers(nodes);
+    ElasticBody<Dim> body = problem.topology.body;
+    for (std::size_t e = 0; e < numbers.size(); ++e)
+        body.present[numbers[e]] = problem.topology.use[e] != ElementUse::outside;
+    const std::vector<double> stress = von_mises(body, problem.material.elastic.poisson, u);
+    // Displacements of unit elements times the unit are mm; strains are those over the edge.
+    const double stress_unit = problem.material.elastic.young * problem.displacement_unit / domain.edge;
+    const DensityGrid places{domain.size, {}, {}};
+    CaseReport result;
+    for (std::size_t e = 0; e < density.size(); ++e) {
+        constexpr double solid = 0.5;
+        const bool is_there = is_foam ? density[e] > 0 : density[e] >= solid;
+        if (domain.use[e] == ElementUse::outside || !is_there) continue;
+        const glm::ivec3 element = places.element(e);
+        const double peak = stress_unit * stress[numbers[e]];
+        if (!is_foam && peak > result.peak_stress) {
+            result.peak_stress = peak;
+            result.stress_at = 0.5 * (domain.node(element) + domain.node(element + 1));
+        }
+        for (int c = 0; c < 1 << Dim; ++c) {
+            const glm::ivec3 corner = element + glm::ivec3(c & 1, c >> 1 & 1, c >> 2 & 1);
+            const std::size_t node = nodes.number(corner.x, corner.y, corner.z);
+            double square = 0;
+            for (std::size_t d = 0; d < Dim; ++d) square += u.along[d][node] * u.along[d][node];
+            const double moved = std::sqrt(square) * problem.displacement_unit;
+            if (moved <= result.largest_displacement) continue;
+            result.largest_displacement = moved;
+            result.displacement_at = domain.node(corner);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+template <std::size_t Dim>
+void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report) {
+    report.dimensions = static_cast<int>(Dim);
+    report.size = domain.size;
+    report.elements = domain.elements();
+    report.element = domain.edge;
+    report.young = problem.material.elastic.young;
+    report.poisson = problem.material.elastic.poisson;
+    report.material_is_assumed = problem.material_is_assumed;
+    report.body_volume = domain.element_volume() * static_cast<double>(report.elements);
+    report.volume_bound = problem.topology.volume;
+    report.notes = problem.notes;
+}
+
+template <std::size_t Dim>
+void analyse(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
+             const std::shared_ptr<const ModulusLaw>& law, std::span<const double> density, bool is_foam,
+             const CancelToken* cancel, StructureReport& report) {
+    TopologyProblem<Dim> topology = problem.topology;
+    topology.law = law;
+    std::vector<double> full(density.size()), shape(density.begin(), density.end());
+    double sum = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        const ElementUse use = topology.use[i];
+        full[i] = use == ElementUse::free || use == ElementUse::solid ? 1 : 0;
+        if (use != ElementUse::free) shape[i] = use == ElementUse::solid ? 1 : 0;
+        sum += shape[i];
+    }
+    Compliance<Dim> compliance(topology, {.tolerance = 1e-6, .cancel = cancel});
+    report.full_compliance = problem.displacement_unit * compliance.evaluate(full).total;
+    const auto found = compliance.evaluate(shape);
+    report.compliance = problem.displacement_unit * found.total;
+    report.volume = sum / static_cast<double>(report.elements);
+    report.mass = 1e-3 * problem.material.density * report.volume * report.body_volume;
+    for (std::size_t c = 0; c < topology.cases.size(); ++c) {
+        CaseReport& added = report.cases.emplace_back(
+            case_report(problem, domain, compliance.displacements(c), shape, is_foam));
+        added.name = topology.cases[c].name;
+        added.weight = topology.cases[c].weight;
+        added.compliance = problem.displacement_unit * found.by_case[c];
+    }
+}
+
+template void describe(const StructuralProblem<2>&, const ElementDomain&, StructureReport&);
+template void describe(const StructuralProblem<3>&, const ElementDomain&, StructureReport&);
+template void analyse(const StructuralProblem<2>&, const ElementDomain&,
+                      const std::shared_ptr<const ModulusLaw>&, std::span<const double>, bool,
+                      const CancelToken*, StructureReport&);
+template void analyse(const StructuralProblem<3>&, const ElementDomain&,
+                      const std::shared_ptr<const ModulusLaw>&, std::span<const double>, bool,
+                      const CancelToken*, StructureReport&);
+
+}  // namespace lamella

@@ -1,0 +1,59 @@
+// StructureReport: how a part bears its loads, from one finite element analysis.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "procedural/optimization/topology_optimizer.h"
+#include "recipe/structure/structural_problem.h"
+
+namespace lamella {
+
+/// Displacements and stresses under one load case.
+struct CaseReport {
+    std::string name;
+    double weight = 1;
+    double compliance = 0;            ///< N mm
+    double largest_displacement = 0;  ///< mm
+    dvec3 displacement_at{0};         ///< mm
+    double peak_stress = 0;           ///< von Mises at the centre of a solid element, MPa
+    dvec3 stress_at{0};               ///< mm
+};
+
+/// What an optimisation or analysis found.
+struct StructureReport {
+    int dimensions = 3;
+    glm::ivec3 size{0};        ///< of the grid, elements
+    std::size_t elements = 0;  ///< of the body
+    double element = 0;        ///< edge, mm
+    double young = 0;          ///< of the solid, MPa
+    double poisson = 0;
+    bool material_is_assumed = false;
+    double body_volume = 0;           ///< of the body's elements, mm^3
+    double volume_bound = 1;          ///< share of it
+    double full_compliance = 0;       ///< with material everywhere, N mm; weighted sum over the cases
+    double densities_compliance = 0;  ///< of the densities at the end, N mm; 0: nothing was optimised
+    double compliance = 0;            ///< of the shape (or of the foam), N mm
+    double volume = 0;    ///< share of the body's volume that the shape fills, or the foam's mean density
+    double mass = 0;      ///< g; 0: the material's density is unknown
+    double greyness = 0;  ///< of the densities at the end
+    std::size_t stray_pieces = 0;  ///< dropped
+    bool is_converged = false;     ///< by the tolerance, within the iterations
+    std::vector<TopologyIteration> history;
+    std::vector<CaseReport> cases;
+    std::vector<std::string> notes;
+};
+
+/// Describes the problem: sizes, material, notes.
+template <std::size_t Dim>
+void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report);
+
+/// Analyses the body with material everywhere (full_compliance) and with these densities under a law, and
+/// adds compliance, volume, mass and the cases. Stresses are of elements that are at least half solid; none
+/// of a foam, whose struts the elements do not show.
+template <std::size_t Dim>
+void analyse(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
+             const std::shared_ptr<const ModulusLaw>& law, std::span<const double> density, bool is_foam,
+             const CancelToken* cancel, StructureReport& report);
+
+}  // namespace lamella
