@@ -12,12 +12,12 @@ namespace lamella {
 
 namespace {
 
-constexpr int power_steps = 10;         // of the power iteration for the largest eigenvalue
-constexpr double safety = 1.1;          // factor on the eigenvalue estimate
-constexpr double smoothed_share = 6;    // the smoother damps eigenvalues down to this fraction of the largest
-constexpr std::size_t max_dense = 600;  // unknowns of a coarsest grid
+constexpr int power_iterations = 10;     // of the power iteration for the largest eigenvalue
+constexpr double estimate_margin = 1.1;  // factor on the eigenvalue estimate
+constexpr double smoothed_range = 6;  // the smoother damps eigenvalues down to this fraction of the largest
+constexpr std::size_t max_direct = 600;  // unknowns of a coarsest grid
 // The coarsest matrix comes from single precision: what is softer than this share of its diagonal is noise.
-constexpr double negligible = 1e-7;
+constexpr double direct_noise = 1e-7;
 
 /// Returns the largest eigenvalue of D^-1 k for one element, D being the diagonal of k. It bounds that of any
 /// body of such elements, whatever their moduli: both K and its diagonal are sums over elements.
@@ -128,14 +128,14 @@ void BodyMultigrid<Dim>::Level::find_greatest() {
     };
     double norm = std::sqrt(squares(x));
     greatest = 0;
-    for (int k = 0; k < power_steps && norm > 0; ++k) {
+    for (int k = 0; k < power_iterations && norm > 0; ++k) {
         for_each_force(x, [&](std::size_t d, std::size_t begin, std::size_t end, const float* force) {
             for (std::size_t i = begin; i < end; ++i)
                 next.along[d][i] = inverse.along[d][i] * force[i - begin] / static_cast<float>(norm);
         });
         std::swap(x, next);
         norm = std::sqrt(squares(x));
-        greatest = safety * norm;
+        greatest = estimate_margin * norm;
     }
     if (!(greatest > 0)) greatest = 1;
 }
@@ -168,7 +168,7 @@ void BodyMultigrid<Dim>::Level::next_step(double keep, double take) {
 /// Performs two steps of Chebyshev iteration, preconditioned by the diagonal.
 template <std::size_t Dim>
 void BodyMultigrid<Dim>::Level::smooth(bool from_zero) {
-    const double high = greatest, low = greatest / smoothed_share, middle = (high + low) / 2,
+    const double high = greatest, low = greatest / smoothed_range, middle = (high + low) / 2,
                  half = (high - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
     if (from_zero) {
         first_step(1 / middle);
@@ -213,7 +213,7 @@ void BodyMultigrid<Dim>::Level::factorise() {
         }
     }
     const Eigen::VectorXd diagonal = k.diagonal();
-    for (double share = negligible; share < 1; share *= 10) {
+    for (double share = direct_noise; share < 1; share *= 10) {
         k.diagonal() = (1 + share) * diagonal;
         factors.compute(k);
         if (factors.info() == Eigen::Success) break;
@@ -258,7 +258,7 @@ BodyMultigrid<Dim>::BodyMultigrid(const ElasticBody<Dim>& body, const CancelToke
         const glm::ivec3 n = level.grid.nodes();
         if (Dim * static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
                 static_cast<std::size_t>(n.z) <=
-            max_dense)
+            max_direct)
             break;
     } while (true);
 }

@@ -8,12 +8,12 @@ namespace lamella {
 
 namespace {
 
-constexpr int power(int base, std::size_t exponent) {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+constexpr int points_of_cube(int base, std::size_t exponent) {
+    return exponent == 0 ? 1 : base * points_of_cube(base, exponent - 1);
 }
 
 /// Interpolation weight of a coarse node at a fine node that lies `distance` fine elements away.
-constexpr double weight(int distance) {
+constexpr double interpolation_weight(int distance) {
     return distance == 0 ? 1 : distance == 1 || distance == -1 ? 0.5 : 0;
 }
 
@@ -31,19 +31,22 @@ int place(glm::ivec3 at, int side) {
 }
 
 template <std::size_t Dim>
-double weight(glm::ivec3 at) {
-    return weight(at.x) * weight(at.y) * (Dim == 2 ? 1 : weight(at.z));
+double interpolation_weight(glm::ivec3 at) {
+    return interpolation_weight(at.x) * interpolation_weight(at.y) *
+           (Dim == 2 ? 1 : interpolation_weight(at.z));
 }
 
 template <std::size_t Dim>
-using Block = std::array<double, Dim * Dim>;
+using NodeBlock = std::array<double, Dim * Dim>;
 template <std::size_t Dim>
-using NodeStencilOf = std::array<Block<Dim>, NodeGrid<Dim>::neighbours>;
+using NodeStencilOf = std::array<NodeBlock<Dim>, NodeGrid<Dim>::neighbours>;
+
+}  // namespace
 
 /// Which neighbours of which fine neighbour lie where, and how coarse nodes interpolate there.
 template <std::size_t Dim>
 struct CoarseningWeights {
-    static constexpr int near = power(3, Dim), far = power(5, Dim);
+    static constexpr int near = points_of_cube(3, Dim), far = points_of_cube(5, Dim);
     struct Share {
         std::size_t coarse;
         double weight;
@@ -56,7 +59,7 @@ struct CoarseningWeights {
     CoarseningWeights() {
         for (int s = 0; s < near; ++s) {
             const glm::ivec3 from = offset<Dim>(s, 3);
-            restriction[static_cast<std::size_t>(s)] = weight<Dim>(from);
+            restriction[static_cast<std::size_t>(s)] = interpolation_weight<Dim>(from);
             for (int k = 0; k < near; ++k) {
                 reached[static_cast<std::size_t>(s)][static_cast<std::size_t>(k)] =
                     static_cast<std::size_t>(place<Dim>(from + offset<Dim>(k, 3), 5));
@@ -64,7 +67,7 @@ struct CoarseningWeights {
         }
         for (int t = 0; t < far; ++t) {
             for (int c = 0; c < near; ++c) {
-                const double w = weight<Dim>(offset<Dim>(t, 5) - 2 * offset<Dim>(c, 3));
+                const double w = interpolation_weight<Dim>(offset<Dim>(t, 5) - 2 * offset<Dim>(c, 3));
                 if (w != 0)
                     interpolation[static_cast<std::size_t>(t)].push_back({static_cast<std::size_t>(c), w});
             }
@@ -72,11 +75,13 @@ struct CoarseningWeights {
     }
 };
 
+namespace {
+
 /// Computes the stencil of a coarse node. `stencil_of(node)` returns that of a fine node.
 template <std::size_t Dim, typename StencilAt>
 NodeStencilOf<Dim> coarse_stencil(const CoarseningWeights<Dim>& weights, const NodeGrid<Dim>& fine,
                                   glm::ivec3 coarse_node, const StencilAt& stencil_of) {
-    std::array<Block<Dim>, CoarseningWeights<Dim>::far> half{};  // restriction times stiffness
+    std::array<NodeBlock<Dim>, CoarseningWeights<Dim>::far> half{};  // restriction times stiffness
     const glm::ivec3 nodes = fine.nodes();
     for (int s = 0; s < CoarseningWeights<Dim>::near; ++s) {
         const glm::ivec3 at = 2 * coarse_node + offset<Dim>(s, 3);
@@ -85,7 +90,7 @@ NodeStencilOf<Dim> coarse_stencil(const CoarseningWeights<Dim>& weights, const N
         const NodeStencilOf<Dim> stencil = stencil_of(fine.number(at.x, at.y, at.z));
         const double w = weights.restriction[static_cast<std::size_t>(s)];
         for (std::size_t k = 0; k < stencil.size(); ++k) {
-            Block<Dim>& sum = half[weights.reached[static_cast<std::size_t>(s)][k]];
+            NodeBlock<Dim>& sum = half[weights.reached[static_cast<std::size_t>(s)][k]];
             for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += w * stencil[k][i];
         }
     }
