@@ -1,0 +1,83 @@
+// Grey images from pictures, and box filters against blocks and fine subdivision.
+#include "procedural/optimization/grey_image.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "engine/base/error.h"
+
+namespace grey_image_test {
+
+using namespace lamella;
+
+namespace {
+
+GreyImage noise(int width, int height, unsigned seed) {
+    std::mt19937 random(seed);
+    GreyImage image(width, height);
+    for (double& v : image.values) v = static_cast<double>(random() % 1001) / 1000;
+    return image;
+}
+
+double mean(const GreyImage& image) {
+    double sum = 0;
+    for (const double v : image.values) sum += v;
+    return sum / static_cast<double>(image.values.size());
+}
+
+}  // namespace
+
+TEST_CASE("black is solid, white is empty, and inverted the other way round", "[optimization]") {
+    // Upper row: black, white. Lower row: red, green, whose luma has the weights of BT.709.
+    const Picture picture{2, 2, {0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 255, 0}};
+    const GreyImage image = solidity(picture), inverted = solidity(picture, true);
+    REQUIRE(image.width == 2);
+    REQUIRE(image.height == 2);
+    CHECK(image.values[image.index(0, 1)] == 1.0);
+    CHECK(image.values[image.index(1, 1)] == Approx(0).margin(1e-12));
+    CHECK(image.values[image.index(0, 0)] == Approx(1 - 0.2126));
+    CHECK(image.values[image.index(1, 0)] == Approx(1 - 0.7152));
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        CHECK(inverted.values[i] == Approx(1 - image.values[i]).margin(1e-12));
+}
+
+TEST_CASE("a picture scaled by a whole factor has the means of blocks", "[optimization]") {
+    const GreyImage image = noise(12, 8, 1), scaled = box_filtered(image, 3);
+    REQUIRE(scaled.width == 3);
+    REQUIRE(scaled.height == 2);
+    for (int y = 0; y < 2; ++y) {
+        for (int x = 0; x < 3; ++x) {
+            double sum = 0;
+            for (int k = 0; k < 16; ++k) sum += image.values[image.index(4 * x + k % 4, 4 * y + k / 4)];
+            CHECK(scaled.values[scaled.index(x, y)] == Approx(sum / 16).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("a picture scaled by any factor has the means over the areas of pixels", "[optimization]") {
+    const GreyImage image = noise(10, 15, 2);
+    for (const int width : {1, 4, 7, 10, 13}) {
+        const GreyImage scaled = box_filtered(image, width);
+        CAPTURE(width);
+        REQUIRE(scaled.height == (3 * width + 1) / 2);
+        CHECK(mean(scaled) == Approx(mean(image)).epsilon(1e-12));
+        // Parts of 1 / (10 width) by 1 / (15 height) lie in one pixel of either image.
+        const int w = scaled.width, h = scaled.height;
+        std::vector<double> sums(scaled.values.size(), 0);
+        for (int v = 0; v < 15 * h; ++v) {
+            for (int u = 0; u < 10 * w; ++u)
+                sums[scaled.index(u / 10, v / 15)] += image.values[image.index(u / w, v / h)] / 150;
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            CHECK(scaled.values[i] == Approx(sums[i]).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("pictures without pixels and widths below one are refused", "[optimization]") {
+    CHECK_THROWS_AS(solidity(Picture{}), InputError);
+    CHECK_THROWS_AS(solidity(Picture{2, 2, {1, 2, 3}}), InputError);
+    CHECK_THROWS_AS(box_filtered(GreyImage(), 3), InputError);
+    CHECK_THROWS_AS(box_filtered(noise(4, 4, 3), 0), InputError);
+}
+
+}  // namespace grey_image_test
