@@ -51,7 +51,7 @@ std::string cases_text(const StructureReport& report) {
 }  // namespace
 
 std::string iteration_text(const TopologyIteration& iteration, int iterations) {
-    return fmt::format("{}/{}  C {:.5g}  volume {:.2f} %  change {:.3f}  grey {:.1f} %{}", iteration.index,
+    return fmt::format("{}/{}  C {:.5g} N mm  volume {:.2f} %  change {:.3f}  grey {:.1f} %{}", iteration.index,
                        iterations, iteration.compliance, 100 * iteration.volume, iteration.change,
                        100 * iteration.greyness,
                        iteration.sharpness > 0 ? fmt::format("  sharpness {:g}", iteration.sharpness) : "");

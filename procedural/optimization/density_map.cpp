@@ -92,6 +92,12 @@ void DensityMap::forward(std::span<const double> design, double sharpness) {
     }
 }
 
+std::vector<double> DensityMap::smooth_density() const {
+    std::vector<double> smooth = robust_ ? robust_->filtered() : filtered_;
+    prescribe(smooth);
+    return smooth;
+}
+
 std::vector<double> DensityMap::backward(Role role, std::span<const double> gradient) const {
     std::vector<double> back(gradient.begin(), gradient.end());
     clear_prescribed(back);

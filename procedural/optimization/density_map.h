@@ -42,6 +42,9 @@ class DensityMap {
     /// Computes the densities. `sharpness` of the projection; 0: none.
     void forward(std::span<const double> design, double sharpness);
     std::span<const double> density(Role role) const { return fields_[field_of(role)].density; }
+    /// The densities before projection and overhang filter, 0 and 1 where they are prescribed: smooth, and
+    /// the result's contour is where they are 0.5.
+    std::vector<double> smooth_density() const;
     /// Returns the gradient with respect to the design variables from that with respect to a density.
     std::vector<double> backward(Role role, std::span<const double> gradient) const;
 

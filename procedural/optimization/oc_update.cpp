@@ -8,8 +8,9 @@
 
 namespace lamella {
 
-std::vector<double> oc_update(std::span<const double> x, std::span<const double> compliance_gradient,
-                              std::span<const double> volume_gradient, double excess,
+std::vector<double> oc_update(std::span<const double> x, std::span<const double> lower,
+                              std::span<const double> upper, std::span<const double> compliance_gradient,
+                              std::span<const double> volume_gradient, const VolumeExcess& excess,
                               const OcSettings& settings) {
     std::vector<double> next(x.begin(), x.end()), wish(x.size());
     for_each_variable_block(x.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -21,14 +22,15 @@ std::vector<double> oc_update(std::span<const double> x, std::span<const double>
     double low = 0, high = 1e9;
     while ((high - low) / (low + high) > settings.tolerance) {
         const double multiplier = 0.5 * (low + high), scale = 1 / std::sqrt(multiplier);
-        const double growth = sum_over_variables<double>(x.size(), [&](std::size_t i, double& sum) {
-            if (!(volume_gradient[i] > 0)) return;
-            const double lower = std::max(0.0, x[i] - settings.move),
-                         upper = std::min(1.0, x[i] + settings.move);
-            next[i] = std::max(lower, std::min(upper, wish[i] * scale));
-            sum += volume_gradient[i] * (next[i] - x[i]);
+        for_each_variable_block(x.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (!(volume_gradient[i] > 0)) continue;
+                const double least = std::max(lower[i], x[i] - settings.move),
+                             most = std::min(upper[i], x[i] + settings.move);
+                next[i] = std::max(least, std::min(most, wish[i] * scale));
+            }
         });
-        (excess + growth > 0 ? low : high) = multiplier;
+        (excess(next) > 0 ? low : high) = multiplier;
     }
     return next;
 }

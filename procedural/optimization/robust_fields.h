@@ -34,6 +34,9 @@ class RobustFields {
     const DensityFilter& filter() const { return filter_; }
     const LengthScale& scale() const { return scale_; }
 
+    /// The filtered field of the last call of forward.
+    const std::vector<double>& filtered() const { return filtered_; }
+
     /// Returns the fields of the design variables at a sharpness of the projection; keeps the filtered field
     /// for backward. Throws InputError for a wrong number of values or sharpness (projection.h).
     Fields forward(std::span<const double> design, double sharpness);

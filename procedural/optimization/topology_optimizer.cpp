@@ -72,9 +72,15 @@ double TopologyOptimizer<Dim>::sharpness() const {
     return state_.phase == 0 ? 0 : std::min(std::ldexp(1.0, state_.phase - 1), settings_.sharpness);
 }
 
+/// A sharp projection turns a small change of the design into a large one of the densities.
+template <std::size_t Dim>
+double TopologyOptimizer<Dim>::move() const {
+    return settings_.move / std::sqrt(std::max(1.0, sharpness()));
+}
+
 template <std::size_t Dim>
 typename Compliance<Dim>::Result TopologyOptimizer<Dim>::analyse() {
-    map_.forward(state_.design, sharpness());
+    show_design();
     return compliance_.evaluate(map_.density(DensityMap::Role::result));
 }
 
@@ -84,10 +90,19 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
                                                         const std::vector<double>& volume_gradient,
                                                         double excess) {
     if (settings_.method == TopologyMethod::oc) {
-        std::vector<double> next =
-            oc_update(state_.design, compliance_gradient, volume_gradient, excess, {.move = settings_.move});
-        for (std::size_t i = 0; i < next.size(); ++i) next[i] = std::clamp(next[i], lower_[i], upper_[i]);
-        return next;
+        // Without a projection the volume is linear in the design.
+        const VolumeExcess linear = [&](std::span<const double> design) {
+            return excess + sum_over_variables<double>(design.size(), [&](std::size_t i, double& sum) {
+                       sum += volume_gradient[i] * (design[i] - state_.design[i]);
+                   });
+        };
+        const double bound = mean_of(map_.density(DensityMap::Role::volume), elements_) * elements_ - excess;
+        const VolumeExcess projected = [&](std::span<const double> design) {
+            map_.forward(design, sharpness());
+            return mean_of(map_.density(DensityMap::Role::volume), elements_) * elements_ - bound;
+        };
+        return oc_update(state_.design, lower_, upper_, compliance_gradient, volume_gradient,
+                         sharpness() > 0 ? projected : linear, {.move = move()});
     }
     // Svanberg asks for values of 1 to 100.
     constexpr double objective_scale = 10, constraint_scale = 100;
@@ -130,7 +145,7 @@ void TopologyOptimizer<Dim>::advance(double change) {
 template <std::size_t Dim>
 TopologyIteration TopologyOptimizer<Dim>::iterate() {
     using Role = DensityMap::Role;
-    map_.forward(state_.design, sharpness());
+    show_design();
     std::span<const double> stiff =
         settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::stiffness);
     const typename Compliance<Dim>::Result found = compliance_.evaluate(stiff);

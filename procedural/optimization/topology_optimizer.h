@@ -61,7 +61,9 @@ class TopologyOptimizer {
     /// Analyses the present design without changing it; see DensityMap::Role::result.
     typename Compliance<Dim>::Result analyse();
 
+    /// The densities of the present design, after show_design().
     const DensityMap& densities() const { return map_; }
+    void show_design() { map_.forward(state_.design, sharpness()); }
     const Compliance<Dim>& compliance() const { return compliance_; }
     const TopologyState& state() const { return state_; }
     /// Goes on where another object was. Throws InputError for a state that does not fit.
@@ -69,6 +71,7 @@ class TopologyOptimizer {
 
   private:
     double sharpness() const;
+    double move() const;
     std::vector<double> next_design(const typename Compliance<Dim>::Result& found,
                                     const std::vector<double>& compliance_gradient,
                                     const std::vector<double>& volume_gradient, double excess);

@@ -155,8 +155,14 @@ class PartOptimizer {
 /// Cuts the densities at the level that keeps their volume, and drops stray pieces.
 template <std::size_t Dim>
 DensityGrid PartOptimizer<Dim>::shaped(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const {
-    const auto density = optimizer.densities().density(DensityMap::Role::result);
-    DensityGrid grid{domain_.size, domain_.use, {density.begin(), density.end()}};
+    // The filtered field is smooth, and says where the projected one is solid. What the overhang filter
+    // leaves is known only behind it.
+    const DensityMap& densities = optimizer.densities();
+    const auto printed = densities.density(DensityMap::Role::result);
+    const bool is_smooth = !recipe_.optimize->overhang;
+    DensityGrid grid{
+        domain_.size, domain_.use,
+        is_smooth ? densities.smooth_density() : std::vector<double>(printed.begin(), printed.end())};
     if (foam_) {
         extend_outside(grid, extended_layers);
         return grid;
@@ -184,15 +190,17 @@ OptimizedPart PartOptimizer<Dim>::optimize(const FieldPtr& body) {
     while (!optimizer.is_finished()) {
         try {
             report.history.push_back(optimizer.iterate());
+            report.history.back().compliance *= problem_->displacement_unit;
         } catch (const Interrupted&) {
             if (report.history.empty()) throw;
             break;
         }
         if (options_.on_iteration) options_.on_iteration(report.history.back(), recipe_.optimize->iterations);
     }
+    optimizer.show_design();
     const TopologyIteration& last = report.history.back();
     report.is_converged = optimizer.is_finished() && last.change < recipe_.optimize->tolerance;
-    report.densities_compliance = problem_->displacement_unit * last.compliance;
+    report.densities_compliance = last.compliance;
     report.greyness = last.greyness;
     part.grid = shaped(optimizer, report);
     part.box = domain_.box;
