@@ -14,8 +14,16 @@ template <std::size_t Dim>
 ElasticBody<Dim> checked(ElasticBody<Dim> body) {
     if (std::ranges::all_of(body.present, [](std::uint8_t p) { return p == 0; }))
         throw InputError("an elastic body has no elements");
-    if (std::ranges::all_of(body.fixed, [](std::uint8_t f) { return f == 0; }))
-        throw InputError("an elastic body is not held anywhere");
+    // A node that is held beside the body holds nothing.
+    const auto corners = body.grid.corner_steps();
+    bool held = false;
+    for (std::size_t e = 0; e < body.present.size() && !held; ++e) {
+        if (body.present[e] == 0) continue;
+        held = std::ranges::any_of(corners, [&](std::ptrdiff_t corner) {
+            return body.fixed[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(e) + corner)] != 0;
+        });
+    }
+    if (!held) throw InputError("an elastic body is not held anywhere");
     return body;
 }
 
