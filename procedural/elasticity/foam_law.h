@@ -42,6 +42,8 @@ class FoamLaw {
     /// numbers out of range, and if ratio or modulus does not increase from point to point.
     FoamLaw(const FoamLawTable& table, double material_poisson);
 
+    /// The computed points, for the material's Poisson's ratio.
+    const std::vector<FoamLawPoint>& points() const { return points_; }
     /// The range of computed ratios, and the relative moduli at its ends.
     Interval ratios() const { return {points_.front().ratio, points_.back().ratio}; }
     Interval moduli() const { return {points_.front().young, points_.back().young}; }

@@ -6,6 +6,7 @@
 
 #include "engine/base/deterministic_math.h"
 #include "engine/base/error.h"
+#include "procedural/grading/table_curve.h"
 
 namespace lamella {
 
@@ -33,18 +34,28 @@ class PenaltyLaw final : public ModulusLaw {
     double steepness_;
 };
 
-constexpr int law_samples = 64;
+constexpr int pieces_between_points = 8;
 
 class FoamModulusLaw final : public ModulusLaw {
   public:
     FoamModulusLaw(const FoamLaw& law, double least) : least_(least) {
-        const Interval ratios = law.ratios();
-        const double step = power(ratios.hi / ratios.lo, 1.0 / (law_samples - 1));
-        double ratio = ratios.lo;
-        for (int i = 0; i < law_samples; ++i, ratio *= step) {
-            const FoamLawPoint point = law.at(std::min(ratio, ratios.hi));
-            add(point.density, point.young);
+        // Not over the ratio: FoamLaw::at is linear in the density, whose slope jumps from point to point.
+        Table logs;
+        for (const FoamLawPoint& point : law.points()) {
+            if (!(point.density > 0 && (logs.empty() || logarithm(point.density) > logs.back().first)))
+                throw InputError("a foam's law: density and modulus have to grow with the ratio");
+            logs.emplace_back(logarithm(point.density), logarithm(point.young));
         }
+        const TableCurve curve(logs, true);
+        for (std::size_t i = 0; i + 1 < logs.size(); ++i) {
+            const double width = logs[i + 1].first - logs[i].first;
+            add(law.points()[i].density, law.points()[i].young);
+            for (int k = 1; k < pieces_between_points; ++k) {
+                const double at = logs[i].first + width * k / pieces_between_points;
+                add(exponential(at), exponential(curve.at(at)));
+            }
+        }
+        add(law.points().back().density, law.points().back().young);
         if (pieces_.back().density < 1) add(1, 1);
     }
 

@@ -29,9 +29,10 @@ struct PenaltySettings {
 /// 1 and for shares outside [0, 1).
 std::shared_ptr<const ModulusLaw> make_penalty_law(const PenaltySettings& settings);
 
-/// Makes the law of a printable foam: relative modulus over density, a power law between samples of the
-/// foam's law. Beyond the range of that law, the last piece goes on down to `least`, and a further one leads
-/// up to the solid. Throws InputError if density or modulus does not increase.
+/// Makes the law of a printable foam: relative modulus over density through the computed points of the
+/// foam's law, power laws along a monotone cubic of the logarithms. Beyond the range of that law, the last
+/// piece goes on down to `least`, and a further one leads up to the solid. Throws InputError if density or
+/// modulus does not increase.
 std::shared_ptr<const ModulusLaw> make_foam_modulus_law(const FoamLaw& law, double least);
 
 }  // namespace lamella
