@@ -47,6 +47,31 @@ void Compliance<Dim>::add_weight(std::span<const double> density, NodalVector<Di
 }
 
 template <std::size_t Dim>
+void Compliance<Dim>::set_displacements(const std::vector<std::vector<double>>& by_case) {
+    const std::size_t size = problem_.body.grid.size();
+    const bool fits =
+        by_case.empty() || (by_case.size() == displacements_.size() * Dim &&
+                            std::ranges::all_of(by_case, [&](const auto& u) { return u.size() == size; }));
+    if (!fits) throw InputError("displacements of other load cases or of another grid");
+    for (std::size_t i = 0; i < displacements_.size() * Dim; ++i) {
+        std::vector<double>& along = displacements_[i / Dim].along[i % Dim];
+        if (by_case.empty()) {
+            std::ranges::fill(along, 0.0);
+        } else {
+            along = by_case[i];
+        }
+    }
+}
+
+template <std::size_t Dim>
+std::vector<std::vector<double>> Compliance<Dim>::all_displacements() const {
+    std::vector<std::vector<double>> by_case;
+    for (const NodalVector<Dim, double>& u : displacements_)
+        by_case.insert(by_case.end(), u.along.begin(), u.along.end());
+    return by_case;
+}
+
+template <std::size_t Dim>
 auto Compliance<Dim>::evaluate(std::span<const double> density) -> Result {
     std::vector<double> moduli(problem_.body.grid.size());
     for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {

@@ -20,6 +20,10 @@ class Compliance {
         int iterations = 0;            ///< of the solver, for the slowest case
     };
     Result evaluate(std::span<const double> density);
+    /// Sets where the next solves begin: displacements by case, then direction. Nothing: from rest. Throws
+    /// InputError for another number of cases, directions or nodes.
+    void set_displacements(const std::vector<std::vector<double>>& by_case);
+    std::vector<std::vector<double>> all_displacements() const;
     /// The displacements of a case for the last design, before scaling by modulus and size.
     const NodalVector<Dim, double>& displacements(std::size_t load_case) const {
         return displacements_[load_case];

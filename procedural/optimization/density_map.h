@@ -19,9 +19,9 @@ enum class ElementUse : std::uint8_t { outside, free, solid, empty };
 struct DensitySettings {
     double radius = 1.5;  ///< of the density filter, elements
     FilterPadding padding = FilterPadding::cut;
-    std::optional<LengthScale> length_scale;  ///< replaces the radius: three fields, see RobustFields
-    std::array<bool, 3> mirrored{};           ///< symmetry across the middle of the grid, by axis
-    std::optional<OverhangSettings> overhang;
+    std::optional<LengthScale> length_scale{};  ///< replaces the radius: three fields, see RobustFields
+    std::array<bool, 3> mirrored{};             ///< symmetry across the middle of the grid, by axis
+    std::optional<OverhangSettings> overhang{};
 };
 
 /// Chain of symmetry, filter, projection, overhang filter and prescribed elements. The intermediate result of

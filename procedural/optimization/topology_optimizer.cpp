@@ -45,16 +45,23 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
         free += is_free ? 1 : 0;
         solid += use == ElementUse::solid ? 1 : 0;
         elements_ += use != ElementUse::outside ? 1 : 0;
-        lower_.push_back(is_free ? problem.least_density : 0.0);
-        upper_.push_back(is_free ? problem.greatest_density : 0.0);
+        const double prescribed = use == ElementUse::solid ? 1 : 0;
+        lower_.push_back(is_free ? problem.least_density : prescribed);
+        upper_.push_back(is_free ? problem.greatest_density : prescribed);
     }
     if (free == 0) throw InputError("a topology problem has no free element");
+    const DensitySettings& density = settings.density;
+    const bool mirrored = std::ranges::any_of(density.mirrored, [](bool m) { return m; });
+    if (settings.sensitivity_filter &&
+        (density.length_scale || density.overhang || mirrored || settings.sharpness > 0))
+        throw InputError("the sensitivity filter knows no length scale, overhang, symmetry or projection");
     const double start = (problem.volume * elements_ - solid) / free;
     if (!(start > problem.least_density))
         throw InputError("what is kept solid fills " + std::to_string(100 * solid / elements_) +
                          " % of the body; the volume may be " + std::to_string(100 * problem.volume) + " %");
-    for (const ElementUse use : problem.use)
-        state_.design.push_back(use == ElementUse::free ? std::min(start, problem.greatest_density) : 0.0);
+    // The filter sees solid elements as solid, or what touches them could not become so.
+    for (std::size_t i = 0; i < lower_.size(); ++i)
+        state_.design.push_back(std::clamp(start, lower_[i], upper_[i]));
     // Thresholds of a length scale mean nothing without a projection.
     if (map_.has_three_fields() && phases_ > 0) state_.phase = 1;
 }
@@ -63,6 +70,7 @@ template <std::size_t Dim>
 void TopologyOptimizer<Dim>::set_state(TopologyState state) {
     if (state.design.size() != problem_.use.size() || state.phase < 0 || state.phase > phases_)
         throw InputError("the state of a topology optimisation does not fit the problem");
+    compliance_.set_displacements(state.displacements);
     mma_.set_state(state.mma);
     state_ = std::move(state);
 }
@@ -81,7 +89,51 @@ double TopologyOptimizer<Dim>::move() const {
 template <std::size_t Dim>
 typename Compliance<Dim>::Result TopologyOptimizer<Dim>::analyse() {
     show_design();
-    return compliance_.evaluate(map_.density(DensityMap::Role::result));
+    return compliance_.evaluate(density(DensityMap::Role::result));
+}
+
+template <std::size_t Dim>
+std::span<const double> TopologyOptimizer<Dim>::density(DensityMap::Role role) const {
+    if (settings_.sensitivity_filter) return state_.design;
+    return map_.density(role);
+}
+
+/// Optimality criteria know the volume to first order. Where densities are not linear in the design, looks
+/// for the excess with which a step meets the volume (secant method).
+template <std::size_t Dim>
+std::vector<double> TopologyOptimizer<Dim>::oc_step(const std::vector<double>& compliance_gradient,
+                                                    const std::vector<double>& volume_gradient,
+                                                    double excess) {
+    const auto step = [&](double with_excess) {
+        return oc_update({.x = state_.design,
+                          .lower = lower_,
+                          .upper = upper_,
+                          .compliance_gradient = compliance_gradient,
+                          .volume_gradient = volume_gradient,
+                          .excess = with_excess},
+                         {.move = move(), .tolerance = settings_.oc_tolerance});
+    };
+    std::vector<double> next = step(excess);
+    if (sharpness() == 0 && !settings_.density.overhang) return next;
+    constexpr int most_steps = 6;
+    constexpr double enough = 1e-3;  // of the volume
+    const auto error_of = [&](const std::vector<double>& design) {
+        map_.forward(design, sharpness());
+        return mean_of(density(DensityMap::Role::result), elements_) - problem_.volume;
+    };
+    double error = error_of(next), least = std::abs(error), former_excess = excess, former_error = error;
+    for (int k = 1; k < most_steps && least > enough * problem_.volume; ++k) {
+        const double slope = k == 1 ? -1 / elements_ : (error - former_error) / (excess - former_excess);
+        if (!(slope < 0)) break;  // every variable is at a bound
+        former_excess = std::exchange(excess, excess - error / slope);
+        std::vector<double> other = step(excess);
+        former_error = std::exchange(error, error_of(other));
+        if (std::abs(error) >= least) continue;
+        least = std::abs(error);
+        next = std::move(other);
+    }
+    show_design();
+    return next;
 }
 
 template <std::size_t Dim>
@@ -90,19 +142,7 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
                                                         const std::vector<double>& volume_gradient,
                                                         double excess) {
     if (settings_.method == TopologyMethod::oc) {
-        // Without a projection the volume is linear in the design.
-        const VolumeExcess linear = [&](std::span<const double> design) {
-            return excess + sum_over_variables<double>(design.size(), [&](std::size_t i, double& sum) {
-                       sum += volume_gradient[i] * (design[i] - state_.design[i]);
-                   });
-        };
-        const double bound = mean_of(map_.density(DensityMap::Role::volume), elements_) * elements_ - excess;
-        const VolumeExcess projected = [&](std::span<const double> design) {
-            map_.forward(design, sharpness());
-            return mean_of(map_.density(DensityMap::Role::volume), elements_) * elements_ - bound;
-        };
-        return oc_update(state_.design, lower_, upper_, compliance_gradient, volume_gradient,
-                         sharpness() > 0 ? projected : linear, {.move = move()});
+        return oc_step(compliance_gradient, volume_gradient, excess);
     }
     // Svanberg asks for values of 1 to 100.
     constexpr double objective_scale = 10, constraint_scale = 100;
@@ -137,22 +177,19 @@ void TopologyOptimizer<Dim>::advance(double change) {
         state_.phase_began = state_.iteration;
         mma_.reset_asymptotes();
     } else if (state_.phase == phases_ && settled) {
-        finished_ = true;
+        state_.finished = true;
     }
-    if (left <= 0) finished_ = true;
+    if (left <= 0) state_.finished = true;
 }
 
 template <std::size_t Dim>
 TopologyIteration TopologyOptimizer<Dim>::iterate() {
     using Role = DensityMap::Role;
     show_design();
-    std::span<const double> stiff =
-        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::stiffness);
-    const typename Compliance<Dim>::Result found = compliance_.evaluate(stiff);
-    std::span<const double> volume =
-        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::volume);
-    std::span<const double> result =
-        settings_.sensitivity_filter ? std::span<const double>(state_.design) : map_.density(Role::result);
+    // Whatever was analysed in between or broken off leaves no trace.
+    compliance_.set_displacements(state_.displacements);
+    const typename Compliance<Dim>::Result found = compliance_.evaluate(density(Role::stiffness));
+    const std::span<const double> volume = density(Role::volume), result = density(Role::result);
 
     std::vector<double> ones(problem_.use.size());
     for (std::size_t i = 0; i < ones.size(); ++i) ones[i] = problem_.use[i] == ElementUse::free ? 1.0 : 0.0;
@@ -185,6 +222,7 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
     for (std::size_t i = 0; i < next.size(); ++i)
         report.change = std::max(report.change, std::abs(next[i] - state_.design[i]));
     state_.design = next;
+    state_.displacements = compliance_.all_displacements();
     advance(report.change);
     state_.mma = mma_.state();
     report.index = state_.iteration;

@@ -19,6 +19,7 @@ struct TopologySettings {
     double sharpness = 0;
     int iterations_a_sharpness = 10;
     double solver_tolerance = 1e-5;
+    double oc_tolerance = 1e-3;           ///< of the multiplier of the volume, relative
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
@@ -41,6 +42,10 @@ struct TopologyState {
     int phase = 0;        ///< of the projection
     int phase_began = 0;  ///< iteration after which it came on
     double first_compliance = 0;
+    bool finished = false;
+    /// By load case, then direction: where the solver begins. Without them, iterations differ within the
+    /// solver's tolerance.
+    std::vector<std::vector<double>> displacements{};
 };
 
 /// Minimises compliance at a bounded volume (Bendsoe and Sigmund 2003, "Topology Optimization", section 1) by
@@ -49,7 +54,8 @@ template <std::size_t Dim>
 class TopologyOptimizer {
   public:
     /// Keeps a reference to the problem. Throws InputError for a problem without loads, supports or free
-    /// elements, and when the prescribed solid elements alone exceed the volume.
+    /// elements, when the prescribed solid elements alone exceed the volume, and for the sensitivity filter
+    /// along with what only the density filter can do.
     TopologyOptimizer(const TopologyProblem<Dim>& problem, const TopologySettings& settings);
 
     /// Analyses the present design and improves it. Throws Interrupted once cancelled; then the state is that
@@ -57,8 +63,8 @@ class TopologyOptimizer {
     TopologyIteration iterate();
     /// Whether the last iteration changed the design by less than the tolerance at full sharpness, or no
     /// iteration is left.
-    bool is_finished() const { return finished_; }
-    /// Analyses the present design without changing it; see DensityMap::Role::result.
+    bool is_finished() const { return state_.finished; }
+    /// Analyses the present design without changing anything; see DensityMap::Role::result.
     typename Compliance<Dim>::Result analyse();
 
     /// The densities of the present design, after show_design().
@@ -72,9 +78,12 @@ class TopologyOptimizer {
   private:
     double sharpness() const;
     double move() const;
+    std::span<const double> density(DensityMap::Role role) const;
     std::vector<double> next_design(const typename Compliance<Dim>::Result& found,
                                     const std::vector<double>& compliance_gradient,
                                     const std::vector<double>& volume_gradient, double excess);
+    std::vector<double> oc_step(const std::vector<double>& compliance_gradient,
+                                const std::vector<double>& volume_gradient, double excess);
     void advance(double change);
 
     const TopologyProblem<Dim>& problem_;
@@ -86,7 +95,6 @@ class TopologyOptimizer {
     double elements_ = 0;  ///< not outside
     int phases_ = 0;
     TopologyState state_;
-    bool finished_ = false;
 };
 
 extern template class TopologyOptimizer<2>;
