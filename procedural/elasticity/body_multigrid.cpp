@@ -1,4 +1,4 @@
-// The V-cycle: Chebyshev smoothing, restriction, a dense solve on the coarsest grid, interpolation.
+// The cycle: Chebyshev smoothing, restriction, a dense solve on the coarsest grid, interpolation.
 #include "procedural/elasticity/body_multigrid.h"
 
 #include <Eigen/Cholesky>
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "procedural/elasticity/galerkin.h"
+#include "procedural/elasticity/grid_transfer.h"
 
 namespace lamella {
 
@@ -14,7 +15,10 @@ namespace {
 
 constexpr int power_iterations = 10;     // of the power iteration for the largest eigenvalue
 constexpr double estimate_margin = 1.1;  // factor on the eigenvalue estimate
-constexpr double smoothed_range = 6;  // the smoother damps eigenvalues down to this fraction of the largest
+constexpr int smoothing_degree = 3;
+constexpr double smoothed_range = 14;  // the smoother damps eigenvalues down to this fraction of the largest
+// Members of a few elements are too stiff on coarse grids: one visit there leaves much to be done.
+constexpr int visits_to_coarser = 2;
 constexpr std::size_t max_direct = 600;  // unknowns of a coarsest grid
 // The coarsest matrix comes from single precision: what is softer than this share of its diagonal is noise.
 constexpr double direct_noise = 1e-7;
@@ -165,17 +169,22 @@ void BodyMultigrid<Dim>::Level::next_step(double keep, double take) {
     std::swap(x, next);
 }
 
-/// Performs two steps of Chebyshev iteration, preconditioned by the diagonal.
+/// Performs a few steps of Chebyshev iteration, preconditioned by the diagonal.
 template <std::size_t Dim>
 void BodyMultigrid<Dim>::Level::smooth(bool from_zero) {
     const double high = greatest, low = greatest / smoothed_range, middle = (high + low) / 2,
-                 half = (high - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
+                 half = (high - low) / 2, sigma = middle / half;
     if (from_zero) {
         first_step(1 / middle);
     } else {
         next_step(0, 1 / middle);
     }
-    next_step(rho / sigma, 2 * rho / half);
+    double before = 1 / sigma;
+    for (int k = 1; k < smoothing_degree; ++k) {
+        const double rho = 1 / (2 * sigma - before);
+        next_step(rho * before, 2 * rho / half);
+        before = rho;
+    }
 }
 
 /// Stores the residual in `step`; 0 where nothing moves.
@@ -319,67 +328,6 @@ const NodalVector<Dim, float>& BodyMultigrid<Dim>::solve() {
     return levels_.front()->x;
 }
 
-namespace {
-
-/// Sums fine nodes into coarse ones: the transpose of interpolate().
-template <std::size_t Dim>
-void restrict_to(const NodeGrid<Dim>& fine, const NodalVector<Dim, float>& from, const NodeGrid<Dim>& coarse,
-                 NodalVector<Dim, float>& to) {
-    const glm::ivec3 n = coarse.nodes(), most = fine.nodes();
-    const auto length = static_cast<std::size_t>(most.x);
-    parallel_for(n.y * n.z, [&](int row) {
-        const int y = row % n.y, z = row / n.y;
-        // One more on either side than the fine row has: coarse nodes reach beyond it.
-        std::vector<float> sum(length + 4);
-        for (std::size_t d = 0; d < Dim; ++d) {
-            std::fill(sum.begin(), sum.end(), 0.0F);
-            for (int dz = Dim == 2 ? 0 : -1; dz <= (Dim == 2 ? 0 : 1); ++dz) {
-                for (int dy = -1; dy <= 1; ++dy) {
-                    const int j = 2 * y + dy, k = 2 * z + dz;
-                    if (j < 0 || k < 0 || j >= most.y || k >= most.z) continue;
-                    const float w = (dy == 0 ? 1.0F : 0.5F) * (dz == 0 ? 1.0F : 0.5F);
-                    const float* values = from.along[d].data() + fine.number(0, j, k);
-                    for (std::size_t i = 0; i < length; ++i) sum[i + 1] += w * values[i];
-                }
-            }
-            float* out = to.along[d].data() + coarse.number(0, y, z);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(n.x); ++i)
-                out[i] = sum[2 * i + 1] + 0.5F * (sum[2 * i] + sum[2 * i + 2]);
-        }
-    });
-}
-
-/// Adds the interpolation of coarse nodes to the fine nodes that move.
-template <std::size_t Dim>
-void interpolate(const NodeGrid<Dim>& coarse, const NodalVector<Dim, float>& from, const NodeGrid<Dim>& fine,
-                 const NodalVector<Dim, float>& inverse, NodalVector<Dim, float>& to) {
-    const glm::ivec3 n = fine.nodes();
-    const auto length = static_cast<std::size_t>(coarse.nodes().x);
-    parallel_for(n.y * n.z, [&](int row) {
-        const int y = row % n.y, z = row / n.y, odd_y = y % 2, odd_z = z % 2;
-        const float w = (odd_y != 0 ? 0.5F : 1.0F) * (odd_z != 0 ? 0.5F : 1.0F);
-        std::vector<float> sum(length + 1);
-        for (std::size_t d = 0; d < Dim; ++d) {
-            std::fill(sum.begin(), sum.end(), 0.0F);
-            for (int dz = 0; dz <= odd_z; ++dz) {
-                for (int dy = 0; dy <= odd_y; ++dy) {
-                    const float* values = from.along[d].data() + coarse.number(0, y / 2 + dy, z / 2 + dz);
-                    for (std::size_t i = 0; i < length; ++i) sum[i] += w * values[i];
-                }
-            }
-            const std::size_t first = fine.number(0, y, z);
-            const float* moves = inverse.along[d].data() + first;
-            float* out = to.along[d].data() + first;
-            for (std::size_t i = 0; i < static_cast<std::size_t>(n.x); ++i) {
-                const float value = i % 2 == 0 ? sum[i / 2] : 0.5F * (sum[i / 2] + sum[i / 2 + 1]);
-                if (moves[i] > 0) out[i] += value;
-            }
-        }
-    });
-}
-
-}  // namespace
-
 template <std::size_t Dim>
 void BodyMultigrid<Dim>::cycle(std::size_t l) {
     Level& level = *levels_[l];
@@ -387,11 +335,14 @@ void BodyMultigrid<Dim>::cycle(std::size_t l) {
     stop_if_cancelled(cancel_);
     Level& coarse = *levels_[l + 1];
     level.smooth(true);
-    level.find_rest();
-    restrict_to(level.grid, level.step, coarse.grid, coarse.b);
-    cycle(l + 1);
-    interpolate(coarse.grid, coarse.x, level.grid, level.inverse, level.x);
-    level.smooth(false);
+    const int visits = l == 0 ? 1 : visits_to_coarser;
+    for (int visit = 0; visit < visits; ++visit) {
+        level.find_rest();
+        restrict_to(level.grid, level.step, coarse.grid, coarse.b);
+        cycle(l + 1);
+        interpolate(coarse.grid, coarse.x, level.grid, level.inverse, level.x);
+        level.smooth(false);
+    }
 }
 
 template class BodyMultigrid<2>;

@@ -10,10 +10,11 @@
 
 namespace lamella {
 
-/// One V-cycle: solves K x = b approximately. Each coarser grid has elements of twice the size; its stiffness
+/// One cycle: solves K x = b approximately. Each coarser grid has elements of twice the size; its stiffness
 /// is that of the finer one under multilinear displacements that vanish where nodes are fixed (Galerkin).
-/// Only the finest grid has no stencils. The smoother is a Chebyshev polynomial of degree two, preconditioned
-/// by the diagonal. The cycle works in single precision; it is symmetric and positive definite.
+/// Only the finest grid has no stencils. The finest grid visits the next one once, all others twice (W). The
+/// smoother is a Chebyshev polynomial of degree three, preconditioned by the diagonal. The cycle works in
+/// single precision; it is symmetric and positive definite.
 template <std::size_t Dim>
 class BodyMultigrid {
   public:
