@@ -47,11 +47,13 @@ Eigen::MatrixXd dense_stiffness(const ElasticBody<Dim>& body, const std::vector<
         std::array<Eigen::Index, corners> nodes{};
         for (unsigned c = 0; c < corners; ++c)
             nodes[c] = dense_node(body.grid, at + glm::ivec3(c & 1, c >> 1 & 1, c >> 2 & 1));
+        const auto row_of = [&](unsigned unknown) {
+            return static_cast<Eigen::Index>(Dim) * nodes[unknown / Dim] +
+                   static_cast<Eigen::Index>(unknown % Dim);
+        };
         for (unsigned a = 0; a < corners * Dim; ++a) {
             for (unsigned b = 0; b < corners * Dim; ++b)
-                k(static_cast<Eigen::Index>(Dim) * nodes[a / Dim] + a % Dim,
-                  static_cast<Eigen::Index>(Dim) * nodes[b / Dim] + b % Dim) +=
-                    modulus * body.element.stiffness[a][b];
+                k(row_of(a), row_of(b)) += modulus * body.element.stiffness[a][b];
         }
     });
     return k;

@@ -120,7 +120,7 @@ TEST_CASE("rigid motions of an element cost nothing, and nothing else is free", 
         turn[2 * c + 1] = c & 1;
     }
     CHECK((plane * turn).cwiseAbs().maxCoeff() < 1e-15);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
         Eigen::VectorXd move = Eigen::VectorXd::Zero(24), spin = Eigen::VectorXd::Zero(24);
         for (unsigned c = 0; c < 8; ++c) {
             const Eigen::Vector3d at(c & 1, c >> 1 & 1, c >> 2);
