@@ -2,6 +2,7 @@
 // InputError.
 #include "engine/base/error.h"
 #include "procedural/volume/volume.h"
+#include "tests/fuzz/png_checksums.h"
 #include "tests/fuzz/scratch_file.h"
 
 using namespace lamella;
@@ -14,8 +15,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (data[i] != 0) return 0;
         }
     }
+    std::string bytes(reinterpret_cast<const char*>(data), size);
+    mend_png_checksums(bytes);
     try {
-        const Volume volume = read_picture(scratch_file("picture.png", data, size));
+        const Volume volume = read_picture(scratch_file("picture.png", bytes));
         std::visit(
             [&](const auto& samples) {
                 if (samples.size() != volume.size[0] * volume.size[1] * volume.size[2]) std::abort();

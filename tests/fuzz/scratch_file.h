@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace lamella {
 
@@ -24,11 +25,15 @@ inline const std::filesystem::path& scratch_folder() {
 }
 
 /// Writes the bytes to a file of this name in the scratch folder and returns its path.
-inline std::string scratch_file(const std::string& name, const std::uint8_t* data, std::size_t size) {
+inline std::string scratch_file(const std::string& name, std::string_view bytes) {
     const std::string path = (scratch_folder() / name).string();
     std::ofstream out(path, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;
+}
+
+inline std::string scratch_file(const std::string& name, const std::uint8_t* data, std::size_t size) {
+    return scratch_file(name, {reinterpret_cast<const char*>(data), size});
 }
 
 }  // namespace lamella
