@@ -54,8 +54,13 @@ class Directories {
     std::optional<std::uint64_t> next(std::uint64_t at) {
         const auto entries = bytes_.number(at, count_bytes());
         if (!entries || *entries > 0xffffU) return std::nullopt;
+        directory_bytes_ += count_bytes() + *entries * entry_bytes() + offset_bytes();
         return bytes_.number(at + count_bytes() + *entries * entry_bytes(), offset_bytes());
     }
+    /// Returns whether the directories so far take more room than the file has: then one of them came twice.
+    bool overlap() const { return directory_bytes_ > file_size_; }
+    /// Returns whether the directories so far list more strips and tiles than the file has bytes.
+    bool list_too_much() const { return listed_ > file_size_; }
     /// Returns whether all strips and tiles of a directory lie within the file.
     bool holds_its_samples(std::uint64_t at) {
         constexpr std::uint64_t strip_offsets = 273, strip_sizes = 279, tile_offsets = 324, tile_sizes = 325;
@@ -91,6 +96,8 @@ class Directories {
     bool inside(const Column& offsets, const Column& sizes) {
         const std::uint64_t count = std::min(offsets.count, sizes.count);
         if (count > file_size_) return false;
+        listed_ += count;
+        if (list_too_much()) return true;
         for (std::uint64_t i = 0; i < count; ++i) {
             const auto offset = bytes_.number(offsets.at + i * offsets.bytes, offsets.bytes);
             const auto size = bytes_.number(sizes.at + i * sizes.bytes, sizes.bytes);
@@ -102,12 +109,13 @@ class Directories {
     OrderedBytes bytes_;
     bool wide_;
     std::uint64_t file_size_;
+    std::uint64_t directory_bytes_ = 0;
+    std::uint64_t listed_ = 0;
 };
 
 }  // namespace
 
 std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string& name) {
-    constexpr std::size_t max_pages = 1000000;
     constexpr std::uint64_t classic = 42, big = 43;
     char order[2] = {};
     if (!in.read(order, 2) || order[0] != order[1] || (order[0] != 'I' && order[0] != 'M'))
@@ -120,11 +128,16 @@ std::optional<std::size_t> count_tiff_pages(std::istream& in, const std::string&
     auto at = directories.first();
     std::size_t pages = 0;
     for (; at && *at != 0; ++pages) {
-        if (pages == max_pages) throw InputError(name + ": its chain of TIFF pages has no end");
+        // Both limits keep the time for a hostile file proportional to its size.
         const auto next = directories.next(*at);
+        if (next && directories.overlap()) throw InputError(name + ": its chain of TIFF pages has no end");
         if (next && !directories.holds_its_samples(*at)) {
             throw InputError(name + ": the file is cut off: samples of its page " + std::to_string(pages) +
                              " lie beyond its end");
+        }
+        if (directories.list_too_much()) {
+            throw InputError(name + ": the file is damaged: up to page " + std::to_string(pages) +
+                             " it lists more strips of samples than it has bytes");
         }
         at = next;
     }

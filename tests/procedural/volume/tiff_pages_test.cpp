@@ -67,4 +67,40 @@ TEST_CASE("a chain cut off anywhere, or without an end, is refused") {
     }
 }
 
+TEST_CASE("pages that together list more strips than the file has bytes are refused") {
+    // Each page lists the same empty strips: their offsets and sizes are all zeros.
+    const auto shared = [](std::size_t pages, std::uint32_t strips) {
+        constexpr std::size_t length = 2 + 2 * 12 + 4, start = 8;
+        std::string out = "II";
+        put(out, 42, 2, false);
+        put(out, start, 4, false);
+        for (std::size_t i = 0; i < pages; ++i) {
+            put(out, 2, 2, false);
+            for (const std::uint64_t tag : {273U, 279U}) {
+                put(out, tag, 2, false);
+                put(out, 4, 2, false);
+                put(out, strips, 4, false);
+                put(out, start + pages * length, 4, false);
+            }
+            put(out, i + 1 < pages ? start + (i + 1) * length : 0, 4, false);
+        }
+        return out + std::string(4 * strips, '\0');
+    };
+    CHECK(count(shared(2, 50)) == 2U);
+    CHECK_THROWS_WITH(count(shared(1000, 50000)),
+                      Catch::Contains("more strips of samples than it has bytes"));
+}
+
+TEST_CASE("a long circular chain is refused after one round") {
+    // Were it followed for a million pages, this would take minutes.
+    constexpr std::uint64_t entries = 60000;
+    std::string out = "II";
+    put(out, 42, 2, false);
+    put(out, 8, 4, false);
+    put(out, entries, 2, false);
+    out.append(12 * entries, '\0');
+    put(out, 8, 4, false);
+    CHECK_THROWS_WITH(count(out), Catch::Contains("has no end"));
+}
+
 }  // namespace tiff_pages_test
