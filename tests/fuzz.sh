@@ -21,7 +21,7 @@ python3 tests/fuzz/seeds.py $build/seeds
 for target in "${!seeds[@]}"; do
     mkdir -p "$build/seeds/$target"
     git ls-files "examples/${seeds[$target]}" "tests/models/${seeds[$target]}" |
-        while read -r file; do find "$file" -size -64k -exec cp -t "$build/seeds/$target" {} +; done
+        while read -r file; do find "$file" -size -16k -exec cp -t "$build/seeds/$target" {} +; done
 done
 run_target() {
     local corpus=$build/corpus/$1 findings=$build/findings/$1 known=$build/seeds/$1 options=()
