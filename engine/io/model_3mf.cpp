@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lamella {
 
 namespace {
 
 constexpr std::size_t max_instances = 1'000'000;
+constexpr std::size_t max_looked_at = 30'000'000;  // a million instances of usual objects have ten million
+constexpr std::size_t max_placed = 50'000'000;     // vertices, and triangles
 constexpr int deepest_component = 32;
 constexpr std::array<std::string_view, 3> field_extensions{"/volumetric/", "/implicit/", "/beamlattice/"};
 
@@ -210,7 +213,7 @@ void Model3mf::require_items() {
 }
 
 void Model3mf::for_each_placed(const std::function<void(const PlacedObject&)>& visit) {
-    not_printable_ = other_types_ = instances_ = 0;
+    not_printable_ = other_types_ = instances_ = looked_at_ = 0;
     open_.clear();
     const ModelPart& from = root();
     for (pugi::xml_node item = core_child(core_child(from.model, "build"), "item"); item;
@@ -253,6 +256,12 @@ void Model3mf::place(const ModelPart& from, const pugi::xml_node& reference, con
 
 void Model3mf::visit_object(const PlacedObject& placed, int depth,
                             const std::function<void(const PlacedObject&)>& visit) {
+    looked_at_ += elements_of(placed.object);
+    if (looked_at_ > max_looked_at) {
+        reject(source_,
+               "with every component written out, its objects have more than 30,000,000 elements beside "
+               "vertices and triangles");
+    }
     visit(placed);
     const pugi::xml_node components = core_child(placed.object, "components");
     if (!components) return;
@@ -265,9 +274,25 @@ void Model3mf::visit_object(const PlacedObject& placed, int depth,
     open_.erase(placed.object.internal_object());
 }
 
+/// Returns how many elements and attributes are looked through at a visit of an object: its own, and those
+/// one level below.
+std::size_t Model3mf::elements_of(const pugi::xml_node& object) {
+    const auto attributes = [](const pugi::xml_node& node) {
+        return static_cast<std::size_t>(std::distance(node.attributes_begin(), node.attributes_end()));
+    };
+    const auto [entry, fresh] = elements_.try_emplace(object.internal_object(), 1);
+    if (!fresh) return entry->second;
+    entry->second += attributes(object);
+    for (const pugi::xml_node& child : object.children()) {
+        entry->second += 1 + attributes(child);
+        for (const pugi::xml_node& below : child.children()) entry->second += 1 + attributes(below);
+    }
+    return entry->second;
+}
+
 void Model3mf::for_each_within(const PlacedObject& object,
                                const std::function<void(const PlacedObject&)>& visit) {
-    instances_ = 0;
+    instances_ = looked_at_ = 0;
     open_.clear();
     visit_object(object, 0, visit);
 }
@@ -302,6 +327,13 @@ ObjectMesh read_object_mesh(const Model3mf& model, const ModelPart& in, const pu
         out.triangles.push_back(
             {corner(model, in, t, "v1"), corner(model, in, t, "v2"), corner(model, in, t, "v3")});
     return out;
+}
+
+void PlacedSize::add(const MeshSource& source, const ObjectMesh& mesh) {
+    vertices_ += mesh.vertices.size();
+    triangles_ += mesh.triangles.size();
+    if (triangles_ > max_placed) reject(source, "it places more than 50,000,000 triangles");
+    if (vertices_ > max_placed) reject(source, "it places more than 50,000,000 vertices");
 }
 
 void note_left_out(std::vector<std::string>& notes, std::size_t count, const std::string& noun,

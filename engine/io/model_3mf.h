@@ -81,6 +81,7 @@ class Model3mf {
                const std::function<void(const PlacedObject&)>& visit);
     void visit_object(const PlacedObject& placed, int depth,
                       const std::function<void(const PlacedObject&)>& visit);
+    std::size_t elements_of(const pugi::xml_node& object);
 
     const MeshSource& source_;
     OpcPackage package_;
@@ -88,7 +89,9 @@ class Model3mf {
     double unit_mm_ = 1.0;
     std::map<std::string, std::unique_ptr<ModelPart>> parts_;
     std::set<const void*> open_;
+    std::map<const void*, std::size_t> elements_;  ///< of objects that were visited
     std::size_t instances_ = 0;
+    std::size_t looked_at_ = 0;  ///< elements, once for every instance
     std::size_t not_printable_ = 0;
     std::size_t other_types_ = 0;
 };
@@ -110,6 +113,17 @@ struct ObjectMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices may be out of range
 };
 ObjectMesh read_object_mesh(const Model3mf& model, const ModelPart& in, const pugi::xml_node& mesh);
+
+/// Counts the vertices and triangles that a file places. Components multiply them: a small file may place
+/// more than fits in memory.
+class PlacedSize {
+  public:
+    /// Throws InputError when there are more than 50 million of either.
+    void add(const MeshSource& source, const ObjectMesh& mesh);
+
+  private:
+    std::size_t vertices_ = 0, triangles_ = 0;
+};
 
 /// Appends the note "1 triangle is ... and was left out"; nothing when the count is 0.
 void note_left_out(std::vector<std::string>& notes, std::size_t count, const std::string& noun,

@@ -1,6 +1,7 @@
 // 3MF: triangles of the core specification's objects, placed by build items and components.
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "engine/io/beam_lattice_3mf.h"
 #include "engine/io/model_3mf.h"
@@ -9,7 +10,6 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t max_triangles = 50'000'000;
 constexpr std::string_view harmless[] = {"/production/", "/material/", "/trianglesets/"};
 
 class Reader3mf {
@@ -19,8 +19,11 @@ class Reader3mf {
     MeshFile read() {
         model_.require_items();
         model_.for_each_placed([this](const PlacedObject& placed) {
-            look_for_other_shapes(placed);
-            if (const pugi::xml_node mesh = core_child(placed.object, "mesh")) add(placed, mesh);
+            const Shapes& shapes = shapes_of(placed);
+            beams_ += shapes.beams;
+            if (other_shapes_ == 0) other_shape_ = shapes.other;
+            other_shapes_ += shapes.others;
+            if (shapes.mesh) add(placed, *shapes.mesh);
         });
         std::vector<std::string> notes = model_.left_out();
         note_left_out(notes, outside_, "triangle", "pointing to vertices that do not exist");
@@ -36,8 +39,26 @@ class Reader3mf {
     }
 
   private:
+    /// What an object has, read at its first instance.
+    struct Shapes {
+        std::optional<ObjectMesh> mesh;
+        std::size_t beams = 0;   ///< of a lattice
+        std::size_t others = 0;  ///< elements of extensions that are not known
+        std::string other;       ///< name of the first one
+    };
+
+    const Shapes& shapes_of(const PlacedObject& placed) {
+        const auto [entry, fresh] = shapes_.try_emplace(placed.object.internal_object());
+        Shapes& shapes = entry->second;
+        if (!fresh) return shapes;
+        look_for_other_shapes(placed, shapes);
+        if (const pugi::xml_node mesh = core_child(placed.object, "mesh"))
+            shapes.mesh = read_object_mesh(model_, placed.part, mesh);
+        return shapes;
+    }
+
     /// An object may have shapes of extensions, beside its mesh or instead of it.
-    void look_for_other_shapes(const PlacedObject& placed) {
+    void look_for_other_shapes(const PlacedObject& placed, Shapes& shapes) const {
         for (const pugi::xml_node& child : placed.object.children()) {
             if (local_name(child) == "levelset" &&
                 namespace_of(child).find("/volumetric/") != std::string::npos)
@@ -45,25 +66,22 @@ class Reader3mf {
                                  "a level set is no mesh; a [[field]] of kind 3mf reads it");
         }
         const pugi::xml_node mesh = core_child(placed.object, "mesh");
-        if (const pugi::xml_node lattice = lattice_node(mesh)) beams_ += count_beams(lattice);
-        count_others(placed.object, {"mesh", "components", "metadatagroup"});
-        count_others(mesh, {"vertices", "triangles", "trianglesets", "beamlattice", "metadatagroup"});
+        if (const pugi::xml_node lattice = lattice_node(mesh)) shapes.beams = count_beams(lattice);
+        count_others(placed.object, {"mesh", "components", "metadatagroup"}, shapes);
+        count_others(mesh, {"vertices", "triangles", "trianglesets", "beamlattice", "metadatagroup"}, shapes);
     }
 
-    void count_others(const pugi::xml_node& parent, std::initializer_list<std::string_view> known) {
+    static void count_others(const pugi::xml_node& parent, std::initializer_list<std::string_view> known,
+                             Shapes& shapes) {
         for (const pugi::xml_node& child : parent.children()) {
             if (child.type() != pugi::node_element) continue;
             if (std::find(known.begin(), known.end(), local_name(child)) != known.end()) continue;
-            if (other_shapes_++ == 0) other_shape_ = excerpt(local_name(child));
+            if (shapes.others++ == 0) shapes.other = excerpt(local_name(child));
         }
     }
 
-    void add(const PlacedObject& placed, const pugi::xml_node& node) {
-        const auto [entry, fresh] = meshes_.try_emplace(node.internal_object());
-        if (fresh) entry->second = read_object_mesh(model_, placed.part, node);
-        const ObjectMesh& mesh = entry->second;
-        if (welder_.offered() + mesh.triangles.size() > max_triangles)
-            reject(source_, "it places more than 50,000,000 triangles");
+    void add(const PlacedObject& placed, const ObjectMesh& mesh) {
+        size_.add(source_, mesh);
         std::vector<std::uint32_t> welded;
         welded.reserve(mesh.vertices.size());
         for (const dvec3& p : mesh.vertices)
@@ -82,7 +100,8 @@ class Reader3mf {
 
     const MeshSource& source_;
     Model3mf model_;
-    std::map<const void*, ObjectMesh> meshes_;
+    std::map<const void*, Shapes> shapes_;  ///< of objects
+    PlacedSize size_;
     MeshWelder welder_;
     std::size_t outside_ = 0;
     std::size_t beams_ = 0;         ///< of lattices

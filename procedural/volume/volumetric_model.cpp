@@ -27,7 +27,6 @@ constexpr std::string_view supported[] = {"/production/", "/material/", "/triang
                                           "/volumetric/", "/implicit/", "/beamlattice/"};
 constexpr std::size_t max_level_sets = 10'000;
 constexpr std::size_t max_objects = 1'000'000;  // maximum number of objects that one name may lead to
-constexpr std::size_t max_triangles = 50'000'000;
 constexpr std::size_t max_beams = 20'000'000;
 
 /// Removes the component at the end of a name and returns it: 0 to 2 for .x to .z; negative for none.
@@ -301,6 +300,7 @@ class VolumetricModel::Impl {
         std::vector<FieldPtr> solids;
         MeshWelder meshes;
         beams_ = 0;
+        size_ = {};
         bool has_mesh = false;
         for (const PlacedObject& placed : objects) {
             if (const auto level_set = read_level_set(model_, placed)) {
@@ -328,7 +328,10 @@ class VolumetricModel::Impl {
     FieldPtr lattice_field(const PlacedObject& placed, const pugi::xml_node& mesh,
                            const pugi::xml_node& node) {
         const ObjectMesh& nodes = mesh_at(placed.part, mesh);
-        const LatticeOfMesh lattice = read_lattice(model_, placed.part, node, nodes.vertices.size());
+        size_.add(source_, nodes);
+        const auto [entry, fresh] = lattices_.try_emplace(node.internal_object());
+        if (fresh) entry->second = read_lattice(model_, placed.part, node, nodes.vertices.size());
+        const LatticeOfMesh& lattice = entry->second;
         beams_ += lattice.beams.size() + lattice.balls.size();
         if (beams_ > max_beams) reject(source_, "it places more than 20,000,000 beams");
         const Transform3mf whole = scaled(placed.transform, model_.unit_mm());
@@ -378,8 +381,7 @@ class VolumetricModel::Impl {
     void add(MeshWelder& welder, const ModelPart& in, const pugi::xml_node& node,
              const Transform3mf& transform) {
         const ObjectMesh& mesh = mesh_at(in, node);
-        if (welder.offered() + mesh.triangles.size() > max_triangles)
-            reject(source_, "it places more than 50,000,000 triangles");
+        size_.add(source_, mesh);
         std::vector<std::uint32_t> welded;
         welded.reserve(mesh.vertices.size());
         for (const dvec3& p : mesh.vertices) welded.push_back(welder.vertex(transform(p)));
@@ -432,7 +434,9 @@ class VolumetricModel::Impl {
     std::map<const ModelPart*, VolumetricPart> parts_;
     std::vector<PlacedObject> placed_;
     std::map<const void*, ObjectMesh> meshes_;  ///< by XML element
-    std::size_t beams_ = 0;                     ///< placed so far, with balls
+    std::map<const void*, LatticeOfMesh> lattices_;
+    std::size_t beams_ = 0;  ///< placed so far, with balls
+    PlacedSize size_;        ///< of all that was placed so far
     std::map<DistanceKey, GradingPtr> distances_;
     std::map<SamplerKey, GradingPtr> samplers_;
 };

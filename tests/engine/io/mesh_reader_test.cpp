@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/io/model_3mf.h"
 #include "engine/mesh/mesh_repair.h"
 #include "tests/engine/io/package_samples.h"
 #include "tests/engine/mesh/mesh_samples.h"
@@ -364,6 +365,33 @@ TEST_CASE("3MF units, transforms, mirrors and components place the parts") {
     CHECK(both.mesh.bounds().lo == dvec3(100.0 - (2.0 * 3.0 + 10.0), 0.25, 2.0));
     CHECK(both.mesh.bounds().hi == dvec3(101.5, 8.0, 11.0));
     CHECK(volume(both.mesh) == Approx(9.0 * volume(box())));
+}
+
+TEST_CASE("a small 3MF whose components multiply its content is refused before it is written out") {
+    // 100 x 100 x 100 instances.
+    const auto hundredfold = [](const std::string& object) {
+        std::string resources = object;
+        for (int id = 2; id < 5; ++id) {
+            resources += "<object id=\"" + std::to_string(id) + "\"><components>";
+            for (int i = 0; i < 100; ++i)
+                resources += "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
+            resources += "</components></object>";
+        }
+        return threemf(resources, "<item objectid=\"4\"/>");
+    };
+    std::string junk;
+    for (int i = 0; i < 20'000; ++i) junk += "<a/>";
+    const std::string object = "<object id=\"1\">" + junk + "<mesh>" + junk + "</mesh></object>";
+    CHECK(message_of("a.3mf", hundredfold(object)).find("more than 30,000,000 elements") !=
+          std::string::npos);
+    // What a mesh has is counted without being placed, so that this test takes no gigabytes.
+    PlacedSize vertices, triangles;
+    const MeshSource source{"a.3mf", "", 1.0};
+    const ObjectMesh points{std::vector<dvec3>(1'000'000), {}},
+        faces{{}, std::vector<std::array<std::uint32_t, 3>>(1'000'000)};
+    for (int i = 0; i < 50; ++i) vertices.add(source, points), triangles.add(source, faces);
+    CHECK_THROWS_WITH(vertices.add(source, points), Catch::Contains("more than 50,000,000 vertices"));
+    CHECK_THROWS_WITH(triangles.add(source, faces), Catch::Contains("more than 50,000,000 triangles"));
 }
 
 TEST_CASE("only what the 3MF builds is read, and no supports") {
