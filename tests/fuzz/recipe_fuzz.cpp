@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bindings/lamella.h"
 
@@ -18,6 +19,20 @@ bool asks_for_much(std::string_view text) {
     return false;
 }
 
+/// What bounds the work, besides the part: the keys of a foam depend on its kind, and without a foam there
+/// are none.
+std::vector<std::pair<const char*, const char*>> bounds_for(std::string_view text) {
+    std::vector<std::pair<const char*, const char*>> keys{
+        {"part.shape", "sphere"}, {"part.radius", "2"}, {"layers.height", "0.5"}};
+    if (text.find("foam") == std::string_view::npos) return keys;
+    keys.emplace_back("foam.cell_min", "0.5");
+    bool is_surface = false;
+    for (const char* kind : {"gyroid", "schwarz", "neovius"})
+        is_surface = is_surface || text.find(kind) != std::string_view::npos;
+    keys.emplace_back(is_surface ? "foam.wall_min" : "foam.beam_min", is_surface ? "0.2" : "0.05");
+    return keys;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -30,12 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     lamella_recipe_create(context, &recipe);
     const bool is_toml = lamella_recipe_add_text(context, recipe, text, size, "fuzz.toml") == LAMELLA_OK;
     if (is_toml && !asks_for_much({text, size})) {
-        for (const auto& [key, value] : {std::pair{"part.shape", "sphere"},
-                                         {"part.radius", "2"},
-                                         {"layers.height", "0.5"},
-                                         {"foam.cell_min", "0.5"},
-                                         {"foam.wall_min", "0.2"},
-                                         {"foam.beam_min", "0.05"}})
+        for (const auto& [key, value] : bounds_for({text, size}))
             lamella_recipe_set(context, recipe, key, value);
         if (lamella_job_build(context, recipe, nullptr, &job) == LAMELLA_OK &&
             lamella_section_open(context, job, 0.1, &section) == LAMELLA_OK) {
