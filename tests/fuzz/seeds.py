@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Writes small inputs for the fuzz targets to begin with, one folder a target. Usage: tests/fuzz/seeds.py FOLDER"""
 import gzip
+import io
 import json
 import re
 import struct
 import sys
+import zipfile
 import zlib
 from pathlib import Path
 
@@ -76,6 +78,13 @@ def models():
     placed = body + ('<object id="2"><components><component objectid="1"/><component objectid="1" '
                      'transform="0 1 0 -1 0 0 0 0 1 9 8 7"/></components></object>')
     put("model", "plain.model", model(body, '<item objectid="1"/>'))
+    relations = '<Relationships><Relationship Type="http://a/3dmodel" Target="/3D/a.model"/></Relationships>'
+    for method, name in ((zipfile.ZIP_STORED, "stored.3mf"), (zipfile.ZIP_DEFLATED, "deflated.3mf")):
+        package = io.BytesIO()
+        with zipfile.ZipFile(package, "w", method) as archive:
+            for part, text in (("_rels/.rels", relations), ("3D/a.model", model(body, '<item objectid="1"/>'))):
+                archive.writestr(zipfile.ZipInfo(part), text, method)
+        put("3mf", name, package.getvalue())
     put("model", "placed.model", model(placed, '<item objectid="2" transform="2 0 0 0 2 0 0 0 2 1 2 3"/>'))
     lattice = ('<b:beamlattice radius="0.5" minlength="0.001" cap="sphere" ballmode="mixed" ballradius="1" '
                'clippingmode="none"><b:beams><b:beam v1="0" v2="1" r1="0.4" r2="0.5" cap1="butt" cap2="hemisphere"/>'
