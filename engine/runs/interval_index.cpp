@@ -25,7 +25,7 @@ IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::
     constexpr double max_bins = 4096;
     const double mean = total / static_cast<double>(item_.size());
     const double wanted = mean > 0 ? std::min(extent_.width() / mean, max_bins) : 1;
-    bins_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+    bins_ = wanted >= 1 ? static_cast<std::size_t>(wanted) : 1;
     bins_per_mm_ = extent_.width() > 0 ? static_cast<double>(bins_) / extent_.width() : 0;
 
     intervals_.reserve(item_.size());
@@ -44,9 +44,10 @@ IntervalIndex::IntervalIndex(const std::vector<Interval>& intervals, const std::
 }
 
 std::size_t IntervalIndex::bin_of(double v) const {
+    // Far from a tiny extent, the number is beyond every integer.
     const double b = (v - extent_.lo) * bins_per_mm_;
     if (!(b > 0)) return 0;
-    return std::min(static_cast<std::size_t>(b), bins_ - 1);
+    return b < static_cast<double>(bins_) ? static_cast<std::size_t>(b) : bins_ - 1;
 }
 
 void IntervalIndex::query(const Interval& interval, std::vector<std::uint32_t>& items) const {

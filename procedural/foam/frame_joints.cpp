@@ -75,7 +75,8 @@ void FrameJoints::join(std::vector<Candidate>& candidates, std::vector<SurfaceCu
 
 bool FrameJoints::leads_through(dvec3 p, dvec3 q, const Field& body, double allowance) const {
     const double radius = std::min(radius_.at(p), radius_.at(q));
-    const int samples = std::min(static_cast<int>(length(q - p) / (0.5 * radius)) + 2, 64);
+    constexpr double most = 62;
+    const int samples = static_cast<int>(std::min(length(q - p) / (0.5 * radius), most)) + 2;
     for (int i = 1; i < samples; ++i) {
         const double v = body.value_within(p + (q - p) * (static_cast<double>(i) / samples), radius);
         if (!(v < 0 || v <= allowance * radius)) return false;
