@@ -11,8 +11,10 @@
 
 #include "engine/base/error.h"
 #include "engine/formula/formula_batch.h"
+#include "engine/formula/formula_field.h"
 #include "engine/formula/formula_parser.h"
 #include "engine/formula/formula_vm.h"
+#include "tests/fuzz/check_runs.h"
 
 using namespace lamella;
 
@@ -75,11 +77,25 @@ void check(const Formula& formula, std::mt19937& random) {
     }
 }
 
+/// Cuts the solid of a formula at some height.
+void cut(const Formula& formula, std::mt19937& random) {
+    const Box box{dvec3(-2), dvec3(2)};
+    const FieldPtr solid = make_formula_field(formula, {}, box);
+    constexpr std::array heights{-1.9, 0.0, 0.3};
+    SliceContext context;
+    Scratch scratch;
+    const SliceField& slice = context.slice(*solid, heights[random() % heights.size()]);
+    check_runs(slice, {dvec2(-2.5, -2), dvec2(2, 1.5)}, scratch);
+}
+
 template <typename Read>
 void try_reading(const Read& read, std::mt19937& random) {
     try {
         const Formula formula = read();
-        for (int box = 0; box < 4 && formula.input_count() <= 3; ++box) check(formula, random);
+        if (formula.input_count() > 3) return;
+        for (int box = 0; box < 4; ++box) check(formula, random);
+        constexpr std::size_t bearable = 60;  // operations
+        if (formula.size() <= bearable) cut(formula, random);
     } catch (const InputError&) {
     }
 }

@@ -12,6 +12,7 @@
 #include "engine/io/mesh_reader.h"
 #include "engine/mesh/mesh_field.h"
 #include "engine/mesh/mesh_repair.h"
+#include "tests/fuzz/check_runs.h"
 #include "tests/fuzz/packed_model.h"
 
 namespace {
@@ -37,25 +38,7 @@ void cut(lamella::SolidMesh solid) {
     lamella::SliceContext context;
     lamella::Scratch scratch;
     const lamella::SliceField& slice = context.slice(*field, box.center().z);
-    constexpr int pixels = 16;
-    lamella::RowBand band;
-    band.along_origin = box.lo.x;
-    band.along_pitch = std::max(box.size().x / pixels, 1e-9);
-    band.across_origin = box.lo.y;
-    band.across_pitch = std::max(box.size().y / pixels, 1e-9);
-    band.count = band.hi = pixels;
-    band.sub = 2;
-    lamella::RunRows rows;
-    slice.runs(band, scratch, rows);
-    if (rows.lines() != static_cast<std::size_t>(band.lines())) std::abort();
-    for (std::size_t line = 0; line < rows.lines(); ++line) {
-        std::int32_t last = -1;
-        for (const lamella::Run& run : rows.line(line)) {
-            if (run.begin <= last || run.end <= run.begin || run.end > pixels * lamella::run_unit)
-                std::abort();
-            last = run.end;
-        }
-    }
+    lamella::check_runs(slice, {{box.lo.x, box.lo.y}, {box.hi.x, box.hi.y}}, scratch);
     const double tolerance = std::max(box.size().x, box.size().y) / 200;
     if (tolerance < 1e-9) return;
     for (const lamella::Contour& contour : lamella::trace_contours(slice, tolerance, scratch)) {
