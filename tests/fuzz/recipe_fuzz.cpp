@@ -1,5 +1,5 @@
 // Recipes of any bytes through the C interface: read, built, and cut once. What a recipe asks for is kept
-// small: the part is a ball of 2 mm, and neither surveys nor files are asked for.
+// small: the part is a ball of 2 mm, and no files are asked for.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -12,8 +12,7 @@ namespace {
 
 bool asks_for_much(std::string_view text) {
     for (const char* word :
-         {"islands", "drain", "dowel", "cavity", "shield", "support", "repair", "file", "mesh", "image",
-          "law", "table", "tests", "profile", "copies", "scale", "modulus"}) {
+         {"file", "mesh", "image", "law", "table", "tests", "profile", "copies", "scale"}) {
         if (text.find(word) != std::string_view::npos) return true;
     }
     return false;
@@ -33,6 +32,21 @@ std::vector<std::pair<const char*, const char*>> bounds_for(std::string_view tex
     return keys;
 }
 
+void cut(lamella_context* context, lamella_section* section) {
+    lamella_contours* contours = nullptr;
+    lamella_section_contours(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, 0.1, &contours);
+    lamella_contours_destroy(contours);
+    lamella_raster raster{};
+    raster.struct_size = sizeof raster;
+    raster.columns = raster.rows = 20;
+    raster.lines = 2;
+    raster.x = raster.y = -2.5;
+    raster.pitch_x = raster.pitch_y = 0.25;
+    lamella_runs* runs = nullptr;
+    lamella_section_runs(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, &raster, &runs);
+    lamella_runs_destroy(runs);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -49,9 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             lamella_recipe_set(context, recipe, key, value);
         if (lamella_job_build(context, recipe, nullptr, &job) == LAMELLA_OK &&
             lamella_section_open(context, job, 0.1, &section) == LAMELLA_OK) {
-            lamella_contours* contours = nullptr;
-            lamella_section_contours(context, section, LAMELLA_PART, 0.1, &contours);
-            lamella_contours_destroy(contours);
+            cut(context, section);
         }
     }
     lamella_error error{};
