@@ -64,8 +64,10 @@ FoamLawPoint point_of(const std::vector<double>& numbers) {
     point.high_factor = numbers[5] / numbers[2];
     point.spread = numbers[6];
     point.anisotropy = numbers[7];
-    point.elements = static_cast<int>(std::clamp(numbers[8], 0.0, 1e6));
-    point.samples = static_cast<int>(std::clamp(numbers[9], 0.0, 1e6));
+    // NaN is no count; it fails every comparison.
+    const auto count = [](double number) { return number > 0 ? static_cast<int>(std::min(number, 1e6)) : 0; };
+    point.elements = count(numbers[8]);
+    point.samples = count(numbers[9]);
     return point;
 }
 

@@ -31,10 +31,11 @@ std::vector<StiffnessTest> read_tests(const std::string& path) {
             continue;
         }
         const std::vector<double> numbers = numbers_of(row.cells, where);
-        if (numbers.size() != 3 || !(std::ranges::min(numbers) > 0))
+        constexpr double least = 1e-9, most = 1e9;
+        if (numbers.size() != 3 || !(std::ranges::min(numbers) >= least && std::ranges::max(numbers) <= most))
             throw InputError(where +
-                             "not three positive numbers; accepted: cell (mm), member (mm) and modulus (MPa) "
-                             "on each line");
+                             "not three positive numbers (1e-9 to 1e9); accepted: cell (mm), member (mm) and "
+                             "modulus (MPa) on each line");
         tests.push_back({numbers[1] / numbers[0], numbers[2]});
     }
     if (tests.empty())

@@ -96,6 +96,13 @@ TEST_CASE("laws are read as they are written, several to a file", "[elasticity]"
     CHECK(is.samples == 4);
 }
 
+TEST_CASE("a law's counts that are no numbers are none", "[elasticity]") {
+    const std::vector<FoamLawTable> laws =
+        read_foam_laws(law_heading() + "open,0.1,0.2,0.03,1,0.03,0.03,nan,nan,nan,-inf\n", "law.csv");
+    CHECK(laws.at(0).points.at(0).elements == 0);
+    CHECK(laws.at(0).points.at(0).samples == 0);
+}
+
 TEST_CASE("what is no law's file is refused with its line", "[elasticity]") {
     CHECK(refusal("1,2,3\n").find("law.csv:1: this is no foam's law") == 0);
     CHECK(refusal("").find("law.csv: there is no foam's law") == 0);

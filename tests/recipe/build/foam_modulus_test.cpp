@@ -195,10 +195,12 @@ TEST_CASE("compression tests bend the law, with a band of their own", "[elastici
     CHECK(info["modulus"]["fit"]["tests"] == 4);
     CHECK(info["modulus"]["predicted_MPa"][0].get<double>() == Approx(31).margin(3));
     CHECK(mentions(info["modulus"]["notes"][0].get<std::string>(), "fitted to 4 tests"));
-    write(folder / "tests.csv", "3,0.3\n");
-    check_refused(folder,
-                  bar + "[material]\nyoung = 2000\ntests = \"tests.csv\"\n[foam]\nbeam = 0.3\ncell = 3\n",
-                  "tests.csv:1: not three positive numbers");
+    for (const char* row : {"3,0.3\n", "3,0.3,inf\n", "1e-320,0.3,30\n"}) {
+        write(folder / "tests.csv", row);
+        check_refused(folder,
+                      bar + "[material]\nyoung = 2000\ntests = \"tests.csv\"\n[foam]\nbeam = 0.3\ncell = 3\n",
+                      "tests.csv:1: not three positive numbers");
+    }
 }
 
 TEST_CASE("a law of one's own is found by what shapes the foam", "[elasticity][slow]") {
