@@ -267,6 +267,15 @@ def recipes():
     (OUT / "recipe.dict").write_text("".join(f'"{word}"\n' for word in sorted(words)))
 
 
+def tables():
+    """The first byte is that of tests/fuzz/tables_fuzz.cpp: what the rest is."""
+    put("tables", "table.csv", "0z;number # heading\n0, 1.5\n1;2.5e0\n\n2\t-3\n7 , 7\n")
+    laws = (ROOT / "materials/foam_laws.csv").read_text().splitlines()
+    rows = [line for line in laws if not line.startswith("#")]
+    put("tables", "laws.csv", "1" + "\n".join(rows[:9]) + "\n")
+    put("tables", "materials.toml", "2" + "\n".join((ROOT / "materials/materials.toml").read_text().splitlines()[4:18]))
+
+
 def requests():
     raster = {"columns": 8, "rows": 6, "lines": 4, "x": -2, "y": -2, "pitch_x": 0.5, "pitch_y": 0.6}
     lines = [{"id": 1, "method": "contours", "job": 1, "z": 0.25, "what": "part", "tolerance": 0.1},
@@ -280,5 +289,6 @@ def requests():
     put("requests", "all", "\n".join(json.dumps(line) for line in lines))
 
 
-for write in (meshes, models, pictures, volumes, formulas, jobs, shards_and_journals, replies, recipes, requests):
+for write in (meshes, models, pictures, volumes, formulas, jobs, shards_and_journals, replies, recipes, tables,
+              requests):
     write()
