@@ -24,7 +24,7 @@ std::vector<std::pair<const char*, const char*>> bounds_for(std::string_view tex
     std::vector<std::pair<const char*, const char*>> keys{
         {"part.shape", "sphere"}, {"part.radius", "2"}, {"layers.height", "0.5"}};
     if (text.find("foam") == std::string_view::npos) return keys;
-    keys.emplace_back("foam.cell_min", "0.5");
+    keys.emplace_back("foam.cell_min", "1");
     bool is_surface = false;
     for (const char* kind : {"gyroid", "schwarz", "neovius"})
         is_surface = is_surface || text.find(kind) != std::string_view::npos;
