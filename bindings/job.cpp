@@ -40,7 +40,7 @@ namespace {
 
 /// The surveys, supports and copies of a recipe's job.
 Job finished(const Recipe& recipe, const lamella_build_options& options) {
-    BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
     FinishOptions finish;
     finish.plans = options.plans ? options.plans : "";
     finish.threads = options.threads;

@@ -10,6 +10,7 @@
 #include "app/console/text_output.h"
 #include "engine/base/error.h"
 #include "recipe/build/build_job.h"
+#include "recipe/build/support_plan.h"
 #include "recipe/output/beam_output.h"
 #include "recipe/settings.h"
 
@@ -83,7 +84,7 @@ void run(const DumpOptions& options) {
     if (!options.box.empty()) box = parse_box(options.box);
     BuiltFoam foam;
     if (has_body) {
-        BuiltJob built = build_job(recipe);
+        BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
         foam = std::move(*built.foam);
         if (!box) box = built.designed.bounds;
     } else {

@@ -18,6 +18,7 @@
 #include "printers/readers/read_job.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/json_triple.h"
+#include "recipe/build/support_plan.h"
 #include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_regions.h"
 
@@ -301,7 +302,7 @@ void run(const InfoOptions& options) {
     }
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
     if (options.islands) {
         IslandSurveyOptions survey;
         survey.threads = options.threads;

@@ -67,7 +67,7 @@ void run(PreviewCommand& options) {
     const auto start = std::chrono::steady_clock::now();
     const Recipe recipe = options.recipe.read();
     if (!options.quiet) note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();

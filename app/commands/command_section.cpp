@@ -35,7 +35,7 @@ std::string chosen_format(const SectionOptions& options) {
 std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
     finish_job(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include "app/console/progress.h"
 #include "app/reports/grading_report.h"
@@ -41,12 +42,26 @@ std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) 
     return recipes;
 }
 
+OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& cancel) {
+    OptimizeOptions optimizing;
+    optimizing.plans = options.plans;
+    optimizing.threads = options.threads;
+    optimizing.cancel = &cancel;
+    if (options.quiet) return optimizing;
+    const auto display = std::make_shared<ProgressDisplay>(false, "optimising: ");
+    optimizing.on_iteration = [display](const TopologyIteration& iteration, int iterations) {
+        display->show(static_cast<double>(iteration.index) / iterations);
+    };
+    return optimizing;
+}
+
 /// Replaces the job by one with all parts and their copies.
 void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
                 const JobOptions& options, const CancelToken& cancel) {
     std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
     for (const Recipe& other : others) {
-        BuiltJob beside = build_job(other);
+        BuiltJob beside = build_job(other, optimize_options(options, cancel));
+        stop_if_cancelled(&cancel);
         finish_with_progress(other, beside, options, cancel);
         items.push_back({beside.job, other.plate.copies});
     }
@@ -84,7 +99,8 @@ std::string resuming(const std::vector<std::string>& arguments) {
 }
 
 PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel) {
-    BuiltJob built = build_job(recipe);
+    BuiltJob built = build_job(recipe, optimize_options(options, cancel));
+    stop_if_cancelled(&cancel);  // before the design was good enough
     if (!options.quiet) note_unused(options.recipe, recipe);
     if (built.mesh && !options.quiet) {
         for (const std::string& note : built.mesh->notes) {

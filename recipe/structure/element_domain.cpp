@@ -102,9 +102,10 @@ ElementDomain element_domain(const Recipe& recipe, const Field& body, const Buil
     ElementDomain domain;
     domain.dimensions = optimize.dimensions;
     domain.edge = edge_of(optimize, bounds.size());
+    // The nearest whole number: the grid may end up to a quarter of an element inside the body on either
+    // side.
     const auto along = [&](int axis) {
-        return std::max(1,
-                        static_cast<int>(std::ceil(std::min(bounds.size()[axis] / domain.edge, 1e9) - 1e-6)));
+        return std::max(1, static_cast<int>(std::round(std::min(bounds.size()[axis] / domain.edge, 1e9))));
     };
     domain.size = {along(0), along(1), optimize.dimensions == 2 ? 1 : along(2)};
     check_size(optimize, domain.size, std::max<std::size_t>(recipe.loads.size(), 1), domain.edge);

@@ -47,7 +47,9 @@ TopologySettings topology_settings(const OptimizeRecipe& optimize, const Element
                                    const CancelToken* cancel) {
     TopologySettings settings;
     settings.density = density_settings(optimize, domain);
-    settings.method = optimize.method == OptimizeMethod::mma ? TopologyMethod::mma : TopologyMethod::oc;
+    // Under self-weight a compliance may grow with the volume, which optimality criteria cannot follow.
+    const bool needs_mma = optimize.method == OptimizeMethod::mma || optimize.gravity != dvec3(0);
+    settings.method = needs_mma ? TopologyMethod::mma : TopologyMethod::oc;
     settings.tolerance = optimize.tolerance;
     settings.iterations = optimize.iterations;
     settings.sharpness = optimize.result == OptimizeResult::solid ? optimize.sharpness : 0;
@@ -238,6 +240,9 @@ std::string optimize_hash(const Recipe& recipe) { return job_identity(relevant(r
 
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options) {
+    if (recipe.optimize->kind == OptimizeKind::appearance)
+        throw InputError(
+            "optimize.kind / --optimize-kind: \"appearance\" is read, but not made yet; accepted: stiffness");
     const bool is_foam = recipe.optimize->result != OptimizeResult::solid;
     const std::filesystem::path file =
         options.plans.empty() ? std::filesystem::path() : options.plans / (optimize_hash(recipe) + ".nrrd");

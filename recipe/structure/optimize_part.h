@@ -8,20 +8,17 @@
 #include <vector>
 
 #include "procedural/optimization/density_shape.h"
-#include "recipe/build/support_plan.h"
 #include "recipe/structure/structure_report.h"
 
 namespace lamella {
 
 struct OptimizeOptions {
-    std::filesystem::path plans =
-        default_plan_folder();  ///< folder for results; empty: none are read or kept
-    bool anew = false;          ///< optimises even if the folder has the result
-    int threads = 0;            ///< 0: one per core
+    std::filesystem::path plans{};  ///< folder for results; empty: none are read or kept
+    bool anew = false;              ///< optimises even if the folder has the result
+    int threads = 0;                ///< 0: one per core
     /// Called after each iteration with the number of iterations at most; may be empty.
     std::function<void(const TopologyIteration&, int iterations)> on_iteration{};
-    /// Ends the optimisation with the best design so far; may be null. A job that needs the result throws
-    /// Interrupted.
+    /// Ends the optimisation with the best design so far, which is not kept; may be null.
     const CancelToken* cancel = nullptr;
 };
 
