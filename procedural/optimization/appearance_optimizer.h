@@ -73,7 +73,7 @@ struct AppearanceResult {
 /// Steps after which a thin strut would part are shortened. C and the volumes of the result miss their bounds
 /// by at most 0.5 % and 0.25 %, unless 20 further steps do not get there.
 ///
-/// Greys of the exemplar are copied as well, so it should be black and white before it is scaled. Its lines
+/// Greys of the exemplar are copied as well, so it should be black_and_white() before it is scaled. Its lines
 /// should be two elements wide or more at the coarsest level, and its solid share near `volume`.
 ///
 /// A pure function of its arguments: the same bits on any number of threads. Throws InputError for settings

@@ -81,4 +81,10 @@ GreyImage box_filtered(const GreyImage& image, int width) {
     return scaled;
 }
 
+GreyImage black_and_white(const GreyImage& image, double threshold) {
+    GreyImage crisp = image;
+    for (double& value : crisp.values) value = value >= threshold ? 1 : 0;
+    return crisp;
+}
+
 }  // namespace lamella

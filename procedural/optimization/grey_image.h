@@ -31,4 +31,7 @@ GreyImage solidity(const Picture& picture, bool invert = false);
 /// width below 1 and for an image without pixels.
 GreyImage box_filtered(const GreyImage& image, int width);
 
+/// Returns the image in black and white: 1 where it is `threshold` or more, 0 elsewhere.
+GreyImage black_and_white(const GreyImage& image, double threshold = 0.5);
+
 }  // namespace lamella

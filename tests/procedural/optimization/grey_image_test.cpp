@@ -73,6 +73,15 @@ TEST_CASE("a picture scaled by any factor has the means over the areas of pixels
     }
 }
 
+TEST_CASE("black and white is solid from the threshold on", "[optimization]") {
+    GreyImage image(3, 2);
+    image.values = {0, 0.3, 0.5, 0.499, 0.7, 1};
+    CHECK(black_and_white(image).values == std::vector<double>{0, 0, 1, 0, 1, 1});
+    CHECK(black_and_white(image, 0.3).values == std::vector<double>{0, 1, 1, 1, 1, 1});
+    CHECK(black_and_white(image).width == 3);
+    CHECK(black_and_white(image).height == 2);
+}
+
 TEST_CASE("pictures without pixels and widths below one are refused", "[optimization]") {
     CHECK_THROWS_AS(solidity(Picture{}), InputError);
     CHECK_THROWS_AS(solidity(Picture{2, 2, {1, 2, 3}}), InputError);
