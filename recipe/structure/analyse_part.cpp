@@ -58,7 +58,8 @@ StructureReport analysed(const Recipe& recipe, ElementDomain domain, const Gradi
 }  // namespace
 
 StructureReport analyse_part(const Recipe& recipe, const BuiltJob& built, const AnalysisOptions& options) {
-    if (recipe.loads.empty() || recipe.anchors.empty())
+    const bool is_heavy = recipe.optimize && recipe.optimize->gravity != dvec3(0);
+    if ((recipe.loads.empty() && !is_heavy) || recipe.anchors.empty())
         throw InputError(
             "analyze: the part is not both loaded and held; accepted: a [[load]] and an [[anchor]]");
     const bool by_law =

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/base/geometry.h"
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/folder.h"
 #include "tests/bindings/handles_by_call.h"

@@ -1,5 +1,5 @@
 // Bilinear interpolation by position, over free elements.
-#include "procedural/optimization/design_upsampling.h"
+#include "procedural/appearance/design_upsampling.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The broken line, and the rows of an image in the order of windows.
-#include "procedural/optimization/window_difference.h"
+#include "procedural/appearance/window_difference.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "procedural/optimization/patch_match.h"
+#include "procedural/appearance/patch_match.h"
 #include "procedural/optimization/topology_problem.h"
 
 namespace lamella {

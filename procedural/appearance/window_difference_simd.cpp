@@ -2,10 +2,10 @@
 // target gives the same numbers.
 #include <array>
 
-#include "procedural/optimization/window_difference.h"
+#include "procedural/appearance/window_difference.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "procedural/optimization/window_difference_simd.cpp"
+#define HWY_TARGET_INCLUDE "procedural/appearance/window_difference_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target:
 #include <hwy/highway.h>

@@ -1,5 +1,5 @@
 // Luma of pictures; means over boxes, one axis after the other.
-#include "procedural/optimization/grey_image.h"
+#include "procedural/appearance/grey_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Grey images from pictures, and box filters against blocks and fine subdivision.
-#include "procedural/optimization/grey_image.h"
+#include "procedural/appearance/grey_image.h"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -1,5 +1,5 @@
 // Differences of windows against sums over their pixels, and the broken line against the power.
-#include "procedural/optimization/window_difference.h"
+#include "procedural/appearance/window_difference.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

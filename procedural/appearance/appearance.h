@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "procedural/optimization/patch_match.h"
+#include "procedural/appearance/patch_match.h"
 
 namespace lamella {
 

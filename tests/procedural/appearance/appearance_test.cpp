@@ -1,12 +1,12 @@
 // The appearance energy against its formula, and its gradient against central differences.
-#include "procedural/optimization/appearance.h"
+#include "procedural/appearance/appearance.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "tests/procedural/optimization/synthetic_images.h"
+#include "tests/procedural/appearance/synthetic_images.h"
 
 namespace appearance_test {
 

@@ -1,7 +1,7 @@
 // All differences at a pixel of the target lie at the same fraction of a piece of the cubic, because values
 // of the exemplar are whole numbers of pieces. So the coefficients can be added up first: one row of a
 // table for each term, and one evaluation for each pixel.
-#include "procedural/optimization/appearance.h"
+#include "procedural/appearance/appearance.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Sweeps over the windows of the target, in parallel by rows; the occurrence map by sums of boxes.
-#include "procedural/optimization/patch_match.h"
+#include "procedural/appearance/patch_match.h"
 
 #include <algorithm>
 #include <array>

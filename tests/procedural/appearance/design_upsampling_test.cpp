@@ -1,5 +1,5 @@
 // Designs of a coarse grid on a finer one: by position, and of free elements only.
-#include "procedural/optimization/design_upsampling.h"
+#include "procedural/appearance/design_upsampling.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

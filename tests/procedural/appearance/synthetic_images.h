@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "procedural/optimization/grey_image.h"
+#include "procedural/appearance/grey_image.h"
 
 namespace synthetic_images {
 

@@ -1,12 +1,12 @@
 // PatchMatch against an exhaustive search, and what the uniformity term does to the use of the exemplar.
-#include "procedural/optimization/patch_match.h"
+#include "procedural/appearance/patch_match.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "tests/procedural/optimization/synthetic_images.h"
+#include "tests/procedural/appearance/synthetic_images.h"
 
 namespace patch_match_test {
 

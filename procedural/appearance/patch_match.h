@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "procedural/optimization/grey_image.h"
-#include "procedural/optimization/window_difference.h"
+#include "procedural/appearance/grey_image.h"
+#include "procedural/appearance/window_difference.h"
 
 namespace lamella {
 

@@ -1,5 +1,5 @@
 // The loop over levels, and the steps of a level.
-#include "procedural/optimization/appearance_optimizer.h"
+#include "procedural/appearance/appearance_optimizer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "procedural/optimization/appearance.h"
-#include "procedural/optimization/design_upsampling.h"
+#include "procedural/appearance/appearance.h"
+#include "procedural/appearance/design_upsampling.h"
 #include "procedural/optimization/topology_optimizer.h"
 #include "procedural/optimization/variable_blocks.h"
 
@@ -274,12 +274,18 @@ struct LevelDesigns {
     std::vector<double> stiffest, pictured;
 };
 
-/// Takes the place of each design what the level before made of it.
+/// Puts in the place of each design, but for prescribed elements, what the level before made of it.
 void refine(LevelDesigns& now, const LevelDesigns& former) {
-    const double otherwise = *std::ranges::max_element(now.pictured);  // the uniform start
-    for (const auto design : {&LevelDesigns::stiffest, &LevelDesigns::pictured})
-        now.*design =
-            upsampled_design({former.size, former.use, former.*design}, now.size, now.use, otherwise);
+    const auto first_free =
+        static_cast<std::size_t>(std::ranges::find(now.use, ElementUse::free) - now.use.begin());
+    const double start = now.pictured.at(first_free);
+    for (const auto design : {&LevelDesigns::stiffest, &LevelDesigns::pictured}) {
+        const std::vector<double> finer =
+            upsampled_design({former.size, former.use, former.*design}, now.size, now.use, start);
+        for (std::size_t i = 0; i < finer.size(); ++i) {
+            if (now.use[i] == ElementUse::free) (now.*design)[i] = finer[i];
+        }
+    }
 }
 
 }  // namespace

@@ -1,0 +1,100 @@
+// `lamella optimize` and `lamella analyze`: reports, files, kept results, mistakes, and Ctrl-C.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "procedural/volume/volume.h"
+#include "tests/app/commands/command_run.h"
+#include "tests/app/commands/folder.h"
+
+namespace command_optimize_test {
+
+using namespace lamella;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string plate =
+    "[part]\nshape = \"box\"\nsize = [40, 20, 4]\n[material]\nyoung = 2000\npoisson = 0.3\ndensity = 1.2\n"
+    "[[load]]\nbox = [[19.9, -0.1, -3], [20.1, 0.1, 3]]\nforce = [0, -10, 0]\n[[anchor]]\nface = \"-x\"\n";
+const std::string search = "[optimize]\ndimensions = 2\nelements = 40\niterations = 30\nvolume = 0.4\n";
+
+}  // namespace
+
+TEST_CASE("optimize reports the search, and saves the densities", "[optimization]") {
+    const Folder folder;
+    write(folder / "plate.toml", plate + search);
+    const Outcome text = run_lamella("optimize " + folder / "plate.toml");
+    CHECK(text.code == 0);
+    for (const char* words : {"800 in a grid of 40 x 20", "E = 2000 MPa", "of at most 40.00 %", "von Mises"})
+        CHECK(mentions(text.out, words));
+    CHECK(mentions(text.err, "30/30"));
+    const Outcome json =
+        run_lamella("optimize -q --json " + folder / "plate.toml" + " --save " + folder / "plate.nrrd");
+    CHECK(json.code == 0);
+    CHECK(json.err.empty());
+    const Json report = Json::parse(json.out);
+    CHECK(report["history"].size() == 30);
+    CHECK(report["volume"].get<double>() == Approx(0.4).epsilon(0.005));
+    CHECK(report["cases"][0]["largest_displacement_mm"].get<double>() > 0);
+    const Volume saved = read_volume(folder / "plate.nrrd");
+    CHECK(saved.size == std::array<std::size_t, 3>{40, 20, 1});
+    REQUIRE(saved.box);
+    CHECK(saved.box->lo.x == Approx(-20));
+    CHECK(saved.box->hi.y == Approx(10));
+}
+
+TEST_CASE("slice prints what optimize has found, without another search", "[optimization]") {
+    const Folder folder;
+    write(folder / "plate.toml", plate + search);
+    const std::string plans = " --plans " + folder / "plans";
+    REQUIRE(run_lamella("optimize " + folder / "plate.toml" + plans).code == 0);
+    const Outcome slice = run_lamella("slice " + folder / "plate.toml" + plans + " --layer-height 2 -o " +
+                                      folder / "plate.svg");
+    CHECK(slice.code == 0);
+    CHECK_FALSE(mentions(slice.err, "optimising"));
+    // 40 % of 40 x 20 x 4 mm.
+    CHECK(mentions(slice.err, "mm3 of material"));
+    const Outcome anew = run_lamella("slice " + folder / "plate.toml" + " --plans '' --layer-height 2 -o " +
+                                     folder / "again.svg");
+    CHECK(anew.code == 0);
+    CHECK(mentions(anew.err, "optimising"));
+    CHECK(contents(folder / "plate.svg") == contents(folder / "again.svg"));
+}
+
+TEST_CASE("analyze says how a part bends, and what it needs for that", "[optimization]") {
+    const Folder folder;
+    write(folder / "plate.toml", plate);
+    const Outcome full = run_lamella("analyze --json " + folder / "plate.toml");
+    REQUIRE(full.code == 0);
+    const Json report = Json::parse(full.out);
+    CHECK(report["compliance_nmm"].get<double>() == Approx(report["full_compliance_nmm"].get<double>()));
+    CHECK(report["history"].empty());
+    const Outcome law = run_lamella("analyze --model law " + folder / "plate.toml");
+    CHECK(law.code == 2);
+    CHECK(mentions(law.err, "no foam whose law is known"));
+    write(folder / "free.toml", "[part]\nshape = \"box\"\nsize = [40, 20, 4]\n");
+    const Outcome free = run_lamella("analyze " + folder / "free.toml");
+    CHECK(free.code == 2);
+    CHECK(mentions(free.err, "a [[load]] and an [[anchor]]"));
+    const Outcome nothing = run_lamella("optimize " + folder / "plate.toml");
+    CHECK(nothing.code == 2);
+    CHECK(mentions(nothing.err, "[optimize] is missing"));
+}
+
+TEST_CASE("Ctrl-C ends a search with a report of the best design so far", "[optimization]") {
+    const Folder folder;
+    write(folder / "plate.toml",
+          plate + "[optimize]\ndimensions = 2\nelements = 200\niterations = 10000\ntolerance = 1e-9\n");
+    const pid_t child = start_lamella("optimize --json " + folder / "plate.toml", folder);
+    for (int i = 0; i < 600 && !mentions(contents(folder / "err"), "10/10000"); ++i) usleep(100'000);
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WEXITSTATUS(status) == 130);
+    const Json report = Json::parse(contents(folder / "out"));
+    CHECK(report["history"].size() >= 10);
+    CHECK_FALSE(report["converged"].get<bool>());
+    CHECK(report["compliance_nmm"].get<double>() > 0);
+}
+
+}  // namespace command_optimize_test

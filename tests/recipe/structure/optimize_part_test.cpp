@@ -1,0 +1,232 @@
+// Parts that [optimize] makes: volumes, symmetry, prescribed regions, foams, plans, and what cannot be
+// solved.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/field/slice_context.h"
+#include "recipe/structure/analyse_part.h"
+#include "tests/app/commands/folder.h"
+#include "tests/app/commands/recipes.h"
+
+namespace optimize_part_test {
+
+using namespace lamella;
+
+namespace {
+
+const std::string material = "[material]\nyoung = 2000\npoisson = 0.3\ndensity = 1.2\n";
+/// A cantilever of 40 x 20 x 4 mm, held on the left, with a load in the middle of the right side.
+const std::string plate =
+    "[part]\nshape = \"box\"\nsize = [40, 20, 4]\n" + material +
+    "[[load]]\nbox = [[19.9, -0.1, -3], [20.1, 0.1, 3]]\nforce = [0, -10, 0]\n[[anchor]]\nface = \"-x\"\n";
+const std::string in_plane = "[optimize]\ndimensions = 2\nelements = 40\niterations = 40\n";
+const std::string block = "[part]\nshape = \"box\"\nsize = [24, 12, 12]\n" + material +
+                          "[[load]]\nface = \"+x\"\nforce = [0, 0, -10]\n[[anchor]]\nface = \"-x\"\n";
+const std::string in_space = "[optimize]\nelements = 24\niterations = 25\nsharpness = 4\n";
+
+BuiltJob built(const std::string& text) { return build_job(recipe_of(text)); }
+
+/// The solid area of a section at a height, mm^2, by rows 0.02 mm apart.
+double area(const Field& field, double z, const Box& box) {
+    constexpr double pitch = 0.02;
+    RowBand band;
+    band.along_origin = box.lo.x;
+    band.across_origin = box.lo.y;
+    band.along_pitch = band.across_pitch = pitch;
+    band.count = static_cast<int>(box.size().y / pitch);
+    band.hi = static_cast<int>(box.size().x / pitch);
+    SliceContext context;
+    Scratch scratch;
+    const auto rows = scratch.rows();
+    context.slice(field, z).runs(band, scratch, *rows);
+    return static_cast<double>(rows->total_length()) / run_unit * pitch * pitch;
+}
+
+StructureReport analysed(const std::string& text, AnalysisModel model = AnalysisModel::automatic) {
+    const Recipe recipe = recipe_of(text);
+    AnalysisOptions options;
+    options.model = model;
+    return analyse_part(recipe, build_job(recipe), options);
+}
+
+}  // namespace
+
+TEST_CASE("an optimised plate fills the asked share of the part, and every layer is the same",
+          "[optimization]") {
+    for (const double volume : {0.3, 0.5}) {
+        const BuiltJob job = built(plate + in_plane + "volume = " + std::to_string(volume) + "\n");
+        const Box box = job.job.bounds;
+        CHECK(area(*job.job.part, 0, box) == Approx(volume * 40 * 20).epsilon(0.005));
+        CHECK(area(*job.job.part, -1.9, box) == area(*job.job.part, 1.9, box));
+        const StructureReport& report = *job.optimized->report;
+        CHECK(report.volume == Approx(volume).epsilon(0.005));
+        CHECK(report.compliance > report.full_compliance);
+        CHECK(report.compliance < 4 * report.full_compliance);
+        CHECK(report.greyness < 0.1);
+    }
+}
+
+TEST_CASE("an optimised plate is stiffer than one that is thinner all over by as much", "[optimization]") {
+    const StructureReport report = *built(plate + in_plane + "volume = 0.4\n").optimized->report;
+    // A plate of 40 % of the thickness has 1 / 0.4 times the compliance.
+    CHECK(report.compliance < 0.8 * report.full_compliance / 0.4);
+}
+
+TEST_CASE("symmetry and prescribed regions of an optimised part are kept", "[optimization]") {
+    const std::string regions =
+        "[[field]]\nname = \"pad\"\nkind = \"box\"\nsize = [6, 6, 10]\nat = [0, 7, 0]\n"
+        "[[field]]\nname = \"hole\"\nkind = \"cylinder\"\nradius = 3\nheight = 10\nat = [10, 0, 0]\n"
+        "[[region]]\nfield = \"pad\"\nmake = \"solid\"\n[[region]]\nfield = \"hole\"\nmake = \"empty\"\n";
+    const BuiltJob job = built(plate + regions + in_plane + "volume = 0.4\nsymmetry = \"y\"\n");
+    const OptimizedPart& part = *job.optimized;
+    const DensityGrid& grid = part.grid;
+    for (int y = 0; y < grid.size.y; ++y) {
+        for (int x = 0; x < grid.size.x; ++x) {
+            const std::size_t at = grid.place({x, y, 0});
+            const bool is_free = grid.use[at] == ElementUse::free &&
+                                 grid.use[grid.place({x, grid.size.y - 1 - y, 0})] == ElementUse::free;
+            if (is_free)
+                CHECK(grid.density[at] == Approx(grid.density[grid.place({x, grid.size.y - 1 - y, 0})]));
+        }
+    }
+    CHECK(job.job.part->value({0, 7, 0}) < 0);
+    CHECK(job.job.part->value({10, 0, 0}) > 0);
+    CHECK(job.job.part->value({11.9, 0, 0}) > 0);
+}
+
+TEST_CASE("an optimised block is the same bytes on one thread and two", "[optimization]") {
+    const Recipe recipe = recipe_of(block + in_space + "volume = 0.3\n");
+    OptimizeOptions one, two;
+    one.threads = 1;
+    two.threads = 2;
+    const BuiltJob a = build_job(recipe, one), b = build_job(recipe, two);
+    CHECK(a.optimized->grid.density == b.optimized->grid.density);
+    CHECK(a.optimized->report->volume == Approx(0.3).epsilon(0.005));
+}
+
+TEST_CASE("a kept result is the shape that was optimised", "[optimization]") {
+    const Folder folder;
+    const Recipe recipe = recipe_of(block + in_space + "volume = 0.3\n");
+    OptimizeOptions options;
+    options.plans = folder / "plans";
+    int iterations = 0;
+    options.on_iteration = [&](const TopologyIteration&, int) { ++iterations; };
+    const BuiltJob first = build_job(recipe, options);
+    REQUIRE(iterations > 0);
+    iterations = 0;
+    const BuiltJob second = build_job(recipe, options);
+    CHECK(iterations == 0);
+    CHECK_FALSE(second.optimized->report.has_value());
+    for (const double z : {-5.0, 0.0, 5.0})
+        CHECK(area(*first.job.part, z, first.job.bounds) == area(*second.job.part, z, second.job.bounds));
+    // A damaged file is no result.
+    for (const auto& file : std::filesystem::directory_iterator(folder / "plans"))
+        std::filesystem::resize_file(file.path(), 200);
+    build_job(recipe, options);
+    CHECK(iterations > 0);
+    // Another layer height is the same problem, another load is not.
+    iterations = 0;
+    build_job(recipe_of(block + in_space + "volume = 0.3\n[layers]\nheight = 0.2\n"), options);
+    CHECK(iterations == 0);
+}
+
+TEST_CASE("a driven foam has the asked mean density, and beams within the printer's limits",
+          "[optimization]") {
+    const std::string foam = "[foam]\ncell = 2\nbeam = 0.2\nbeam_min = 0.15\nbeam_max = 0.4\n";
+    const BuiltJob job =
+        built(block + foam + "[optimize]\nresult = \"beam\"\nelements = 24\nvolume = 0.15\n");
+    const StructureReport& report = *job.optimized->report;
+    CHECK(report.volume == Approx(0.15).epsilon(0.005));
+    double least = 1, most = 0;
+    for (const double x : {-11.0, -6.0, 0.0, 6.0, 11.0}) {
+        for (const double z : {-5.5, 0.0, 5.5}) {
+            const double beam = job.foam->member.made->at({x, 0, z});
+            least = std::min(least, beam);
+            most = std::max(most, beam);
+        }
+    }
+    CHECK(least >= 0.15);
+    CHECK(most <= 0.4);
+    CHECK(most > 1.3 * least);
+    // What the report predicts is what the analysis of the built foam's law finds.
+    const StructureReport again = analysed(
+        block + foam + "[optimize]\nresult = \"beam\"\nelements = 24\nvolume = 0.15\n", AnalysisModel::law);
+    CHECK(again.compliance == Approx(report.compliance).epsilon(0.1));
+}
+
+TEST_CASE("a bar that is analysed stretches as the textbook says", "[optimization]") {
+    // F L / (E A) with a pull of 100 N on 20 x 4 mm over 40 mm, and C = F u.
+    const std::string bar =
+        "[part]\nshape = \"box\"\nsize = [40, 20, 4]\n[material]\nyoung = 2000\npoisson = 0\n"
+        "[[load]]\nface = \"+x\"\nforce = [100, 0, 0]\n[[anchor]]\nface = \"-x\"\n";
+    const double stretch = 100.0 * 40 / (2000 * 20 * 4);
+    for (const char* dimensions : {"", "--"}) {
+        Recipe recipe = recipe_of(bar);
+        OptimizeRecipe elements;
+        elements.dimensions = *dimensions == 0 ? 3 : 2;
+        elements.elements = 40;
+        recipe.optimize = elements;
+        const BuiltJob job = build_job(recipe_of(bar));
+        const StructureReport report = analyse_part(recipe, job, {});
+        REQUIRE(report.cases.size() == 1);
+        CHECK(report.cases[0].largest_displacement == Approx(stretch).epsilon(1e-4));
+        CHECK(report.compliance == Approx(100 * stretch).epsilon(1e-4));
+        CHECK(report.cases[0].peak_stress == Approx(100.0 / (20 * 4)).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("a pressure on a face is its area's force, and a body's weight is its mass's", "[optimization]") {
+    const std::string bar =
+        "[part]\nshape = \"box\"\nsize = [20, 10, 10]\n[material]\nyoung = 1000\npoisson = 0\ndensity = 2\n"
+        "[[anchor]]\nface = \"-x\"\n";
+    const StructureReport pushed = analysed(bar + "[[load]]\nface = \"+x\"\npressure = 0.5\n");
+    const StructureReport forced = analysed(bar + "[[load]]\nface = \"+x\"\nforce = [-50, 0, 0]\n");
+    CHECK(pushed.compliance == Approx(forced.compliance).epsilon(1e-9));
+    // A hanging bar: u = rho g L^2 / (2 E), in t/mm^3 and mm/s^2.
+    const Recipe recipe = recipe_of(bar + "[optimize]\nelements = 20\ngravity = [9.81, 0, 0]\n");
+    const BuiltJob job = build_job(recipe_of(bar));
+    const StructureReport hung = analyse_part(recipe, job, {});
+    CHECK(hung.cases.at(0).largest_displacement == Approx(2e-9 * 9810 * 20 * 20 / (2 * 1000)).epsilon(0.01));
+}
+
+TEST_CASE("a problem without a solution is told", "[optimization]") {
+    const auto told = [](const std::string& text) { return complaint_about(text); };
+    const std::string body = "[part]\nshape = \"box\"\nsize = [40, 20, 4]\n";
+    const std::string load = "[[load]]\nface = \"+x\"\nforce = [0, -10, 0]\n";
+    const std::string far = "[[load]]\nbox = [[100, 0, 0], [101, 1, 1]]\nforce = [0, -10, 0]\n";
+    const std::string held = "[[anchor]]\nface = \"-x\"\n",
+                      point = "[[anchor]]\nbox = [[-21, -1, -3], [-19, 1, 3]]\n";
+    CHECK(mentions(told(body + far + held + in_plane), "its place holds nothing of the part"));
+    CHECK(mentions(told(body + load + "[[anchor]]\nbox = [[100, 0, 0], [101, 1, 1]]\n" + in_plane),
+                   "its place holds nothing of the part"));
+    CHECK(mentions(told(body + load + "[[anchor]]\nbox = [[-20.2, -0.2, -3], [-19.8, 0.2, 3]]\n" + in_plane),
+                   "1 of the part's 3 rigid motions are free"));
+    CHECK(
+        mentions(told(body + load + held + "[optimize]\ndimensions = 2\nelement = 0.001\n"), "at most 2048"));
+    CHECK(mentions(told(body + load + held + "[optimize]\nelement = 0.02\n"), "GB of memory"));
+    CHECK(mentions(
+        told(body + load + held + "[material]\nyoung = 1000\ndensity = 1\n" + in_plane + "mass = 50\n"),
+        "no less than the whole part's 3.2 g"));
+    const std::string apart =
+        "[part]\nfield = \"two\"\n[[field]]\nname = \"two\"\nformula = \"max(abs(abs(x) - 8) - 4, abs(y) - "
+        "4, abs(z) - 4)\"\n";
+    CHECK(mentions(told(apart + load + held + in_space),
+                   "a piece of the part is loaded that no [[anchor]] holds"));
+    CHECK(mentions(told(body + load + held + in_plane +
+                        "kind = \"appearance\"\nimage = \"" LAMELLA_SOURCE_DIR
+                        "/docs/pictures/gallery.png\"\nimage_size = 10\n"),
+                   "not made yet"));
+}
+
+TEST_CASE("an analysis stops at once when it is cancelled", "[optimization]") {
+    const Recipe recipe = recipe_of(block + "[optimize]\nelements = 24\n");
+    const BuiltJob job = build_job(recipe_of(block));
+    CancelToken cancel;
+    cancel.cancel();
+    AnalysisOptions options;
+    options.cancel = &cancel;
+    CHECK_THROWS_AS(analyse_part(recipe, job, options), Interrupted);
+}
+
+}  // namespace optimize_part_test
