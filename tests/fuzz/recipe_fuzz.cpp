@@ -1,7 +1,9 @@
 // Recipes of any bytes through the C interface: read, built, and cut once. What a recipe asks for is kept
 // small: the part is a ball of 2 mm, and no files are asked for.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -32,9 +34,18 @@ std::vector<std::pair<const char*, const char*>> bounds_for(std::string_view tex
     return keys;
 }
 
+/// Contours have finite points, and runs are in order.
 void cut(lamella_context* context, lamella_section* section) {
     lamella_contours* contours = nullptr;
-    lamella_section_contours(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, 0.1, &contours);
+    lamella_contours_view outline{};
+    outline.struct_size = sizeof outline;
+    if (lamella_section_contours(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, 0.1, &contours) ==
+            LAMELLA_OK &&
+        lamella_contours_view_get(context, contours, &outline) == LAMELLA_OK) {
+        for (std::size_t i = 0; i < 2 * outline.first[outline.count]; ++i) {
+            if (!std::isfinite(outline.points[i])) std::abort();
+        }
+    }
     lamella_contours_destroy(contours);
     lamella_raster raster{};
     raster.struct_size = sizeof raster;
@@ -43,7 +54,19 @@ void cut(lamella_context* context, lamella_section* section) {
     raster.x = raster.y = -2.5;
     raster.pitch_x = raster.pitch_y = 0.25;
     lamella_runs* runs = nullptr;
-    lamella_section_runs(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, &raster, &runs);
+    lamella_runs_view view{};
+    view.struct_size = sizeof view;
+    if (lamella_section_runs(context, section, LAMELLA_PART | LAMELLA_SUPPORTS, &raster, &runs) ==
+            LAMELLA_OK &&
+        lamella_runs_view_get(context, runs, &view) == LAMELLA_OK) {
+        for (std::size_t line = 0; line < view.line_count; ++line) {
+            std::int32_t last = -1;
+            for (std::size_t end = 2 * view.first[line]; end < 2 * view.first[line + 1]; ++end) {
+                if (view.ends[end] <= last) std::abort();
+                last = view.ends[end];
+            }
+        }
+    }
     lamella_runs_destroy(runs);
 }
 
