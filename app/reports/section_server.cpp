@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -44,8 +46,17 @@ T member(const Json& request, const char* key, const char* kind, std::optional<T
         const bool is_text = std::is_same_v<T, std::string>;
         if (found->is_string() != is_text || found->is_boolean() || found->is_null())
             refuse(fmt::format("{}: {} is not a {}", key, found->dump(), kind));
-        if (std::is_integral_v<T> && !found->is_number_integer())
-            refuse(fmt::format("{}: {} is not a {}", key, found->dump(), kind));
+        if constexpr (std::is_integral_v<T>) {
+            if (!found->is_number_integer())
+                refuse(fmt::format("{}: {} is not a {}", key, found->dump(), kind));
+            // get() would cut off the digits that do not fit.
+            const bool fits = found->is_number_unsigned() ? std::in_range<T>(found->get<std::uint64_t>())
+                                                          : std::in_range<T>(found->get<std::int64_t>());
+            if (!fits) {
+                refuse(fmt::format("{}: {} is out of range; accepted: {} to {}", key, found->dump(),
+                                   std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+            }
+        }
         return found->get<T>();
     } catch (const nlohmann::json::exception&) {
         refuse(fmt::format("{}: is not a {}", key, kind));

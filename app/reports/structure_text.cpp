@@ -30,6 +30,11 @@ std::string compliance_text(double compliance, const StructureReport& report) {
 
 std::string triple(dvec3 at) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x, at.y, at.z); }
 
+/// Nothing for a design of 0 and 1, and for a foam, whose densities are all printable.
+std::string grey_text(const char* before, double greyness) {
+    return greyness > 0 ? fmt::format("{}{:.1f} % grey", before, 100 * greyness) : "";
+}
+
 std::string cases_text(const StructureReport& report) {
     std::string text;
     for (const CaseReport& load : report.cases) {
@@ -51,9 +56,9 @@ std::string cases_text(const StructureReport& report) {
 }  // namespace
 
 std::string iteration_text(const TopologyIteration& iteration, int iterations) {
-    return fmt::format("{}/{}  C {:.5g} N mm  volume {:.2f} %  change {:.3f}  grey {:.1f} %{}", iteration.index,
+    return fmt::format("{}/{}  C {:.5g} N mm  volume {:.2f} %  change {:.3f}{}{}", iteration.index,
                        iterations, iteration.compliance, 100 * iteration.volume, iteration.change,
-                       100 * iteration.greyness,
+                       grey_text("  ", iteration.greyness),
                        iteration.sharpness > 0 ? fmt::format("  sharpness {:g}", iteration.sharpness) : "");
 }
 
@@ -67,10 +72,11 @@ std::string structure_text(const StructureReport& report) {
     text +=
         line("full body", fmt::format("{:.5g} N mm, {:.5g} mm3", report.full_compliance, report.body_volume));
     if (!report.history.empty()) {
-        text += line("densities",
-                     fmt::format("{} after {} iterations{}, {:.1f} % grey",
-                                 compliance_text(report.densities_compliance, report), report.history.size(),
-                                 report.is_converged ? "" : " (not settled)", 100 * report.greyness));
+        text +=
+            line("densities",
+                 fmt::format("{} after {} iterations{}{}",
+                             compliance_text(report.densities_compliance, report), report.history.size(),
+                             report.is_converged ? "" : " (not settled)", grey_text(", ", report.greyness)));
     }
     text += line("result", compliance_text(report.compliance, report));
     if (report.volume > 0) {

@@ -11,7 +11,7 @@ namespace lamella {
 std::string structure_text(const StructureReport& report);
 nlohmann::ordered_json structure_json(const StructureReport& report);
 
-/// Returns one line about an iteration: "40/100  C 12.3 N mm  volume 30.0 %  change 0.043  grey 21 %".
+/// Returns one line about an iteration: "40/100  C 12.3 N mm  volume 30.0 %  change 0.043  21.0 % grey".
 std::string iteration_text(const TopologyIteration& iteration, int iterations);
 
 }  // namespace lamella

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "engine/base/json_depth.h"
+#include "printers/archive/json_number.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/common/carried_layers.h"
 
@@ -106,7 +107,7 @@ void ShardFile::read_stamp() {
             nlohmann::ordered_json::parse(shallow_json(std::string_view(line).substr(shard_magic.size())));
         stamp_.identity = json.at("identity").get<std::string>();
         stamp_.settings = json.at("settings").get<std::string>();
-        stamp_.range = {json.at("first_layer").get<int>(), json.at("last_layer").get<int>()};
+        stamp_.range = {whole_number<int>(json.at("first_layer")), whole_number<int>(json.at("last_layer"))};
     } catch (const nlohmann::json::exception&) {
         refuse("has a damaged first line");
     }

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/gcode/gcode_flavour.h"
 #include "printers/gcode/gcode_roles.h"
 #include "printers/gcode/gcode_script.h"
@@ -376,7 +377,7 @@ class Gcode : public Backend {
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
             filament_used_ = state.at(2).get<double>();
             seconds_ = state.at(3).get<double>();
-            islands_left_out_ = state.at(4).get<std::int64_t>();
+            islands_left_out_ = whole_number<std::int64_t>(state.at(4));
             support_filament_ = state.at(5).get<double>();
             slowed_ = state.at(6).get<double>();
             trail_.clear();

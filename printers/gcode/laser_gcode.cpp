@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/gcode/gcode_flavour.h"
 #include "printers/gcode/gcode_moves.h"
 #include "printers/gcode/gcode_script.h"
@@ -280,7 +281,7 @@ class LaserGcode : public Backend {
     }
     void restore(const nlohmann::ordered_json& state) {
         try {
-            sections_ = state.at(0).get<int>();
+            sections_ = whole_number<int>(state.at(0));
             seconds_ = state.at(1).get<double>();
             length_ = state.at(2).get<double>();
             slowed_ = state.at(3).get<double>();

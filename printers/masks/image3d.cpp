@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/archive/package_3mf.h"
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
@@ -80,7 +81,7 @@ class Image3d : public Backend {
         const int next = output_.begin({job.identity, settings, range}, resume);
         if (output_.resumed()) {
             output_.restore([&](const auto& state) {
-                zip_.take_up(path_ + ".partial", state.template get<std::uint64_t>());
+                zip_.take_up(path_ + ".partial", whole_number<std::uint64_t>(state));
             });
         } else {
             std::string text = zip_.entry("[Content_Types].xml", package_content_types_with_png);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "printers/archive/json_number.h"
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/common/layer_areas.h"
@@ -65,11 +66,11 @@ LayerFigures from_state(const Json& state) {
     f.total = state.at(0).get<double>();
     f.largest = state.at(1).get<double>();
     f.smallest = state.at(2).get<double>();
-    f.islands = state.at(3).get<int>();
-    f.min_x = state.at(4).get<int>();
-    f.min_y = state.at(5).get<int>();
-    f.max_x = state.at(6).get<int>();
-    f.max_y = state.at(7).get<int>();
+    f.islands = whole_number<int>(state.at(3));
+    f.min_x = whole_number<int>(state.at(4));
+    f.min_y = whole_number<int>(state.at(5));
+    f.max_x = whole_number<int>(state.at(6));
+    f.max_y = whole_number<int>(state.at(7));
     return f;
 }
 
@@ -155,7 +156,7 @@ class NanoDlp : public Backend {
         output_.restore([&](const Json& state) {
             for (const Json& layer : output_.history()) figures_.push_back(from_state(layer.at(2)));
             volume_ = state.at(0).get<double>();
-            zip_.take_up(path_ + ".partial", state.at(1).get<std::uint64_t>());
+            zip_.take_up(path_ + ".partial", whole_number<std::uint64_t>(state.at(1)));
         });
         if (figures_.size() != static_cast<std::size_t>(next - range_.first)) throw output_.damaged_journal();
     }

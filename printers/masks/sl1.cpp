@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/common/thumbnail.h"
@@ -79,7 +80,7 @@ class Sl1 : public Backend {
         if (output_.resumed()) {
             output_.restore([&](const auto& state) {
                 volume_ = state.at(0).template get<double>();
-                zip_.take_up(path_ + ".partial", state.at(1).template get<std::uint64_t>());
+                zip_.take_up(path_ + ".partial", whole_number<std::uint64_t>(state.at(1)));
             });
         }
         return next;

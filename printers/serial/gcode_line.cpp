@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "engine/base/error.h"
 
@@ -96,13 +97,20 @@ std::string command_word(std::string_view command) {
     return word;
 }
 
+std::optional<double> leading_decimal(std::string_view text, std::size_t& length) {
+    double value = 0;
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    length = static_cast<std::size_t>(end - text.data());
+    return value;
+}
+
 std::optional<double> command_value(std::string_view command, char letter) {
     for (std::size_t at = command.find(letter, 1); at != std::string_view::npos;
          at = command.find(letter, at + 1)) {
-        const std::string_view rest = command.substr(at + 1);
-        double value = 0;
-        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-        if (error == std::errc() && end != rest.data()) return value;
+        std::size_t length = 0;
+        if (const auto value = leading_decimal(command.substr(at + 1), length)) return value;
     }
     return std::nullopt;
 }

@@ -32,6 +32,9 @@ constexpr LineRules grbl_lines{longest_grbl_line, false, "!~?"};
 /// for one with a real-time character outside its comments.
 std::string clean_command(std::string_view line, const LineRules& rules = marlin_lines);
 
+/// Returns the decimal number that a text begins with, and its length. As firmware reads it: "10E5" is 10,
+/// since E begins the next word, and "INF" is none.
+std::optional<double> leading_decimal(std::string_view text, std::size_t& length);
 /// Returns the number behind a letter, such as 10 for 'X' in "G1 X10". The command's own word does not count.
 std::optional<double> command_value(std::string_view command, char letter);
 

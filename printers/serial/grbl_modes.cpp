@@ -2,16 +2,29 @@
 #include "printers/serial/grbl_modes.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
+#include "printers/serial/gcode_line.h"
 
 namespace lamella {
 namespace {
 
-bool is_one_of(double value, std::initializer_list<double> values) {
-    return std::find(values.begin(), values.end(), value) != values.end();
+// The words of each mode.
+constexpr std::array motion_words{0.0, 1.0, 2.0, 3.0};
+constexpr std::array plane_words{17.0, 18.0, 19.0};
+constexpr std::array beam_words{3.0, 4.0, 5.0};
+constexpr std::array coolant_words{7.0, 8.0, 9.0};
+constexpr std::array unit_words{20.0, 21.0};
+constexpr std::array distance_words{90.0, 91.0};
+constexpr std::array feed_words{93.0, 94.0};
+constexpr std::array origin_words{54.0, 55.0, 56.0, 57.0, 58.0, 59.0};
+
+bool is_one_of(double value, std::span<const double> values) {
+    return std::ranges::find(values, value) != values.end();
 }
 
 }  // namespace
@@ -24,12 +37,11 @@ double GrblModes::apply(std::string_view command) {
         const char letter = command[at++];
         if (letter < 'A' || letter > 'Z') continue;
         while (at < command.size() && command[at] == ' ') ++at;
-        double value = 0;
-        const auto [end, error] =
-            std::from_chars(command.data() + at, command.data() + command.size(), value);
-        if (error != std::errc()) continue;
-        at = static_cast<std::size_t>(end - command.data());
-        take_word(letter, value);
+        std::size_t length = 0;
+        const auto value = leading_decimal(command.substr(at), length);
+        if (!value) continue;
+        at += length;
+        take_word(letter, *value);
     }
     return named_[0] || named_[1] ? move() : 0;
 }
@@ -37,20 +49,21 @@ double GrblModes::apply(std::string_view command) {
 void GrblModes::take_word(char letter, double value) {
     const double unit = units_ == 20 ? 25.4 : 1;
     if (letter == 'G') {
-        if (is_one_of(value, {0, 1, 2, 3})) motion_ = value;
-        if (is_one_of(value, {17, 18, 19})) plane_ = value;
-        if (is_one_of(value, {20, 21})) units_ = value;
-        if (is_one_of(value, {90, 91})) distance_ = value;
-        if (is_one_of(value, {93, 94})) feed_mode_ = value;
-        if (is_one_of(value, {54, 55, 56, 57, 58, 59})) offset_ = value;
-        if (is_one_of(value, {10, 28.1, 30.1, 43.1, 92}))
-            obstacle_ = "it sets offsets of its own, which a reset may lose";
-        if (is_one_of(value, {28, 30, 38.2, 38.3, 38.4, 38.5, 53}))
+        constexpr std::array setting{10.0, 28.1, 30.1, 43.1, 92.0};
+        constexpr std::array elsewhere{28.0, 30.0, 38.2, 38.3, 38.4, 38.5, 53.0};
+        if (is_one_of(value, motion_words)) motion_ = value;
+        if (is_one_of(value, plane_words)) plane_ = value;
+        if (is_one_of(value, unit_words)) units_ = value;
+        if (is_one_of(value, distance_words)) distance_ = value;
+        if (is_one_of(value, feed_words)) feed_mode_ = value;
+        if (is_one_of(value, origin_words)) offset_ = value;
+        if (is_one_of(value, setting)) obstacle_ = "it sets offsets of its own, which a reset may lose";
+        if (is_one_of(value, elsewhere))
             obstacle_ = "it moves by the machine's own coordinates or by a probe, which cannot be followed";
     } else if (letter == 'M') {
-        if (is_one_of(value, {3, 4, 5})) beam_ = value;
-        if (is_one_of(value, {7, 8, 9})) coolant_ = value;
-        if (is_one_of(value, {2, 30})) *this = GrblModes();
+        if (is_one_of(value, beam_words)) beam_ = value;
+        if (is_one_of(value, coolant_words)) coolant_ = value;
+        if (value == 2 || value == 30) *this = GrblModes();
     } else if (letter == 'F') {
         feed_ = value * unit;
     } else if (letter == 'S') {
@@ -62,6 +75,11 @@ void GrblModes::take_word(char letter, double value) {
         way_[axis] = value * unit;
         named_[axis] = true;
     }
+}
+
+bool GrblModes::can_be_written() const {
+    return std::ranges::all_of(std::array{at_[0], at_[1], feed_, power_},
+                               [](double number) { return std::abs(number) <= max_written_number; });
 }
 
 double GrblModes::move() {
@@ -85,12 +103,19 @@ nlohmann::ordered_json GrblModes::to_json() const {
 
 GrblModes GrblModes::from_json(const nlohmann::ordered_json& json) {
     GrblModes modes;
-    const auto read = [&](const char* name, auto& value) { json.at(name).get_to(value); };
-    read("x", modes.at_[0]), read("y", modes.at_[1]), read("moved", modes.moved_);
-    read("motion", modes.motion_), read("plane", modes.plane_), read("units", modes.units_);
-    read("distance", modes.distance_), read("feed_mode", modes.feed_mode_), read("offset", modes.offset_);
-    read("beam", modes.beam_), read("coolant", modes.coolant_);
-    read("feed", modes.feed_), read("power", modes.power_), read("obstacle", modes.obstacle_);
+    const auto number = [&](const char* name, double& value) { value = written_number(json.at(name)); };
+    const auto mode = [&](const char* name, double& value, std::span<const double> known) {
+        number(name, value);
+        if (!is_one_of(value, known)) throw_not_as_expected();
+    };
+    number("x", modes.at_[0]), number("y", modes.at_[1]);
+    number("feed", modes.feed_), number("power", modes.power_);
+    mode("motion", modes.motion_, motion_words), mode("plane", modes.plane_, plane_words);
+    mode("units", modes.units_, unit_words), mode("distance", modes.distance_, distance_words);
+    mode("feed_mode", modes.feed_mode_, feed_words), mode("offset", modes.offset_, origin_words);
+    mode("beam", modes.beam_, beam_words), mode("coolant", modes.coolant_, coolant_words);
+    json.at("moved").get_to(modes.moved_);
+    json.at("obstacle").get_to(modes.obstacle_);
     return modes;
 }
 

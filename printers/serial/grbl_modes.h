@@ -17,6 +17,8 @@ class GrblModes {
     /// s. Rapid moves count as 0, because their speed is a setting of the machine.
     double apply(std::string_view command);
 
+    /// Returns false if a number is so large that no line can restore it.
+    bool can_be_written() const;
     /// Returns why this state cannot be restored; empty if it can. A tool moved in z cannot be set down in
     /// the middle of a cut, and offsets set by the job are lost in a reset.
     const std::string& obstacle() const { return obstacle_; }
@@ -28,7 +30,7 @@ class GrblModes {
     bool inches() const { return units_ == 20; }
 
     nlohmann::ordered_json to_json() const;
-    /// Throws nlohmann::json::exception if a field is missing.
+    /// Throws nlohmann::json::exception if a field is missing or none of a machine.
     static GrblModes from_json(const nlohmann::ordered_json& json);
 
     /// Returns the commands that restore this state on a machine whose origin is unchanged. The beam is off

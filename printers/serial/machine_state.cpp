@@ -2,9 +2,11 @@
 #include "printers/serial/machine_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/serial/gcode_line.h"
 
 namespace lamella {
@@ -67,6 +69,11 @@ double MachineState::apply(std::string_view command) {
     return 0;
 }
 
+bool MachineState::can_be_written() const {
+    return std::ranges::all_of(std::array{at_[0], at_[1], at_[2], at_[3], feed_, nozzle_, bed_, fan_},
+                               [](double number) { return std::abs(number) <= max_written_number; });
+}
+
 nlohmann::ordered_json MachineState::to_json() const {
     return {
         {"x", at_[0]},          {"y", at_[1]},           {"z", at_[2]},   {"e", at_[3]},
@@ -77,14 +84,14 @@ nlohmann::ordered_json MachineState::to_json() const {
 MachineState MachineState::from_json(const nlohmann::ordered_json& json) {
     MachineState state;
     constexpr const char* names[] = {"x", "y", "z", "e"};
-    for (int axis = 0; axis < 4; ++axis) state.at_[axis] = json.at(names[axis]).get<double>();
+    for (int axis = 0; axis < 4; ++axis) state.at_[axis] = written_number(json.at(names[axis]));
     for (bool& known : state.known_) known = json.at("located").get<bool>();
     state.relative_ = json.at("relative").get<bool>();
     state.relative_e_ = json.at("relative_extrusion").get<bool>();
-    state.feed_ = json.at("feed").get<double>();
-    state.nozzle_ = json.at("nozzle").get<double>();
-    state.bed_ = json.at("bed").get<double>();
-    state.fan_ = json.at("fan").get<double>();
+    state.feed_ = written_number(json.at("feed"));
+    state.nozzle_ = written_number(json.at("nozzle"));
+    state.bed_ = written_number(json.at("bed"));
+    state.fan_ = written_number(json.at("fan"));
     return state;
 }
 

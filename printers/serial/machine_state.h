@@ -16,6 +16,8 @@ class MachineState {
     /// s.
     double apply(std::string_view command);
 
+    /// Returns false if a number is so large that no line can restore it.
+    bool can_be_written() const;
     /// Returns true once the position of x, y and z is known, by homing or by a move.
     bool located() const { return known_[0] && known_[1] && known_[2]; }
     double x() const { return at_[0]; }
@@ -28,7 +30,7 @@ class MachineState {
     double bed() const { return bed_; }
 
     nlohmann::ordered_json to_json() const;
-    /// Throws nlohmann::json::exception if a field is missing.
+    /// Throws nlohmann::json::exception if a field is missing or none of a machine.
     static MachineState from_json(const nlohmann::ordered_json& json);
 
     /// Returns the commands that lift the nozzle off the part and park it, and those that return it as it

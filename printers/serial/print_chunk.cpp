@@ -34,6 +34,10 @@ CleanText ChunkMaker::clean(std::string_view text) {
         (clean.lines += command) += '\n';
         clean.facts.push_back({0, source_});
         const double time = grbl_ ? modes_.apply(command) : machine_.apply(command);
+        if (!(grbl_ ? modes_.can_be_written() : machine_.can_be_written())) {
+            throw InputError("line " + std::to_string(source_) + ": \"" + command +
+                             "\" leads beyond 1,000,000,000 mm, mm/min or degrees, where no machine is");
+        }
         grbl_ ? timer_.add(command, modes_) : timer_.add(command, machine_);
         const auto size = static_cast<std::int64_t>(command.size()) + frame;
         ++lines_;

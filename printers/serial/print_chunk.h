@@ -50,7 +50,7 @@ class ChunkMaker {
     const MachineState& machine() const { return machine_; }
     const GrblModes& grbl_modes() const { return modes_; }
     nlohmann::ordered_json machine_to_json() const { return grbl_ ? modes_.to_json() : machine_.to_json(); }
-    /// Throws nlohmann::json::exception if a field is missing.
+    /// Throws nlohmann::json::exception if a field is missing or none of a machine.
     void restore_machine(const nlohmann::ordered_json& json);
 
   private:

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
 #include "engine/base/number_format.h"
+#include "printers/archive/json_number.h"
 #include "printers/archive/output_file.h"
 
 namespace lamella {
@@ -50,7 +51,7 @@ class SerialOutput : public GcodeOutput {
         }
         try {
             const nlohmann::ordered_json& last = record.at("resume");
-            next = last.at("next").get<int>();
+            next = whole_number<int>(last.at("next"));
             state_ = last.at("state");
             maker_.restore_machine(last.at("machine"));
             const double z = options_.z ? *options_.z : record.at("z").get<double>();

@@ -193,6 +193,7 @@ OptimizedPart PartOptimizer<Dim>::optimize(const FieldPtr& body) {
         try {
             report.history.push_back(optimizer.iterate());
             report.history.back().compliance *= problem_->displacement_unit;
+            if (foam_) report.history.back().greyness = 0;  // every density of a foam is printable
         } catch (const Interrupted&) {
             if (report.history.empty()) throw;
             break;

@@ -2,6 +2,7 @@
 #include "printers/archive/shard_file.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/folder.h"
@@ -96,6 +97,17 @@ TEST_CASE("shards that do not fit are refused with what is wrong", "[shard]") {
     write(a, damaged);
     CHECK(run_lamella(join(folder, "part.svg", "svg", a + " " + b)).code == 2);
     CHECK_FALSE(std::filesystem::exists(folder / "part.svg"));
+}
+
+TEST_CASE("layers of a shard that are no whole numbers in range are refused", "[shard]") {
+    const Folder folder;
+    for (const char* number : {"1e300", "0.5", "-1e19", "4294967297", "null"}) {
+        INFO(number);
+        std::ofstream(folder / "a.shard")
+            << "lamella shard 1 {\"identity\":\"a\",\"settings\":\"b\",\"first_layer\":" << number
+            << ",\"last_layer\":4}\n";
+        CHECK_THROWS_WITH(ShardFile(folder / "a.shard"), Catch::Contains("has a damaged first line"));
+    }
 }
 
 TEST_CASE("a parcel that is cut or stretched is refused", "[shard]") {

@@ -46,6 +46,18 @@ TEST_CASE("left after any line and taken up, a job's modes are what they were") 
     }
 }
 
+TEST_CASE("a journal with numbers that no machine has is damaged") {
+    const auto good = GrblModes().to_json();
+    for (const char* name : {"motion", "plane", "units", "x", "feed"}) {
+        auto bad = good;
+        bad[name] = 1e300;
+        CHECK_THROWS_AS(GrblModes::from_json(bad), nlohmann::json::exception);
+    }
+    auto between = good;
+    between["motion"] = 1.5;
+    CHECK_THROWS_AS(GrblModes::from_json(between), nlohmann::json::exception);
+}
+
 TEST_CASE("a job that cannot be followed says why") {
     CHECK(after({"G1X1", "G0Z5"}).obstacle().find("in z") != std::string::npos);
     CHECK(after({"G92X0Y0", "G1X1"}).obstacle().find("offsets") != std::string::npos);

@@ -102,4 +102,12 @@ TEST_CASE("a line that cannot be sent is told by its number in the whole text") 
                       Catch::Contains("line 7: ") && Catch::Contains("holds !"));
 }
 
+TEST_CASE("a move beyond every machine is refused with its line") {
+    for (const bool grbl : {false, true}) {
+        ChunkMaker maker(grbl);
+        CHECK_THROWS_WITH(maker.clean("G1 X1 F600\nG1 X1000000000000\n"),
+                          Catch::Contains("line 2: ") && Catch::Contains("where no machine is"));
+    }
+}
+
 }  // namespace motion_timer_test

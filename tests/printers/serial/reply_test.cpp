@@ -117,6 +117,14 @@ TEST_CASE("lines that are sent are short, clean and summed") {
     CHECK(numbered_line(99999999, std::string(longest_command, 'G')).size() <= longest_marlin_line + 1);
 }
 
+TEST_CASE("a number ends where the next word begins, and infinity is none") {
+    CHECK(command_value("G1X10E5", 'X') == 10.0);
+    CHECK(command_value("G1X10E5", 'E') == 5.0);
+    CHECK(command_value("G1 XINF Y2", 'Y') == 2.0);
+    CHECK_FALSE(command_value("G1 XINF Y2", 'X'));
+    CHECK_FALSE(command_value("G1 XNAN", 'X'));
+}
+
 TEST_CASE("no noise makes a sender crash, send without end, or take an answer from it") {
     const unsigned seed = GENERATE(range(1U, 9U));
     std::mt19937 random(seed);
