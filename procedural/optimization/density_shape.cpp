@@ -15,6 +15,12 @@ namespace {
 /// Samples along an axis: 4 in space, 8 in the plane.
 int samples_along(glm::ivec3 size) { return size.z == 1 ? 8 : 4; }
 
+/// Where a sample lies along an axis: between two neighbouring centres, at this share of the way.
+struct Between {
+    std::size_t first;
+    double share;
+};
+
 /// Calls visit(density) for the samples of an element.
 template <typename Visit>
 void for_each_sample(const DensityGrid& grid, glm::ivec3 element, const Visit& visit) {
@@ -27,24 +33,24 @@ void for_each_sample(const DensityGrid& grid, glm::ivec3 element, const Visit& v
     }
     const auto split = [&](int i) {
         const double at = (i + 0.5) / count - 0.5;  // from the centre
-        return std::pair(at < 0 ? 0 : 1, at < 0 ? at + 1 : at);
+        return at < 0 ? Between{0, at + 1} : Between{1, at};
     };
     for (int k = 0; k < planes; ++k) {
-        const auto [z, w] = planes == 1 ? std::pair(1, 0.0) : split(k);
+        const Between z = planes == 1 ? Between{1, 0} : split(k);
         for (int j = 0; j < count; ++j) {
-            const auto [y, v] = split(j);
+            const Between y = split(j);
             for (int i = 0; i < count; ++i) {
-                const auto [x, u] = split(i);
-                const auto along = [&](int b, int c) {
-                    const auto first = static_cast<std::size_t>(x + 3 * b + 9 * c);
-                    return near[first] + u * (near[first + 1] - near[first]);
+                const Between x = split(i);
+                const auto along = [&](std::size_t b, std::size_t c) {
+                    const std::size_t first = x.first + 3 * b + 9 * c;
+                    return near[first] + x.share * (near[first + 1] - near[first]);
                 };
-                const auto in_plane = [&](int c) {
-                    const double below = along(y, c);
-                    return below + v * (along(y + 1, c) - below);
+                const auto in_plane = [&](std::size_t c) {
+                    const double below = along(y.first, c);
+                    return below + y.share * (along(y.first + 1, c) - below);
                 };
-                const double below = in_plane(z);
-                visit(w == 0 ? below : below + w * (in_plane(z + 1) - below));
+                const double below = in_plane(z.first);
+                visit(z.share == 0 ? below : below + z.share * (in_plane(z.first + 1) - below));
             }
         }
     }

@@ -2,9 +2,11 @@
 #include "procedural/volume/write_nrrd.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <bit>
 #include <fstream>
+#include <string>
 
 #include "engine/base/error.h"
 
@@ -25,8 +27,8 @@ void write_nrrd(const std::filesystem::path& file, const std::array<std::size_t,
         "endian: little\nencoding: raw\n\n",
         size[0], size[1], size[2], spacing.x, spacing.y, spacing.z, first.x, first.y, first.z);
     static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
-    std::filesystem::path unfinished = file;
-    unfinished += ".partial";
+    // Processes of one job may write the same file at the same time.
+    const std::filesystem::path unfinished = file.string() + ".partial." + std::to_string(getpid());
     std::ofstream out(unfinished, std::ios::binary);
     out << header;
     out.write(reinterpret_cast<const char*>(samples.data()),
