@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "procedural/optimization/density_filter.h"
+#include "procedural/optimization/element_use.h"
 #include "procedural/optimization/overhang_filter.h"
 #include "procedural/optimization/robust_fields.h"
 
 namespace lamella {
-
-/// What an element is, whatever the design variables say.
-enum class ElementUse : std::uint8_t { outside, free, solid, empty };
 
 struct DensitySettings {
     double radius = 1.5;  ///< of the density filter, elements

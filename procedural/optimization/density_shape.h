@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include "engine/base/geometry.h"
-#include "procedural/optimization/density_map.h"
+
+#include "procedural/optimization/element_use.h"
 
 namespace lamella {
 

@@ -17,6 +17,7 @@
 #include "recipe/identity.h"
 #include "recipe/structure/optimized_foam.h"
 #include "recipe/structure/structural_problem.h"
+#include "recipe/structure/structure_report.h"
 
 namespace lamella {
 
@@ -185,7 +186,9 @@ DensityGrid PartOptimizer<Dim>::shaped(TopologyOptimizer<Dim>& optimizer, Struct
 template <std::size_t Dim>
 OptimizedPart PartOptimizer<Dim>::optimize(const FieldPtr& body) {
     OptimizedPart part;
-    StructureReport& report = part.report.emplace();
+    const auto made = std::make_shared<StructureReport>();
+    part.report = made;
+    StructureReport& report = *made;
     describe(*problem_, domain_, report);
     TopologyOptimizer<Dim> optimizer(problem_->topology,
                                      topology_settings(*recipe_.optimize, domain_, options_.cancel));

@@ -3,14 +3,18 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/base/cancel_token.h"
 #include "procedural/optimization/density_shape.h"
-#include "recipe/structure/structure_report.h"
+#include "recipe/build/build_regions.h"
 
 namespace lamella {
+
+struct TopologyIteration;
+struct StructureReport;
 
 struct OptimizeOptions {
     std::filesystem::path plans{};  ///< folder for results; empty: none are read or kept
@@ -30,7 +34,7 @@ struct OptimizedPart {
     GradingPtr density;     ///< the same, as a grading
     GradingPtr foam_sizes;  ///< of the cells or members that are driven, mm; null without a foam
     FieldPtr shape;         ///< the body, cut to where it is solid; the body itself for a foam
-    std::optional<StructureReport> report;  ///< empty when the result comes from a plan
+    std::shared_ptr<const StructureReport> report;  ///< null when the result comes from a plan
 };
 
 /// Optimises the body as the recipe says, or reads the result from the plan folder when the same problem was

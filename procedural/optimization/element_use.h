@@ -1,0 +1,11 @@
+// ElementUse: what is prescribed of an element.
+#pragma once
+
+#include <cstdint>
+
+namespace lamella {
+
+/// What an element is, whatever the design variables say.
+enum class ElementUse : std::uint8_t { outside, free, solid, empty };
+
+}  // namespace lamella
