@@ -99,7 +99,8 @@ class LevelOptimizer {
     DensityMap map_;
     Compliance<2> compliance_;
     Appearance appearance_;
-    std::vector<double> lower_, upper_, free_;
+    DesignBounds bounds_;
+    std::vector<double> free_;
     double elements_ = 0;  ///< not outside
     std::vector<double> design_;
     Analysis found_;  ///< of the design
@@ -115,18 +116,18 @@ LevelOptimizer::LevelOptimizer(const TopologyProblem<2>& problem, const GreyImag
       least_compliance_(least_compliance),
       map_(problem.body.grid.elements(), problem.use, density_settings(settings)),
       compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel}),
-      appearance_(exemplar, map_.size().x, map_.size().y, settings.match, level, prescribed(problem.use)) {
+      appearance_(exemplar, map_.size().x, map_.size().y, settings.match, level, prescribed(problem.use)),
+      bounds_(design_bounds(problem)) {
     for (const ElementUse use : problem.use) {
         const bool is_free = use == ElementUse::free;
-        lower_.push_back(is_free ? problem.least_density : 0.0);
-        upper_.push_back(is_free ? problem.greatest_density : 0.0);
         free_.push_back(is_free ? 1.0 : 0.0);
         elements_ += use != ElementUse::outside ? 1 : 0;
     }
 }
 
 void LevelOptimizer::begin(std::vector<double> design) {
-    for (std::size_t i = 0; i < design.size(); ++i) design[i] = std::clamp(design[i], lower_[i], upper_[i]);
+    for (std::size_t i = 0; i < design.size(); ++i)
+        design[i] = std::clamp(design[i], bounds_.lower[i], bounds_.upper[i]);
     design_ = std::move(design);
 }
 
@@ -169,8 +170,8 @@ std::vector<double> LevelOptimizer::wished_design(Mma& mma, const Analysis& foun
     }
     return mma
         .update({.x = design_,
-                 .lower = lower_,
-                 .upper = upper_,
+                 .lower = bounds_.lower,
+                 .upper = bounds_.upper,
                  .objective_gradient = objective,
                  .constraints = constraints,
                  .gradients = {gradients.begin(), gradients.end()}})

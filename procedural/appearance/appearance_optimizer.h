@@ -32,8 +32,8 @@ struct AppearanceSettings {
     std::array<bool, 3> mirrored{};  ///< symmetry across the middle of the grid, by axis
     double sharpness = 16;           ///< of the projection at the end; comes on at 1 and doubles. 0: none
     int steps_a_sharpness = 10;
-    double move = 0.2;  ///< most change of a variable in a step
-    double solver_tolerance = 1e-4;
+    double move = 0.2;                                  ///< most change of a variable in a step
+    double solver_tolerance = 1e-5;                     ///< relative residual; at 1e-4 thin members break off
     std::function<void(const AppearanceStep&)> report;  ///< called after each step; may be empty
     const CancelToken* cancel = nullptr;                ///< may be null
 };

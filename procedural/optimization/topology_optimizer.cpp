@@ -38,6 +38,7 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
       map_(problem.body.grid.elements(), problem.use, settings.density),
       compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel}),
       mma_(problem.use.size(), 1, {.move = settings.move}),
+      bounds_(design_bounds(problem)),
       phases_(phases_of(settings)) {
     double free = 0, solid = 0;
     for (const ElementUse use : problem.use) {
@@ -45,9 +46,6 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
         free += is_free ? 1 : 0;
         solid += use == ElementUse::solid ? 1 : 0;
         elements_ += use != ElementUse::outside ? 1 : 0;
-        const double prescribed = use == ElementUse::solid ? 1 : 0;
-        lower_.push_back(is_free ? problem.least_density : prescribed);
-        upper_.push_back(is_free ? problem.greatest_density : prescribed);
     }
     if (free == 0) throw InputError("a topology problem has no free element");
     const DensitySettings& density = settings.density;
@@ -59,9 +57,8 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
     if (!(start > problem.least_density))
         throw InputError("what is kept solid fills " + std::to_string(100 * solid / elements_) +
                          " % of the body; the volume may be " + std::to_string(100 * problem.volume) + " %");
-    // The filter sees solid elements as solid, or what touches them could not become so.
-    for (std::size_t i = 0; i < lower_.size(); ++i)
-        state_.design.push_back(std::clamp(start, lower_[i], upper_[i]));
+    for (std::size_t i = 0; i < bounds_.lower.size(); ++i)
+        state_.design.push_back(std::clamp(start, bounds_.lower[i], bounds_.upper[i]));
     // Thresholds of a length scale mean nothing without a projection.
     if (map_.has_three_fields() && phases_ > 0) state_.phase = 1;
 }
@@ -106,8 +103,8 @@ std::vector<double> TopologyOptimizer<Dim>::oc_step(const std::vector<double>& c
                                                     double excess) {
     const auto step = [&](double with_excess) {
         return oc_update({.x = state_.design,
-                          .lower = lower_,
-                          .upper = upper_,
+                          .lower = bounds_.lower,
+                          .upper = bounds_.upper,
                           .compliance_gradient = compliance_gradient,
                           .volume_gradient = volume_gradient,
                           .excess = with_excess},
@@ -154,8 +151,8 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
     const double constraint = constraint_scale * excess / bound;
     return mma_
         .update({.x = state_.design,
-                 .lower = lower_,
-                 .upper = upper_,
+                 .lower = bounds_.lower,
+                 .upper = bounds_.upper,
                  .objective_gradient = objective,
                  .constraints = {&constraint, 1},
                  .gradients = {volume}})

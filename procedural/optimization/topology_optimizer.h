@@ -91,7 +91,7 @@ class TopologyOptimizer {
     DensityMap map_;
     Compliance<Dim> compliance_;
     Mma mma_;
-    std::vector<double> lower_, upper_;
+    DesignBounds bounds_;
     double elements_ = 0;  ///< not outside
     int phases_ = 0;
     TopologyState state_;

@@ -32,6 +32,25 @@ struct TopologyProblem {
     double least_density = 0, greatest_density = 1;  ///< of free elements
 };
 
+/// Bounds of the design variables, by element.
+struct DesignBounds {
+    std::vector<double> lower, upper;
+};
+
+/// Returns the bounds of free elements, and 0 or 1 for prescribed ones: the filter has to see solid elements
+/// as solid, or what touches them could not become so.
+template <std::size_t Dim>
+DesignBounds design_bounds(const TopologyProblem<Dim>& problem) {
+    DesignBounds bounds;
+    for (const ElementUse use : problem.use) {
+        const bool is_free = use == ElementUse::free;
+        const double prescribed = use == ElementUse::solid ? 1 : 0;
+        bounds.lower.push_back(is_free ? problem.least_density : prescribed);
+        bounds.upper.push_back(is_free ? problem.greatest_density : prescribed);
+    }
+    return bounds;
+}
+
 /// The grid numbers of the elements of a box, in the order of DesignGrid.
 template <std::size_t Dim>
 std::vector<std::size_t> element_numbers(const NodeGrid<Dim>& grid) {

@@ -37,9 +37,9 @@ struct StructureReport {
     double volume = 0;    ///< share of the body's volume that the shape fills, or the foam's mean density
     double mass = 0;      ///< g; 0: the material's density is unknown
     double greyness = 0;  ///< of the densities at the end
-    std::size_t stray_pieces = 0;  ///< dropped
-    bool is_converged = false;     ///< by the tolerance, within the iterations
-    std::vector<TopologyIteration> history;
+    std::size_t stray_pieces = 0;            ///< dropped
+    bool is_converged = false;               ///< by the tolerance, within the iterations
+    std::vector<TopologyIteration> history;  ///< compliances in N mm
     std::vector<CaseReport> cases;
     std::vector<std::string> notes;
 };
