@@ -23,6 +23,7 @@ struct StructureCommand : JobOptions {
     std::string output;
     std::string save;
     std::string model = "auto";
+    int elements = 0;
     bool json = false;
 };
 
@@ -97,6 +98,7 @@ int analyze(const StructureCommand& command) {
     options.model = command.model == "law"        ? AnalysisModel::law
                     : command.model == "elements" ? AnalysisModel::elements
                                                   : AnalysisModel::automatic;
+    options.elements = command.elements;
     options.threads = command.threads;
     options.cancel = &cancel;
     write_report(command, analyse_part(recipe, built, options));
@@ -143,11 +145,18 @@ void add_analyze_command(CLI::App& root) {
             "What stands for the part: elements inside it, the law of its foam, or auto: the law if it is "
             "known")
         ->check(CLI::IsMember({"auto", "elements", "law"}));
+    command
+        .add_option(
+            "--elements", options->elements,
+            "Elements along the longest side of the part; default: those of [optimize], else 64, in the "
+            "plane 200")
+        ->type_name("N")
+        ->check(CLI::Range(8, 2048));
     finish_command(
         command,
         "  lamella analyze bracket.toml\n"
         "  lamella analyze foam.toml --model law\n"
-        "  lamella analyze foam.toml --model elements --optimize-elements 256\n"
+        "  lamella analyze foam.toml --model elements --elements 256\n"
         "Elements are cubes: struts need four or more across, and peaks of stress at steps are guesses.");
     command.callback([options] { analyze(*options); });
 }

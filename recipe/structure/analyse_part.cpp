@@ -22,9 +22,7 @@ void keep_part(const Field& part, const CancelToken* cancel, ElementDomain& doma
         if (inside[i] == 0) domain.use[i] = ElementUse::outside;
     }
     if (domain.elements() == 0)
-        throw InputError(
-            "analyze: no element has its centre in the part; accepted: smaller elements, by "
-            "optimize.element");
+        throw InputError("analyze: no element has its centre in the part; accepted: more --elements");
 }
 
 /// Returns the relative modulus of each element, by the foam's law; 1 where it is solid.
@@ -57,7 +55,13 @@ StructureReport analysed(const Recipe& recipe, ElementDomain domain, const Gradi
 
 }  // namespace
 
-StructureReport analyse_part(const Recipe& recipe, const BuiltJob& built, const AnalysisOptions& options) {
+StructureReport analyse_part(const Recipe& given, const BuiltJob& built, const AnalysisOptions& options) {
+    Recipe recipe = given;
+    if (options.elements > 0) {
+        if (!recipe.optimize) recipe.optimize.emplace();  // the part is built: this says the elements only
+        recipe.optimize->elements = options.elements;
+        recipe.optimize->element = 0;
+    }
     const bool is_heavy = recipe.optimize && recipe.optimize->gravity != dvec3(0);
     if ((recipe.loads.empty() && !is_heavy) || recipe.anchors.empty())
         throw InputError(

@@ -15,11 +15,13 @@ enum class AnalysisModel : unsigned char {
 
 struct AnalysisOptions {
     AnalysisModel model = AnalysisModel::automatic;
+    int elements =
+        0;  ///< along the part's longest side; 0: those of [optimize], or as many as it has by default
     int threads = 0;                      ///< 0: one per core
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
-/// Solves for the displacements of a built part. Elements are those of [optimize]. Throws InputError when the
+/// Solves for the displacements of a built part. Throws InputError when the
 /// law is asked for and there is none, when nothing is loaded or held (see structural_problem), Interrupted
 /// when cancelled.
 StructureReport analyse_part(const Recipe& recipe, const BuiltJob& built, const AnalysisOptions& options);
