@@ -60,7 +60,7 @@ struct OptimizeRecipe {
     bool overhang = false;    ///< 3D: each layer of elements rests on the one below it, at 45 degrees
     std::string symmetry;     ///< axes across which a plane through the part's middle mirrors: "xy"
     dvec3 gravity{0};         ///< m/s^2; zero: no self-weight
-    int iterations = 100;     ///< at most
+    int iterations = 0;       ///< at most; 0: not given
     double tolerance = 0.01;  ///< largest change of a density in a step, at which it stops
     double penalty = 3;       ///< exponent of the modulus over the density (SIMP)
     double sharpness = 16;    ///< of the projection to 0 and 1 at the end; 0: no projection
@@ -68,6 +68,7 @@ struct OptimizeRecipe {
     std::string image;                           ///< appearance: path of a picture
     double image_size = 0;                       ///< appearance: length that its width covers, mm
     bool invert = false;                         ///< appearance: material where the picture is bright
+    double threshold = 0;                        ///< appearance: luma from which it is bright; 0: not given
     int neighbourhood = 14;                      ///< appearance: edge of compared windows, elements
     double exponent = 1.2;                       ///< appearance: of differences of grey
     double spread = 20;                          ///< appearance: weight of an even use of the picture

@@ -355,8 +355,10 @@ Recipe RecipeDraft::assemble() {
         recipe.anchors[i].where = where_begins("anchor", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
     if (count(*find_section("optimize")) > 0 && !recipe.optimize) recipe.optimize.emplace();
-    if (recipe.optimize && recipe.optimize->kind == OptimizeKind::appearance && !entry("optimize", "method"))
-        recipe.optimize->method = OptimizeMethod::mma;
+    if (recipe.optimize && recipe.optimize->kind == OptimizeKind::appearance) {
+        if (!entry("optimize", "method")) recipe.optimize->method = OptimizeMethod::mma;
+        if (!entry("optimize", "dimensions")) recipe.optimize->dimensions = 2;
+    }
     // A skin of no thickness is none, unless a region gives it one: its other keys hold there.
     const auto makes_skin = [](const RegionRecipe& region) { return region.make == RegionMake::skin; };
     if (std::any_of(recipe.regions.begin(), recipe.regions.end(), makes_skin)) {

@@ -138,6 +138,7 @@ class RecipeDraft {
     void check_place(const Recipe& recipe, const std::string& section, std::size_t number,
                      const PlaceRecipe& place);
     void check_weights(const Recipe& recipe);
+    void check_appearance(const Recipe& recipe);
     void check_held(const Recipe& recipe);
     void check_two_dimensions(const Recipe& recipe);
     void check_density(const Recipe& recipe);

@@ -48,7 +48,8 @@ const std::vector<KindSection>& kind_sections() {
          {{"stiffness", {}, {}},
           {"appearance",
            {"image", "image_size"},
-           {"volume_min", "compliance", "invert", "neighbourhood", "exponent", "spread", "levels"}}}},
+           {"volume_min", "compliance", "invert", "threshold", "neighbourhood", "exponent", "spread",
+            "levels"}}}},
         {"foam", "kind", "voronoi", keys_of(foam_builders())},
         {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;

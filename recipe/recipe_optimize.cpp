@@ -127,11 +127,7 @@ void RecipeDraft::check_optimize(const Recipe& recipe) {
     check_density(recipe);
     if (optimize.dimensions == 2) check_two_dimensions(recipe);
     if (optimize.result != OptimizeResult::solid) check_driven_foam(recipe);
-    if (optimize.kind == OptimizeKind::appearance && optimize.method == OptimizeMethod::oc) {
-        refuse(0,
-               fmt::format("{}: \"oc\" cannot bound the compliance, as kind appearance does; accepted: mma",
-                           where("optimize", "method")));
-    }
+    if (optimize.kind == OptimizeKind::appearance) check_appearance(recipe);
     // The smallest volume stands beside a mass whose share of the part is not known here.
     if (optimize.mass == 0 && optimize.volume_min > optimize.volume) {
         refuse(0, fmt::format("{}: {} is more than {}, {}; accepted: at most the largest volume",
@@ -145,6 +141,23 @@ void RecipeDraft::check_optimize(const Recipe& recipe) {
                 "{}: 0 is no projection, without which {} has no effect; accepted: above 0, or no least size",
                 where("optimize", "sharpness"), where("optimize", optimize.member > 0 ? "member" : "gap")));
     }
+}
+
+/// Checks that the search for an appearance is asked for what it can do.
+void RecipeDraft::check_appearance(const Recipe& recipe) {
+    const OptimizeRecipe& optimize = *recipe.optimize;
+    const auto refuse_key = [&](const char* key, const char* wrong, const char* right) {
+        refuse(0, fmt::format("{}: {} with optimize.kind = \"appearance\"; accepted: {}, or kind stiffness",
+                              where("optimize", key), wrong, right));
+    };
+    if (optimize.method == OptimizeMethod::oc)
+        refuse_key("method", "\"oc\" cannot bound the compliance", "mma");
+    if (optimize.dimensions != 2) refuse_key("dimensions", "a picture is one of a plate, which has two", "2");
+    if (optimize.result != OptimizeResult::solid) refuse_key("result", "a foam looks like itself", "solid");
+    if (optimize.member > 0) refuse_key("member", "there is no least size", "lines as wide in the picture");
+    if (optimize.gap > 0) refuse_key("gap", "there is no least size", "gaps as wide in the picture");
+    if (optimize.tolerance != OptimizeRecipe().tolerance)
+        refuse_key("tolerance", "all steps are taken", "iterations");
 }
 
 /// Checks that anchors hold the body along every axis.

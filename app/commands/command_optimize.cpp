@@ -37,10 +37,10 @@ class IterationDisplay {
     IterationDisplay(const IterationDisplay&) = delete;
     IterationDisplay& operator=(const IterationDisplay&) = delete;
 
-    void show(const TopologyIteration& iteration, int iterations) {
+    void show(const OptimizationStep& step, int steps) {
         constexpr int shown_every = 10;
-        if (quiet_ || (!terminal_ && iteration.index % shown_every != 0)) return;
-        const std::string text = iteration_text(iteration, iterations);
+        if (quiet_ || (!terminal_ && step.index % shown_every != 0)) return;
+        const std::string text = step_text(step, steps);
         std::fputs((terminal_ ? "\r\033[K" + text : text + "\n").c_str(), stderr);
         open_ = terminal_;
     }
@@ -77,7 +77,7 @@ int optimize(const StructureCommand& command) {
     options.threads = command.threads;
     options.cancel = &cancel;
     IterationDisplay display(command.quiet);
-    options.on_iteration = [&](const TopologyIteration& i, int iterations) { display.show(i, iterations); };
+    options.on_iteration = [&](const OptimizationStep& step, int steps) { display.show(step, steps); };
     const BuiltJob built = build_job(recipe, options);
     if (!command.save.empty()) save_densities(*built.optimized, command.save);
     write_report(command, *built.optimized->report);

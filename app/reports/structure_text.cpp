@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "recipe/build/json_triple.h"
@@ -35,6 +36,19 @@ std::string grey_text(const char* before, double greyness) {
     return greyness > 0 ? fmt::format("{}{:.1f} % grey", before, 100 * greyness) : "";
 }
 
+/// Returns how like the picture the densities are, and what that costs; nothing without a picture.
+std::string appearance_text(const StructureReport& report) {
+    if (report.appearance <= 0) return "";
+    return line("stiffest",
+                fmt::format("{:.5g} N mm on as much material; densities {:.4g} times, result {:.4g} times "
+                            "that",
+                            report.least_compliance, report.densities_compliance / report.least_compliance,
+                            report.compliance / report.least_compliance)) +
+           line("appearance",
+                fmt::format("differs from the picture by {:.4g}, the stiffest by {:.4g} (0 is alike)",
+                            report.appearance, report.stiffest_appearance));
+}
+
 std::string cases_text(const StructureReport& report) {
     std::string text;
     for (const CaseReport& load : report.cases) {
@@ -55,11 +69,14 @@ std::string cases_text(const StructureReport& report) {
 
 }  // namespace
 
-std::string iteration_text(const TopologyIteration& iteration, int iterations) {
-    return fmt::format("{}/{}  C {:.5g} N mm  volume {:.2f} %  change {:.3f}{}{}", iteration.index,
-                       iterations, iteration.compliance, 100 * iteration.volume, iteration.change,
-                       grey_text("  ", iteration.greyness),
-                       iteration.sharpness > 0 ? fmt::format("  sharpness {:g}", iteration.sharpness) : "");
+std::string step_text(const OptimizationStep& step, int steps) {
+    const std::string aim = step.appearance > 0 ? fmt::format("A {:.4g}  C {:.4g} times the least",
+                                                              step.appearance, step.compliance)
+                                                : fmt::format("C {:.5g} N mm", step.compliance);
+    return fmt::format("{}/{}  {}  volume {:.2f} %  change {:.3f}{}{}", step.index,
+                       std::max(steps, step.index), aim, 100 * step.volume, step.change,
+                       grey_text("  ", step.greyness),
+                       step.sharpness > 0 ? fmt::format("  sharpness {:g}", step.sharpness) : "");
 }
 
 std::string structure_text(const StructureReport& report) {
@@ -78,6 +95,7 @@ std::string structure_text(const StructureReport& report) {
                              compliance_text(report.densities_compliance, report), report.history.size(),
                              report.is_converged ? "" : " (not settled)", grey_text(", ", report.greyness)));
     }
+    text += appearance_text(report);
     text += line("result", compliance_text(report.compliance, report));
     if (report.volume > 0) {
         text += line("volume", fmt::format("{:.2f} %{}{}", 100 * report.volume,
@@ -102,8 +120,9 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
                          {"peak_von_mises_mpa", load.peak_stress},
                          {"stress_at_mm", json_triple(load.stress_at)}});
     }
-    for (const TopologyIteration& i : report.history) {
-        history.push_back({{"compliance", i.compliance},
+    for (const OptimizationStep& i : report.history) {
+        history.push_back({{"appearance", i.appearance},
+                           {"compliance", i.compliance},
                            {"volume", i.volume},
                            {"greyness", i.greyness},
                            {"change", i.change},
@@ -121,7 +140,10 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
             {"volume_bound", report.volume_bound},
             {"full_compliance_nmm", report.full_compliance},
             {"densities_compliance_nmm", report.densities_compliance},
+            {"least_compliance_nmm", report.least_compliance},
             {"compliance_nmm", report.compliance},
+            {"appearance", report.appearance},
+            {"stiffest_appearance", report.stiffest_appearance},
             {"volume", report.volume},
             {"mass_g", report.mass},
             {"greyness", report.greyness},

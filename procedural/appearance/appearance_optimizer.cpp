@@ -18,6 +18,7 @@ namespace {
 
 constexpr double function_scale = 10;  // Svanberg asks for values of 1 to 100
 constexpr int most_levels = 8;
+constexpr double middle_threshold = 0.5, eroded_threshold = 0.6;  // of the projection
 // Steps that would leave compliance this much above its bound are shortened.
 constexpr double compliance_slack = 0.02;
 constexpr int most_halvings = 6;
@@ -54,6 +55,14 @@ DensitySettings density_settings(const AppearanceSettings& settings) {
     DensitySettings density;
     density.radius = settings.radius;
     density.mirrored = settings.mirrored;
+    return density;
+}
+
+/// The loads are borne by a projection at a higher threshold: what is grey in the design is void there, so no
+/// member hangs on grey that the shape, cut from the design, would not have.
+DensitySettings eroded_settings(const AppearanceSettings& settings) {
+    DensitySettings density = density_settings(settings);
+    density.length_scale = LengthScale{settings.radius, eroded_threshold, middle_threshold, middle_threshold};
     return density;
 }
 
@@ -114,7 +123,7 @@ LevelOptimizer::LevelOptimizer(const TopologyProblem<2>& problem, const GreyImag
       settings_(settings),
       level_(level),
       least_compliance_(least_compliance),
-      map_(problem.body.grid.elements(), problem.use, density_settings(settings)),
+      map_(problem.body.grid.elements(), problem.use, eroded_settings(settings)),
       compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel}),
       appearance_(exemplar, map_.size().x, map_.size().y, settings.match, level, prescribed(problem.use)),
       bounds_(design_bounds(problem)) {
@@ -134,7 +143,7 @@ void LevelOptimizer::begin(std::vector<double> design) {
 Compliance<2>::Result LevelOptimizer::analyse_structure(const std::vector<double>& design, double sharpness) {
     stop_if_cancelled(settings_.cancel);
     map_.forward(design, sharpness);
-    return compliance_.evaluate(density());
+    return compliance_.evaluate(map_.density(DensityMap::Role::stiffness));
 }
 
 LevelOptimizer::Analysis LevelOptimizer::analyse(Compliance<2>::Result structure) {
@@ -153,20 +162,23 @@ LevelOptimizer::Analysis LevelOptimizer::analyse(Compliance<2>::Result structure
 }
 
 std::vector<double> LevelOptimizer::wished_design(Mma& mma, const Analysis& found) const {
-    const auto gradient = [&](std::span<const double> by_density, double scale) {
-        std::vector<double> by_design = map_.backward(DensityMap::Role::result, by_density);
+    using Role = DensityMap::Role;
+    const auto gradient = [&](Role role, std::span<const double> by_density, double scale) {
+        std::vector<double> by_design = map_.backward(role, by_density);
         for (double& g : by_design) g *= scale;
         return by_design;
     };
     const double most = most_compliance(), n = elements_;
-    const auto objective = gradient(found.appearance_gradient, function_scale / first_appearance_);
+    const auto objective =
+        gradient(Role::result, found.appearance_gradient, function_scale / first_appearance_);
     std::vector<double> constraints{function_scale * (found.structure.total / most - 1),
                                     function_scale * (found.volume / settings_.volume - 1)};
-    std::vector<std::vector<double>> gradients{gradient(found.structure.gradient, function_scale / most),
-                                               gradient(free_, function_scale / (settings_.volume * n))};
+    std::vector<std::vector<double>> gradients{
+        gradient(Role::stiffness, found.structure.gradient, function_scale / most),
+        gradient(Role::result, free_, function_scale / (settings_.volume * n))};
     if (settings_.volume_min > 0) {
         constraints.push_back(function_scale * (1 - found.volume / settings_.volume_min));
-        gradients.push_back(gradient(free_, -function_scale / (settings_.volume_min * n)));
+        gradients.push_back(gradient(Role::result, free_, -function_scale / (settings_.volume_min * n)));
     }
     return mma
         .update({.x = design_,
@@ -289,7 +301,23 @@ void refine(LevelDesigns& now, const LevelDesigns& former) {
     }
 }
 
+int steps_at(const AppearanceSettings& settings, int level) { return ((settings.steps - 1) >> level) + 1; }
+
+/// Returns how sharp the projection is, one time after the other.
+std::vector<double> sharpnesses(const AppearanceSettings& settings) {
+    std::vector<double> list;
+    for (double sharpness = 0.5; sharpness < settings.sharpness;)
+        list.push_back(sharpness = std::min(2 * sharpness, settings.sharpness));
+    return list;
+}
+
 }  // namespace
+
+int step_count(const AppearanceSettings& settings) {
+    int steps = static_cast<int>(sharpnesses(settings).size()) * settings.steps_a_sharpness;
+    for (int level = 0; level < settings.levels; ++level) steps += steps_at(settings, level);
+    return steps;
+}
 
 AppearanceResult optimize_appearance(const PlaneProblemMaker& make_problem, glm::ivec3 size,
                                      const GreyImage& exemplar, int exemplar_width,
@@ -304,7 +332,7 @@ AppearanceResult optimize_appearance(const PlaneProblemMaker& make_problem, glm:
     for (int level = 0; level < settings.levels; ++level) {
         const glm::ivec3 at = sizes[static_cast<std::size_t>(level)];
         const int edge = 1 << (settings.levels - 1 - level);
-        const int steps = ((settings.steps - 1) >> level) + 1;
+        const int steps = steps_at(settings, level);
         TopologyProblem<2> problem = make_problem(at, edge);
         if (problem.body.grid.elements() != at)
             throw InputError("appearance: the problem's grid is not of the size that was asked for");
@@ -330,12 +358,9 @@ AppearanceResult optimize_appearance(const PlaneProblemMaker& make_problem, glm:
         former = std::move(now);
         if (level + 1 < settings.levels) continue;
 
-        double sharpness = 0;
-        while (sharpness < settings.sharpness) {
-            sharpness = std::min(sharpness == 0 ? 1 : 2 * sharpness, settings.sharpness);
+        for (const double sharpness : sharpnesses(settings))
             optimizer.run(settings.steps_a_sharpness, sharpness, result.history);
-        }
-        optimizer.settle(sharpness, result.history);
+        optimizer.settle(settings.sharpness, result.history);
         optimizer.write(result);
         const auto stiffest = topology.densities().density(DensityMap::Role::result);
         result.stiffest.assign(stiffest.begin(), stiffest.end());

@@ -2,8 +2,10 @@
 #include "procedural/appearance/grey_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include "engine/base/error.h"
 
@@ -37,21 +39,23 @@ void require_pixels(bool present) {
 
 }  // namespace
 
-GreyImage solidity(const Picture& picture, bool invert) {
-    require_pixels(picture.width > 0 && picture.height > 0);
-    GreyImage image(picture.width, picture.height);
-    if (picture.rgb.size() != 3 * image.values.size())
-        throw InputError("the picture has " + std::to_string(picture.rgb.size()) +
-                         " bytes; expected three for each pixel");
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const std::size_t at = 3 * image.index(x, image.height - 1 - y);  // pictures begin at the top
-            const double luma =
-                0.2126 * picture.rgb[at] + 0.7152 * picture.rgb[at + 1] + 0.0722 * picture.rgb[at + 2];
-            const double light = std::clamp(luma / 255, 0.0, 1.0);
-            image.values[image.index(x, y)] = invert ? light : 1 - light;
-        }
-    }
+GreyImage solidity(const Volume& picture, bool invert) {
+    require_pixels(picture.size[0] > 0 && picture.size[1] > 0);
+    if (picture.size[2] != 1)
+        throw InputError("the picture has " + std::to_string(picture.size[2]) + " pages; expected one");
+    GreyImage image(static_cast<int>(picture.size[0]), static_cast<int>(picture.size[1]));
+    std::visit(
+        [&](const auto& samples) {
+            if (samples.size() != image.values.size())
+                throw InputError("the picture has " + std::to_string(samples.size()) +
+                                 " samples; expected one for each pixel");
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const double light =
+                    std::clamp(static_cast<double>(samples[i]) / picture.full_scale, 0.0, 1.0);
+                image.values[i] = invert ? light : 1 - light;
+            }
+        },
+        picture.samples);
     return image;
 }
 
@@ -79,6 +83,32 @@ GreyImage box_filtered(const GreyImage& image, int width) {
     }
     for (double& value : scaled.values) value = std::clamp(value, 0.0, 1.0);  // of rounding
     return scaled;
+}
+
+double otsu_threshold(const GreyImage& image) {
+    constexpr std::size_t bins = 256;
+    std::array<double, bins> count{};
+    for (const double v : image.values)
+        count[std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, v) * bins))] += 1;
+    double all = 0, moment = 0;
+    for (std::size_t i = 0; i < bins; ++i) {
+        all += count[i];
+        moment += count[i] * static_cast<double>(i);
+    }
+    double below = 0, moment_below = 0, best = 0;
+    // Where the histogram is empty, all thresholds part it equally: the middle of them is taken.
+    std::size_t first = bins / 2, last = bins / 2;
+    for (std::size_t i = 1; i < bins; ++i) {
+        below += count[i - 1];
+        moment_below += count[i - 1] * static_cast<double>(i - 1);
+        if (below == 0 || below == all) continue;
+        const double means = moment_below / below - (moment - moment_below) / (all - below);
+        const double variance = below * (all - below) * means * means;
+        if (variance > best) first = i;
+        if (variance >= best) last = i;
+        best = std::max(best, variance);
+    }
+    return static_cast<double>(first + last) / (2.0 * bins);
 }
 
 GreyImage black_and_white(const GreyImage& image, double threshold) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/base/picture.h"
+#include "procedural/volume/volume.h"
 
 namespace lamella {
 
@@ -22,14 +22,18 @@ struct GreyImage {
     }
 };
 
-/// Returns how solid each pixel is: 1 - luma / 255 (luma of Rec. ITU-R BT.709), so black is solid; luma / 255
-/// with `invert`. Throws InputError for a picture without pixels.
-GreyImage solidity(const Picture& picture, bool invert = false);
+/// Returns how solid each pixel of a picture is, see read_picture(): 1 - luma, so black is solid; the luma
+/// with `invert`. Throws InputError for a picture without pixels or with several pages.
+GreyImage solidity(const Volume& picture, bool invert = false);
 
 /// Returns the image at `width` pixels across and in its proportions, at least one pixel high. Each pixel is
 /// the mean of the image over the pixel's area, so the mean of the whole is kept. Throws InputError for a
 /// width below 1 and for an image without pixels.
 GreyImage box_filtered(const GreyImage& image, int width);
+
+/// Returns the threshold that best parts the values into two classes (Otsu 1979, A threshold selection method
+/// from gray-level histograms), in steps of 1/256; 0.5 for an image of one value.
+double otsu_threshold(const GreyImage& image);
 
 /// Returns the image in black and white: 1 where it is `threshold` or more, 0 elsewhere.
 GreyImage black_and_white(const GreyImage& image, double threshold = 0.5);

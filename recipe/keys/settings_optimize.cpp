@@ -97,7 +97,7 @@ void add_elements(std::vector<Setting>& t) {
                            .help = "Number of finite elements along the part's longest side."});
     add_row<&O::dimensions>(t, "dimensions", "--optimize-dimensions",
                             {.limits = {2, 3},
-                             .fallback = format_value(std::int64_t{O{}.dimensions}),
+                             .fallback = "3, for appearance 2",
                              .help = "2: a plate in the xy plane, as thick as the part is high; the result "
                                      "is the same at every height."});
 }
@@ -132,8 +132,9 @@ void add_limits_of_shape(std::vector<Setting>& t) {
 void add_solver(std::vector<Setting>& t) {
     add_row<&O::iterations>(t, "iterations", "--optimize-iterations",
                             {.limits = {1, 10000},
-                             .fallback = format_value(std::int64_t{O{}.iterations}),
-                             .help = "Largest number of steps."});
+                             .fallback = "100, for appearance 40",
+                             .help = "Largest number of steps; for appearance on the coarsest grid, half as "
+                                     "many on each finer one."});
     add_row<&O::tolerance>(t, "tolerance", "--optimize-tolerance",
                            {.limits = {0, 1},
                             .fallback = format_value(O{}.tolerance),
@@ -168,13 +169,17 @@ void add_appearance(std::vector<Setting>& t) {
     add_row<&O::invert>(
         t, "invert", "--optimize-invert",
         {.fallback = "false", .help = "Put material where the picture is bright instead of dark."});
+    add_row<&O::threshold>(t, "threshold", "--optimize-threshold",
+                           {.limits = {0, 1},
+                            .fallback = "parts the picture's histogram best",
+                            .help = "Brightness from which the picture is bright, 0 is black and 1 white."});
     add_row<&O::neighbourhood>(t, "neighbourhood", "--optimize-neighbourhood",
                                {.unit = "elements",
                                 .limits = {4, 64},
                                 .fallback = format_value(std::int64_t{O{}.neighbourhood}),
                                 .help = "Edge of the squares in which result and picture are compared."});
     add_row<&O::exponent>(t, "exponent", "--optimize-exponent",
-                          {.limits = {1, 4},
+                          {.limits = {1, 2},
                            .fallback = format_value(O{}.exponent),
                            .help = "Exponent of the difference between result and picture."});
     add_row<&O::spread>(t, "spread", "--optimize-spread",

@@ -72,6 +72,24 @@ void prescribe_skin(const Recipe& recipe, const Field& body, ElementDomain& doma
     });
 }
 
+/// Says which elements of the grid belong to the body, and which of them are prescribed.
+void classify(const Recipe& recipe, const Field& body, const BuiltRegions& regions, const CancelToken* cancel,
+              ElementDomain& domain) {
+    for (const std::uint8_t inside : elements_inside(body, domain, cancel))
+        domain.use.push_back(inside != 0 ? ElementUse::free : ElementUse::outside);
+    if (domain.elements() == 0)
+        throw InputError(
+            fmt::format("optimize: no element of {:.4g} mm has its centre in the part; accepted: smaller "
+                        "elements, by optimize.element",
+                        domain.edge));
+    prescribe_skin(recipe, body, domain);
+    for (const BuiltRegion& region : regions.list) {
+        if (region.make != RegionMake::solid && region.make != RegionMake::empty) continue;
+        prescribe(domain, elements_inside(*region.field, domain, cancel),
+                  region.make == RegionMake::solid ? ElementUse::solid : ElementUse::empty);
+    }
+}
+
 }  // namespace
 
 std::size_t ElementDomain::elements() const {
@@ -117,20 +135,27 @@ ElementDomain element_domain(const Recipe& recipe, const Field& body, const Buil
         domain.box.hi.z = bounds.hi.z;
         domain.thickness = bounds.size().z;
     }
-    for (const std::uint8_t inside : elements_inside(body, domain, cancel))
-        domain.use.push_back(inside != 0 ? ElementUse::free : ElementUse::outside);
-    if (domain.elements() == 0)
-        throw InputError(
-            fmt::format("optimize: no element of {:.4g} mm has its centre in the part; accepted: smaller "
-                        "elements, by optimize.element",
-                        domain.edge));
-    prescribe_skin(recipe, body, domain);
-    for (const BuiltRegion& region : regions.list) {
-        if (region.make != RegionMake::solid && region.make != RegionMake::empty) continue;
-        prescribe(domain, elements_inside(*region.field, domain, cancel),
-                  region.make == RegionMake::solid ? ElementUse::solid : ElementUse::empty);
-    }
+    classify(recipe, body, regions, cancel, domain);
     return domain;
+}
+
+ElementDomain element_domain_of(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                                const ElementDomain& domain, glm::ivec3 size, double ratio,
+                                const CancelToken* cancel) {
+    ElementDomain other{.dimensions = domain.dimensions,
+                        .size = size,
+                        .edge = ratio * domain.edge,
+                        .thickness = 0,
+                        .box = domain.box,
+                        .use = {}};
+    other.thickness = domain.dimensions == 2 ? domain.thickness : other.edge;
+    for (int axis = 0; axis < domain.dimensions; ++axis) {
+        const double middle = 0.5 * (domain.box.lo[axis] + domain.box.hi[axis]);
+        other.box.lo[axis] = middle - 0.5 * other.edge * size[axis];
+        other.box.hi[axis] = middle + 0.5 * other.edge * size[axis];
+    }
+    classify(recipe, body, regions, cancel, other);
+    return other;
 }
 
 }  // namespace lamella

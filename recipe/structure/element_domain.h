@@ -32,6 +32,12 @@ struct ElementDomain {
 ElementDomain element_domain(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                              const CancelToken* cancel);
 
+/// Returns the same body on another grid with the same middle, of elements `ratio` times as wide; in the
+/// plane as thick.
+ElementDomain element_domain_of(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                                const ElementDomain& domain, glm::ivec3 size, double ratio,
+                                const CancelToken* cancel);
+
 /// Returns the elements of a grid whose centres are inside a field; 1 for those.
 std::vector<std::uint8_t> elements_inside(const Field& field, const ElementDomain& domain,
                                           const CancelToken* cancel);

@@ -13,7 +13,7 @@
 
 namespace lamella {
 
-struct TopologyIteration;
+struct OptimizationStep;
 struct StructureReport;
 
 struct OptimizeOptions {
@@ -21,8 +21,9 @@ struct OptimizeOptions {
     bool anew = false;              ///< optimises even if the folder has the result
     int threads = 0;                ///< 0: one per core
     /// Called after each iteration with the number of iterations at most; may be empty.
-    std::function<void(const TopologyIteration&, int iterations)> on_iteration{};
-    /// Ends the optimisation with the best design so far, which is not kept; may be null.
+    std::function<void(const OptimizationStep&, int iterations)> on_iteration{};
+    /// Ends the search with the best design so far, which is not kept; may be null. The search for an
+    /// appearance has none before its end.
     const CancelToken* cancel = nullptr;
 };
 

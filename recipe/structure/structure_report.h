@@ -20,6 +20,11 @@ struct CaseReport {
     dvec3 stress_at{0};               ///< mm
 };
 
+/// A step of a search.
+struct OptimizationStep : TopologyIteration {
+    double appearance = 0;  ///< A of the densities, see Appearance; 0: no picture was given
+};
+
 /// What an optimisation or analysis found.
 struct StructureReport {
     int dimensions = 3;
@@ -37,9 +42,12 @@ struct StructureReport {
     double volume = 0;    ///< share of the body's volume that the shape fills, or the foam's mean density
     double mass = 0;      ///< g; 0: the material's density is unknown
     double greyness = 0;  ///< of the densities at the end
-    std::size_t stray_pieces = 0;            ///< dropped
-    bool is_converged = false;               ///< by the tolerance, within the iterations
-    std::vector<TopologyIteration> history;  ///< compliances in N mm
+    std::size_t stray_pieces = 0;  ///< dropped
+    bool is_converged = false;     ///< by the tolerance, within the iterations
+    /// With a picture: A of the densities at the end and of the stiffest ones; 0: none was given.
+    double appearance = 0, stiffest_appearance = 0;
+    double least_compliance = 0;            ///< with a picture: of the stiffest densities, N mm
+    std::vector<OptimizationStep> history;  ///< compliances in N mm; with a picture as multiples of the least
     std::vector<CaseReport> cases;
     std::vector<std::string> notes;
 };

@@ -14,7 +14,7 @@ namespace {
 
 bool asks_for_much(std::string_view text) {
     for (const char* word :
-         {"file", "mesh", "image", "law", "table", "tests", "profile", "copies", "scale"}) {
+         {"file", "mesh", "image", "law", "table", "tests", "profile", "copies", "scale", "element "}) {
         if (text.find(word) != std::string_view::npos) return true;
     }
     return false;
@@ -25,6 +25,10 @@ bool asks_for_much(std::string_view text) {
 std::vector<std::pair<const char*, const char*>> bounds_for(std::string_view text) {
     std::vector<std::pair<const char*, const char*>> keys{
         {"part.shape", "sphere"}, {"part.radius", "2"}, {"layers.height", "0.5"}};
+    if (text.find("optimize") != std::string_view::npos) {
+        keys.emplace_back("optimize.elements", "8");
+        keys.emplace_back("optimize.iterations", "2");
+    }
     if (text.find("foam") == std::string_view::npos) return keys;
     keys.emplace_back("foam.cell_min", "1");
     bool is_surface = false;

@@ -230,9 +230,17 @@ TEST_CASE("an appearance has a picture and its width, and is found by moving asy
                    "p.toml:20: optimize.method: \"oc\" cannot bound the compliance"));
     CHECK(mentions(told_keys(picture + "volume = 0.3\nvolume_min = 0.4\n"),
                    "optimize.volume_min: 0.4 is more than p.toml:20: optimize.volume, 0.3"));
+    const auto is_refused = [](const std::string& key, const std::string& why) {
+        return mentions(told_keys(picture + key + "\n"), why + " with optimize.kind = \"appearance\"");
+    };
+    CHECK(is_refused("dimensions = 3", "optimize.dimensions: a picture is one of a plate, which has two"));
+    CHECK(is_refused("member = 2", "optimize.member: there is no least size"));
+    CHECK(is_refused("gap = 2", "optimize.gap: there is no least size"));
+    CHECK(is_refused("tolerance = 0.1", "optimize.tolerance: all steps are taken"));
     const OptimizeRecipe optimize = optimized(picture + "volume_min = 0.4\nlevels = 2\ninvert = true\n");
     CHECK(optimize.kind == OptimizeKind::appearance);
     CHECK(optimize.method == OptimizeMethod::mma);
+    CHECK(optimize.dimensions == 2);
     CHECK(optimize.image == "gears.png");
     CHECK(optimize.levels == 2);
     CHECK(optimize.neighbourhood == 14);
@@ -240,8 +248,8 @@ TEST_CASE("an appearance has a picture and its width, and is found by moving asy
 
 TEST_CASE("keys of an appearance are refused without it") {
     for (const std::string key :
-         {"image = \"a.png\"", "image_size = 3", "invert = true", "neighbourhood = 8", "exponent = 2",
-          "spread = 1", "levels = 2", "compliance = 2", "volume_min = 0.1"}) {
+         {"image = \"a.png\"", "image_size = 3", "invert = true", "threshold = 0.3", "neighbourhood = 8",
+          "exponent = 2", "spread = 1", "levels = 2", "compliance = 2", "volume_min = 0.1"}) {
         CAPTURE(key);
         CHECK(mentions(told_keys(key + "\n"), "optimize." + key.substr(0, key.find(' ')) +
                                                   ": does not apply to kind stiffness; accepted: kind "

@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "procedural/appearance/appearance.h"
 #include "procedural/optimization/density_shape.h"
+#include "procedural/optimization/projection.h"
 #include "procedural/optimization/topology_optimizer.h"
 
 namespace appearance_optimizer_test {
@@ -137,8 +138,12 @@ TEST_CASE("more compliance allowed lets a part look more like the exemplar, and 
             CHECK(made.least_compliance < 1.01 * least);
             CHECK(made.least_compliance > 0.9 * least);
             CHECK(made.least_compliance == Approx(compliance_of(made.stiffest, problem)).epsilon(1e-4));
-            CHECK(compliance == Approx(made.compliance).epsilon(1e-4));
-            CHECK(compliance <= 1.01 * alpha * made.least_compliance);
+            // What bears the loads is eroded: so is the shape that is cut from it, and more.
+            std::vector<double> eroded = made.filtered;
+            project(eroded, {16, 0.6}, eroded);
+            CHECK(compliance_of(eroded, problem) == Approx(made.compliance).epsilon(1e-4));
+            CHECK(made.compliance <= 1.01 * alpha * made.least_compliance);
+            CHECK(compliance < made.compliance);
             CHECK(mean(made.density) <= 1.005 * 0.4);
             CHECK(mean(made.density) == Approx(made.volume));
             CHECK(mean(made.stiffest) == Approx(0.4).epsilon(0.005));
@@ -146,11 +151,11 @@ TEST_CASE("more compliance allowed lets a part look more like the exemplar, and 
             CHECK(now == Approx(made.appearance).epsilon(0.05));
             CHECK(likeness(made.stiffest, size, example.exemplar) ==
                   Approx(made.stiffest_appearance).epsilon(0.05));
-            if (example.is_connected) CHECK(main_piece(made.density, size) > (alpha < 1.2 ? 0.98 : 0.99));
+            if (example.is_connected) CHECK(main_piece(made.density, size) > 0.97);
             if (alpha == 1.2) CHECK(now < (1 - example.saved) * plain);
             before = now;
         }
-        CHECK(before < 0.5 * plain);
+        CHECK(before < 0.55 * plain);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "procedural/appearance/grey_image.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "engine/base/error.h"
@@ -28,15 +29,15 @@ double mean(const GreyImage& image) {
 }  // namespace
 
 TEST_CASE("black is solid, white is empty, and inverted the other way round", "[optimization]") {
-    // Upper row: black, white. Lower row: red, green, whose luma has the weights of BT.709.
-    const Picture picture{2, 2, {0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 255, 0}};
+    // The lower row first.
+    const Volume picture{{2, 2, 1}, std::vector<std::uint8_t>{54, 182, 0, 255}, 255, {}};
     const GreyImage image = solidity(picture), inverted = solidity(picture, true);
     REQUIRE(image.width == 2);
     REQUIRE(image.height == 2);
     CHECK(image.values[image.index(0, 1)] == 1.0);
-    CHECK(image.values[image.index(1, 1)] == Approx(0).margin(1e-12));
-    CHECK(image.values[image.index(0, 0)] == Approx(1 - 0.2126));
-    CHECK(image.values[image.index(1, 0)] == Approx(1 - 0.7152));
+    CHECK(image.values[image.index(1, 1)] == 0.0);
+    CHECK(image.values[image.index(0, 0)] == Approx(1 - 54.0 / 255));
+    CHECK(image.values[image.index(1, 0)] == Approx(1 - 182.0 / 255));
     for (std::size_t i = 0; i < image.values.size(); ++i)
         CHECK(inverted.values[i] == Approx(1 - image.values[i]).margin(1e-12));
 }
@@ -82,9 +83,37 @@ TEST_CASE("black and white is solid from the threshold on", "[optimization]") {
     CHECK(black_and_white(image).height == 2);
 }
 
+TEST_CASE("Otsu's threshold parts two classes, wherever they lie", "[optimization]") {
+    // Against the definition: the threshold of the largest variance between the classes, over all of them.
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        GreyImage image = noise(40, 30, seed);
+        for (std::size_t i = 0; i < image.values.size(); ++i)
+            image.values[i] = i % 3 == 0 ? 0.7 + 0.2 * image.values[i] : 0.1 + 0.3 * image.values[i];
+        const double threshold = otsu_threshold(image);
+        CHECK(threshold > 0.39);
+        CHECK(threshold < 0.71);
+        double best = 0, found = 0;
+        for (int t = 1; t < 256; ++t) {
+            double low = 0, high = 0, low_sum = 0, high_sum = 0;
+            for (const double v : image.values) {
+                const double bin = std::floor(v * 256);
+                (bin < t ? low : high) += 1;
+                (bin < t ? low_sum : high_sum) += bin;
+            }
+            if (low == 0 || high == 0) continue;
+            const double between = low * high * std::pow(low_sum / low - high_sum / high, 2);
+            best = std::max(best, between);
+            if (t == static_cast<int>(256 * threshold)) found = between;
+        }
+        CHECK(found == Approx(best).epsilon(1e-9));
+    }
+    CHECK(otsu_threshold(GreyImage(4, 4, 0.3)) == 0.5);
+}
+
 TEST_CASE("pictures without pixels and widths below one are refused", "[optimization]") {
-    CHECK_THROWS_AS(solidity(Picture{}), InputError);
-    CHECK_THROWS_AS(solidity(Picture{2, 2, {1, 2, 3}}), InputError);
+    CHECK_THROWS_AS(solidity(Volume{}), InputError);
+    CHECK_THROWS_AS(solidity(Volume{{2, 2, 1}, std::vector<std::uint8_t>{1, 2, 3}, 255, {}}), InputError);
+    CHECK_THROWS_AS(solidity(Volume{{1, 1, 2}, std::vector<std::uint8_t>{1, 2}, 255, {}}), InputError);
     CHECK_THROWS_AS(box_filtered(GreyImage(), 3), InputError);
     CHECK_THROWS_AS(box_filtered(noise(4, 4, 3), 0), InputError);
 }

@@ -189,15 +189,12 @@ TEST_CASE("an analysis takes other elements than the search, of the part as it w
 }
 
 TEST_CASE("a foam is as stiff by its law as its struts are by elements", "[optimization]") {
-    // Between plates, so that no cut strut is loaded alone. 6 x 3 x 3 cells, two elements a beam's radius:
-    // small samples and cut faces make the foam softer or stiffer than a large one by some tenths.
+    // 6 x 3 x 3 cells in a skin, two elements a beam's radius. Bare foam is softer: cut cells at its faces
+    // carry little.
     const std::string coupon =
         "[part]\nshape = \"box\"\nsize = [15, 7.5, 7.5]\n[material]\nname = \"pla\"\n"
-        "[foam]\ncell = 2.5\nbeam = 0.3\n[[load]]\nface = \"+x\"\nforce = [0, 0, -5]\n[[anchor]]\nface = "
-        "\"-x\"\n"
-        "[[field]]\nname = \"a\"\nkind = \"box\"\nsize = [1, 8, 8]\nat = [-7.5, 0, 0]\n"
-        "[[field]]\nname = \"b\"\nkind = \"box\"\nsize = [1, 8, 8]\nat = [7.5, 0, 0]\n"
-        "[[region]]\nfield = \"a\"\nmake = \"solid\"\n[[region]]\nfield = \"b\"\nmake = \"solid\"\n";
+        "[foam]\ncell = 2.5\nbeam = 0.3\n[skin]\nthickness = 0.3\n"
+        "[[load]]\nface = \"+x\"\nforce = [0, 0, -5]\n[[anchor]]\nface = \"-x\"\n";
     const Recipe recipe = recipe_of(coupon);
     const BuiltJob job = build_job(recipe);
     AnalysisOptions options;
@@ -207,8 +204,7 @@ TEST_CASE("a foam is as stiff by its law as its struts are by elements", "[optim
     options.model = AnalysisModel::elements;
     const double by_elements = analyse_part(recipe, job, options).compliance;
     CAPTURE(by_law, by_elements);
-    CHECK(by_elements / by_law > 0.7);
-    CHECK(by_elements / by_law < 1.4);
+    CHECK(by_elements == Approx(by_law).epsilon(0.1));
 }
 
 TEST_CASE("a pressure on a face is its area's force, and a body's weight is its mass's", "[optimization]") {
@@ -248,10 +244,6 @@ TEST_CASE("a problem without a solution is told", "[optimization]") {
         "4, abs(z) - 4)\"\n";
     CHECK(mentions(told(apart + load + held + in_space),
                    "a piece of the part is loaded that no [[anchor]] holds"));
-    CHECK(mentions(told(body + load + held + in_plane +
-                        "kind = \"appearance\"\nimage = \"" LAMELLA_SOURCE_DIR
-                        "/docs/pictures/gallery.png\"\nimage_size = 10\n"),
-                   "not made yet"));
 }
 
 TEST_CASE("an analysis stops at once when it is cancelled", "[optimization]") {

@@ -1,0 +1,138 @@
+// Problem, loop, shape, and the analysis of the shape.
+#include "recipe/structure/stiffest_part.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "recipe/structure/design_settings.h"
+#include "recipe/structure/optimized_foam.h"
+#include "recipe/structure/structural_problem.h"
+
+namespace lamella {
+
+namespace {
+
+TopologySettings topology_settings(const OptimizeRecipe& optimize, const ElementDomain& domain,
+                                   const CancelToken* cancel) {
+    TopologySettings settings;
+    settings.density = density_settings(optimize, domain);
+    // Under self-weight a compliance may grow with the volume, which optimality criteria cannot follow.
+    const bool needs_mma = optimize.method == OptimizeMethod::mma || optimize.gravity != dvec3(0);
+    settings.method = needs_mma ? TopologyMethod::mma : TopologyMethod::oc;
+    settings.tolerance = optimize.tolerance;
+    if (optimize.iterations > 0) settings.iterations = optimize.iterations;
+    settings.sharpness = optimize.result == OptimizeResult::solid ? optimize.sharpness : 0;
+    settings.cancel = cancel;
+    return settings;
+}
+
+/// One search, in the plane or in space.
+template <std::size_t Dim>
+class PartOptimizer {
+  public:
+    PartOptimizer(const Recipe& recipe, ElementDomain domain, Gradings& gradings,
+                  const OptimizeOptions& options)
+        : recipe_(recipe), options_(options), domain_(std::move(domain)) {
+        if (recipe.optimize->result != OptimizeResult::solid) foam_.emplace(recipe);
+        problem_.emplace(
+            structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : unknown_poisson));
+        const OptimizeRecipe& optimize = *recipe.optimize;
+        TopologyProblem<Dim>& topology = problem_->topology;
+        topology.volume = volume_bound(optimize, domain_, problem_->material);
+        if (foam_) {
+            topology.law = foam_->law();
+            topology.least_density = foam_->densities().lo;
+            topology.greatest_density = foam_->densities().hi;
+            foam_->check_volume(topology.volume);
+        } else {
+            const bool is_heavy = optimize.gravity != dvec3(0);
+            topology.law =
+                make_penalty_law({optimize.penalty, void_modulus_of<Dim>, is_heavy ? linear_below : 0});
+        }
+    }
+
+    PartDesign optimize();
+
+  private:
+    static constexpr double unknown_poisson = -1;
+
+    void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
+    DensityGrid densities(const DensityMap& found) const;
+
+    const Recipe& recipe_;
+    const OptimizeOptions& options_;
+    ElementDomain domain_;
+    std::optional<OptimizedFoam> foam_;
+    std::optional<StructuralProblem<Dim>> problem_;
+};
+
+/// Iterates to the end, or until it is cancelled.
+template <std::size_t Dim>
+void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iterations,
+                                StructureReport& report) const {
+    while (!optimizer.is_finished()) {
+        try {
+            OptimizationStep step{optimizer.iterate()};
+            step.compliance *= problem_->displacement_unit;
+            if (foam_) step.greyness = 0;  // every density of a foam is printable
+            report.history.push_back(step);
+        } catch (const Interrupted&) {
+            if (report.history.empty()) throw;
+            break;
+        }
+        if (options_.on_iteration) options_.on_iteration(report.history.back(), iterations);
+    }
+    optimizer.show_design();
+    const OptimizationStep& last = report.history.back();
+    report.is_converged = optimizer.is_finished() && last.change < recipe_.optimize->tolerance;
+    report.densities_compliance = last.compliance;
+    report.greyness = last.greyness;
+}
+
+/// The filtered field is smooth, and says where the projected one is solid. What the overhang filter leaves
+/// is known only behind it.
+template <std::size_t Dim>
+DensityGrid PartOptimizer<Dim>::densities(const DensityMap& found) const {
+    const auto printed = found.density(DensityMap::Role::result);
+    const bool is_smooth = !recipe_.optimize->overhang;
+    return {domain_.size, domain_.use,
+            is_smooth ? found.smooth_density() : std::vector<double>(printed.begin(), printed.end())};
+}
+
+template <std::size_t Dim>
+PartDesign PartOptimizer<Dim>::optimize() {
+    PartDesign design;
+    design.box = domain_.box;
+    design.report = std::make_shared<StructureReport>();
+    StructureReport& report = *design.report;
+    describe(*problem_, domain_, report);
+    const TopologySettings settings = topology_settings(*recipe_.optimize, domain_, options_.cancel);
+    TopologyOptimizer<Dim> optimizer(problem_->topology, settings);
+    search(optimizer, settings.iterations, report);
+    design.grid = densities(optimizer.densities());
+    if (foam_) {
+        extend_outside(design.grid, extended_layers);
+        analyse(*problem_, domain_, problem_->topology.law, design.grid.density, true, nullptr, report);
+        return design;
+    }
+    const double volume = std::min(report.history.back().volume, problem_->topology.volume);
+    report.stray_pieces = cut_shape(design.grid, {volume, volume}, problem_->anchored, problem_->loaded);
+    // A cut element counts by its solid share.
+    analyse(*problem_, domain_, make_penalty_law({1, void_modulus_of<Dim>, 0}),
+            solid_shares(design.grid, 0.5), false, nullptr, report);
+    return design;
+}
+
+}  // namespace
+
+PartDesign stiffest_part(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                         Gradings& gradings, const OptimizeOptions& options) {
+    ElementDomain domain = element_domain(recipe, body, regions, options.cancel);
+    if (domain.dimensions == 2)
+        return PartOptimizer<2>(recipe, std::move(domain), gradings, options).optimize();
+    return PartOptimizer<3>(recipe, std::move(domain), gradings, options).optimize();
+}
+
+}  // namespace lamella

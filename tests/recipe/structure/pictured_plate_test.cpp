@@ -1,0 +1,141 @@
+// Plates that look like a picture: bounds, one piece, likeness, threads, plans, and what cannot be shown.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "recipe/build/build_job.h"
+#include "recipe/structure/structure_report.h"
+#include "tests/app/commands/folder.h"
+#include "tests/app/commands/recipes.h"
+
+namespace pictured_plate_test {
+
+using namespace lamella;
+
+namespace {
+
+const std::string plate = "[part]\nshape = \"box\"\nsize = [96, 48, 4]\n[material]\nname = \"pla\"\n";
+const std::string cantilever = plate +
+                               "[[load]]\nbox = [[48, -2, -3], [48, 2, 3]]\nforce = [0, -10, 0]\n"
+                               "[[anchor]]\nface = \"-x\"\n";
+const std::string half_beam = plate +
+                              "[[load]]\nbox = [[-48, 24, -3], [-48, 24, 3]]\nforce = [0, -10, 0]\n"
+                              "[[anchor]]\nface = \"-x\"\nfix = \"x\"\n"
+                              "[[anchor]]\nbox = [[46, -24, -3], [48, -24, 3]]\nfix = \"y\"\n";
+const std::string bridge = plate +
+                           "[[load]]\nface = \"+y\"\nforce = [0, -10, 0]\n"
+                           "[[anchor]]\nbox = [[-48, -24, -3], [-44, -24, 3]]\n"
+                           "[[anchor]]\nbox = [[44, -24, -3], [48, -24, 3]]\n";
+
+std::string like(const std::string& picture, const std::string& more = "") {
+    return "[optimize]\nkind = \"appearance\"\nelements = 96\nlevels = 2\niterations = 20\nneighbourhood = "
+           "10\n"
+           "compliance = 1.3\nimage = \"" LAMELLA_SOURCE_DIR "/examples/inputs/" +
+           picture + ".png\"\nimage_size = 48\n" + more;
+}
+
+/// Number of pieces above 0.5, by faces.
+int pieces(const DensityGrid& grid) {
+    const auto numbers = pieces_by_faces(grid.size, [&](std::size_t e) {
+        return grid.use[e] != ElementUse::outside && grid.density[e] > 0.5;
+    });
+    return *std::max_element(numbers.begin(), numbers.end()) + 1;
+}
+
+OptimizedPart made(const std::string& text, int threads = 0) {
+    OptimizeOptions options;
+    options.threads = threads;
+    return *build_job(recipe_of(text), options).optimized;
+}
+
+std::string told(const std::string& text) {
+    try {
+        made(text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("a plate like a picture is stiff enough, light enough, one piece, and like it",
+          "[optimization][slow]") {
+    for (const std::string& load : {cantilever, half_beam, bridge}) {
+        for (const std::string picture : {"spots", "blobs", "bricks"}) {
+            CAPTURE(load, picture);
+            const OptimizedPart part = made(load + like(picture, "volume = 0.55\n"));
+            const StructureReport& report = *part.report;
+            CHECK(report.densities_compliance <= 1.3 * 1.01 * report.least_compliance);
+            CHECK(report.compliance <= 1.3 * 1.01 * report.least_compliance);
+            CHECK(report.volume <= 0.55 * 1.005);
+            CHECK(pieces(part.grid) == 1);
+            CHECK(report.appearance < 0.9 * report.stiffest_appearance);
+            CHECK(report.appearance > 0);
+            CHECK(report.stiffest_appearance > 0);
+        }
+    }
+}
+
+TEST_CASE("the more compliance is allowed, the more a plate is like its picture", "[optimization]") {
+    double former = 0;
+    for (const char* compliance : {"1.5", "1.1"}) {
+        std::string text = cantilever + like("spots", "volume = 0.6\n");
+        text.replace(text.find("compliance = 1.3"), 16, std::string("compliance = ") + compliance);
+        const OptimizedPart part = made(text);
+        CHECK(part.report->appearance > former);
+        former = part.report->appearance;
+    }
+}
+
+TEST_CASE("a plate like a picture is the same on any number of threads", "[optimization]") {
+    const std::string text = half_beam + like("spots", "volume = 0.5\nsymmetry = \"x\"\n");
+    const OptimizedPart one = made(text, 1), two = made(text, 2);
+    CHECK(one.grid.density == two.grid.density);
+    const glm::ivec3 n = one.grid.size;
+    for (int y = 0; y < n.y; ++y) {
+        for (int x = 0; x < n.x / 2; ++x)
+            CHECK(one.grid.density[one.grid.place({x, y, 0})] ==
+                  Approx(one.grid.density[one.grid.place({n.x - 1 - x, y, 0})]).margin(1e-9));
+    }
+}
+
+TEST_CASE("a plate may bear its own weight, and has the least volume that is asked for", "[optimization]") {
+    const std::string held = plate +
+                             "[[anchor]]\nbox = [[-48, -24, -3], [-44, -24, 3]]\n"
+                             "[[anchor]]\nbox = [[44, -24, -3], [48, -24, 3]]\n";
+    const OptimizedPart part =
+        made(held + like("spots", "gravity = [0, -9.81, 0]\nvolume = 0.5\nvolume_min = 0.4\n"));
+    CHECK(part.report->volume >= 0.4 * 0.995);
+    CHECK(part.report->volume <= 0.5 * 1.005);
+    CHECK(part.report->densities_compliance <= 1.3 * 1.01 * part.report->least_compliance);
+}
+
+TEST_CASE("a picture that a plate cannot show is told", "[optimization]") {
+    std::string coarse = cantilever + like("spots");
+    coarse.replace(coarse.find("levels = 2"), 10, "levels = 4");
+    CHECK(mentions(told(coarse),
+                   "windows of 10 x 10 elements do not fit the plate, 12 x 6 on the coarsest of 4"));
+    std::string small = cantilever + like("spots");
+    small.replace(small.find("image_size = 48"), 15, "image_size = 15");
+    CHECK(mentions(told(small),
+                   "do not fit the picture, 7 x 7 on the coarsest of 2 grids; accepted: smaller "
+                   "windows, fewer levels, more elements, or a larger image_size"));
+    CHECK(mentions(told(cantilever + like("no_such")), "no_such.png"));
+    const OptimizedPart part = made(cantilever + like("spots", "volume = 0.3\nthreshold = 0.01\n"));
+    REQUIRE(part.report->notes.size() == 1);
+    CHECK(mentions(part.report->notes.front(), "% solid and the plate at most 30 %"));
+}
+
+TEST_CASE("a plate like a picture is kept as a plan", "[optimization]") {
+    const Folder folder;
+    OptimizeOptions options;
+    options.plans = folder.path();
+    const Recipe recipe = recipe_of(half_beam + like("spots", "volume = 0.5\n"));
+    const BuiltJob first = build_job(recipe, options), second = build_job(recipe, options);
+    CHECK(first.optimized->report);
+    CHECK_FALSE(second.optimized->report);
+    CHECK(first.optimized->grid.density == second.optimized->grid.density);
+}
+
+}  // namespace pictured_plate_test
