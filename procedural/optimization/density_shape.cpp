@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/parallel.h"
@@ -86,6 +87,67 @@ void extend_outside(DensityGrid& grid, int layers) {
     }
 }
 
+namespace {
+
+/// How many parts an element has along each axis.
+glm::ivec3 parts_along(glm::ivec3 size, int factor) { return {factor, factor, size.z == 1 ? 1 : factor}; }
+
+}  // namespace
+
+DensityGrid refined(const DensityGrid& grid, int factor) {
+    const glm::ivec3 parts = parts_along(grid.size, factor);
+    DensityGrid fine{grid.size * parts, {}, {}};
+    const std::size_t count = fine.place({0, 0, fine.size.z});
+    fine.use.resize(count);
+    fine.density.resize(count);
+    // The centre before a part's, and the share of the way to the next.
+    const auto between = [&](int part, int axis) {
+        const double at = (part + 0.5) / parts[axis] - 0.5;
+        const int first = static_cast<int>(std::floor(at));
+        return std::pair{first, at - first};
+    };
+    parallel_for(fine.size.y * fine.size.z, [&](int row) {
+        for (int x = 0; x < fine.size.x; ++x) {
+            const glm::ivec3 at(x, row % fine.size.y, row / fine.size.y);
+            std::array<std::pair<int, double>, 3> along;
+            for (int axis = 0; axis < 3; ++axis)
+                along[static_cast<std::size_t>(axis)] = between(at[axis], axis);
+            double sum = 0;
+            for (int corner = 0; corner < 8; ++corner) {
+                glm::ivec3 centre(0);
+                double share = 1;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const auto& [first, way] = along[static_cast<std::size_t>(axis)];
+                    const int up = corner >> axis & 1;
+                    centre[axis] = std::clamp(first + up, 0, grid.size[axis] - 1);
+                    share *= up == 1 ? way : 1 - way;
+                }
+                if (share > 0) sum += share * grid.density[grid.place(centre)];
+            }
+            fine.density[fine.place(at)] = sum;
+            fine.use[fine.place(at)] = grid.use[grid.place(at / parts)];
+        }
+    });
+    return fine;
+}
+
+std::vector<double> coarsened(std::span<const double> values, glm::ivec3 size, int factor) {
+    const glm::ivec3 parts = parts_along(size, factor);
+    const DensityGrid grid{size, {}, {}}, fine{size * parts, {}, {}};
+    std::vector<double> means(grid.place({0, 0, size.z}));
+    parallel_for(means.size(), [&](std::size_t i) {
+        const glm::ivec3 first = grid.element(i) * parts;
+        double sum = 0;
+        for (int z = 0; z < parts.z; ++z) {
+            for (int y = 0; y < parts.y; ++y) {
+                for (int x = 0; x < parts.x; ++x) sum += values[fine.place(first + glm::ivec3(x, y, z))];
+            }
+        }
+        means[i] = sum / (parts.x * parts.y * parts.z);
+    });
+    return means;
+}
+
 double volume_keeping_level(const DensityGrid& grid, double share) {
     constexpr int bins = 1 << 14;
     std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(grid.size.z));
@@ -136,6 +198,13 @@ std::vector<double> solid_shares(const DensityGrid& grid, double level) {
         }
     });
     return shares;
+}
+
+double solid_volume(const DensityGrid& grid, double level) {
+    double sum = 0, elements = 0;
+    for (const double share : solid_shares(grid, level)) sum += share;
+    for (const ElementUse use : grid.use) elements += in_body(use) ? 1 : 0;
+    return sum / elements;
 }
 
 std::vector<std::int32_t> pieces_by_faces(glm::ivec3 size, const std::function<bool(std::size_t)>& is_solid) {

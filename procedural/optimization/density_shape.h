@@ -38,12 +38,22 @@ struct DensityGrid {
 /// it, so that the shape does not recede from the surface of the body, by which it is cut off.
 void extend_outside(DensityGrid& grid, int layers);
 
+/// Returns the grid with each element cut into factor^3 (in the plane factor^2) of the same use, their
+/// densities trilinear between the elements' centres.
+DensityGrid refined(const DensityGrid& grid, int factor);
+
+/// Returns the means over the elements of a grid from which `values` was refined().
+std::vector<double> coarsened(std::span<const double> values, glm::ivec3 size, int factor);
+
 /// Returns the level at which the shape (where the density is above it) fills this share of the body's
 /// elements, 0 to 1, to a thousandth. The elements are sampled at 64 points each.
 double volume_keeping_level(const DensityGrid& grid, double share);
 
 /// Returns the solid share of each element at a level, 0 to 1; 0 outside the body.
 std::vector<double> solid_shares(const DensityGrid& grid, double level);
+
+/// Returns the share of the body's elements that the shape fills at a level, 0 to 1.
+double solid_volume(const DensityGrid& grid, double level);
 
 struct StrayPieces {
     std::size_t pieces = 0;    ///< dropped

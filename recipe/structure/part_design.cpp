@@ -3,17 +3,6 @@
 
 namespace lamella {
 
-namespace {
-
-double volume_of(const DensityGrid& grid, double level) {
-    double sum = 0, elements = 0;
-    for (const double share : solid_shares(grid, level)) sum += share;
-    for (const ElementUse use : grid.use) elements += use != ElementUse::outside ? 1 : 0;
-    return sum / elements;
-}
-
-}  // namespace
-
 std::size_t cut_shape(DensityGrid& grid, Interval volume, std::span<const std::uint8_t> anchored,
                       std::span<const std::uint8_t> loaded) {
     constexpr double cut = 0.5;
@@ -27,7 +16,7 @@ std::size_t cut_shape(DensityGrid& grid, Interval volume, std::span<const std::u
         pieces += stray.pieces;
         if (stray.pieces == 0) break;
         extend_outside(grid, extended_layers);
-        if (round < most_rounds && volume_of(grid, level) < volume.lo)
+        if (round < most_rounds && solid_volume(grid, level) < volume.lo)
             level = volume_keeping_level(grid, volume.lo);
     }
     for (double& d : grid.density) d += cut - level;

@@ -2,10 +2,12 @@
 #include "recipe/structure/stiffest_part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "procedural/optimization/overhang_shape.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/optimized_foam.h"
 #include "recipe/structure/structural_problem.h"
@@ -60,6 +62,7 @@ class PartOptimizer {
 
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
+    std::vector<std::uint8_t> of_parts(const std::vector<std::uint8_t>& flags, int factor) const;
 
     const Recipe& recipe_;
     const OptimizeOptions& options_;
@@ -101,6 +104,25 @@ DensityGrid PartOptimizer<Dim>::densities(const DensityMap& found) const {
             is_smooth ? found.smooth_density() : std::vector<double>(printed.begin(), printed.end())};
 }
 
+/// Returns flags of elements for the parts of a refined grid.
+template <std::size_t Dim>
+std::vector<std::uint8_t> PartOptimizer<Dim>::of_parts(const std::vector<std::uint8_t>& flags,
+                                                       int factor) const {
+    if (factor == 1) return flags;
+    const DensityGrid grid{domain_.size, {}, {}}, fine{factor * domain_.size, {}, {}};
+    std::vector<std::uint8_t> parts(fine.place({0, 0, fine.size.z}));
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = flags[grid.place(fine.element(i) / factor)];
+    return parts;
+}
+
+/// Returns into how many parts elements are cut along each axis for a shape without overhangs: six, as long
+/// as the parts are few.
+int refinement(glm::ivec3 size) {
+    constexpr double most_parts = 16e6;
+    const double elements = static_cast<double>(size.x) * size.y * size.z;
+    return std::clamp(static_cast<int>(std::cbrt(most_parts / elements)), 1, 6);
+}
+
 template <std::size_t Dim>
 PartDesign PartOptimizer<Dim>::optimize() {
     PartDesign design;
@@ -118,10 +140,16 @@ PartDesign PartOptimizer<Dim>::optimize() {
         return design;
     }
     const double volume = std::min(report.history.back().volume, problem_->topology.volume);
-    report.stray_pieces = cut_shape(design.grid, {volume, volume}, problem_->anchored, problem_->loaded);
+    const int factor = recipe_.optimize->overhang ? refinement(domain_.size) : 1;
+    if (recipe_.optimize->overhang) {
+        extend_outside(design.grid, extended_layers);
+        design.grid = with_limited_overhang(design.grid, volume, factor);
+    }
+    report.stray_pieces = cut_shape(design.grid, {volume, volume}, of_parts(problem_->anchored, factor),
+                                    of_parts(problem_->loaded, factor));
     // A cut element counts by its solid share.
     analyse(*problem_, domain_, make_penalty_law({1, void_modulus_of<Dim>, 0}),
-            solid_shares(design.grid, 0.5), false, nullptr, report);
+            coarsened(solid_shares(design.grid, 0.5), domain_.size, factor), false, nullptr, report);
     return design;
 }
 

@@ -43,6 +43,27 @@ TEST_CASE("optimize reports the search, and saves the densities", "[optimization
     CHECK(saved.box->hi.y == Approx(10));
 }
 
+TEST_CASE("a part that is optimised under the overhang limit is printed without supports",
+          "[optimization][slow]") {
+    const Folder folder;
+    write(folder / "bracket.toml",
+          "[part]\nshape = \"box\"\nsize = [60, 30, 30]\n[material]\nname = \"pla\"\n"
+          "[[load]]\nbox = [[30, -15, -15], [30, 15, -15]]\nforce = [0, 0, -100]\n[[anchor]]\nface = \"-x\"\n"
+          "[optimize]\nelements = 32\nvolume = 0.2\nsymmetry = \"y\"\niterations = 50\n[layers]\nheight = "
+          "0.2\n");
+    const auto overhangs = [&](const std::string& flag) {
+        const Outcome check = run_lamella("check -q --json " + folder / "bracket.toml" + " --plans " +
+                                          folder / "plans" + " --printer marlin " + flag);
+        const Json report = Json::parse(check.out);
+        for (const Json& result : report["checks"]) {
+            if (result["check"] == "overhangs") return result["count"].get<int>();
+        }
+        return -1;
+    };
+    CHECK(overhangs("--optimize-overhang") == 0);
+    CHECK(overhangs("") > 0);
+}
+
 TEST_CASE("slice prints what optimize has found, without another search", "[optimization]") {
     const Folder folder;
     write(folder / "plate.toml", plate + search);
