@@ -19,8 +19,8 @@ struct PartDesign {
 constexpr int extended_layers = 2;
 
 /// Shifts densities such that the shape, where they are above 0.5, fills the largest of these shares of the
-/// body's elements, and empties the pieces that lack an anchored or a loaded element. If less than the smallest
-/// share is left, the rest grows to it. Flags are by element. Returns the number of pieces emptied.
+/// body's elements, and empties the pieces that lack an anchored or a loaded element. If less than the
+/// smallest share is left, the rest grows to it. Flags are by element. Returns the number of pieces emptied.
 std::size_t cut_shape(DensityGrid& grid, Interval volume, std::span<const std::uint8_t> anchored,
                       std::span<const std::uint8_t> loaded);
 
