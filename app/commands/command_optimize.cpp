@@ -10,6 +10,7 @@
 #include "app/commands/prepare_job.h"
 #include "app/console/interrupt.h"
 #include "app/console/text_output.h"
+#include "app/reports/structure_plot.h"
 #include "app/reports/structure_text.h"
 #include "engine/base/error.h"
 #include "procedural/volume/write_nrrd.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct StructureCommand : JobOptions {
     std::string output;
-    std::string save;
+    std::string save, plot;
     std::string model = "auto";
     int elements = 0;
     bool json = false;
@@ -63,6 +64,13 @@ void save_densities(const OptimizedPart& part, const std::string& path) {
                density, part.box);
 }
 
+void draw(const StructureCommand& command, const Recipe& recipe, const OptimizedPart& part) {
+    const bool is_foam = recipe.optimize->result != OptimizeResult::solid;
+    TextOutput out(command.plot);
+    out.write(structure_svg(recipe.part.name, *part.report, part.grid, part.box, is_foam));
+    out.close();
+}
+
 int optimize(const StructureCommand& command) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
@@ -80,6 +88,7 @@ int optimize(const StructureCommand& command) {
     options.on_iteration = [&](const OptimizationStep& step, int steps) { display.show(step, steps); };
     const BuiltJob built = build_job(recipe, options);
     if (!command.save.empty()) save_densities(*built.optimized, command.save);
+    if (!command.plot.empty()) draw(command, recipe, *built.optimized);
     write_report(command, *built.optimized->report);
     if (cancel.cancelled()) throw Interrupted("stopped; the report is that of the best design so far");
     return 0;
@@ -125,9 +134,13 @@ void add_optimize_command(CLI::App& root) {
         .add_option("--save", options->save,
                     "Write the densities as a volume (NRRD): above 0.5 is solid; of a foam, its solid share")
         ->type_name("FILE");
+    command
+        .add_option("--plot", options->plot,
+                    "Picture (SVG) of the steps, and of the result with its loads and supports")
+        ->type_name("FILE");
     finish_command(
         command,
-        "  lamella optimize bracket.toml\n"
+        "  lamella optimize bracket.toml --plot bracket.svg\n"
         "  lamella optimize bracket.toml --optimize-elements 96 --json -o report.json\n"
         "  lamella slice bracket.toml -o bracket.sl1\n"
         "The result is kept with the plans, where slice and all other commands find it. Ctrl-C ends the\n"

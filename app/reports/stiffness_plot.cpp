@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/reports/svg_text.h"
+
 namespace lamella {
 
 namespace {
@@ -28,39 +30,21 @@ struct Axes {
     }
 };
 
-std::string label(double x, double y, const std::string& words, const char* more = "") {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, words);
-}
-
-std::string svg_escaped(const std::string& words) {
-    std::string out;
-    for (const char c : words) {
-        if (c == '<') {
-            out += "&lt;";
-        } else if (c == '&') {
-            out += "&amp;";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
-
 std::string grid(const Axes& axes) {
     std::string text;
     const double x0 = left, x1 = panel - right, y0 = panel - bottom, y1 = top;
     for (int power = static_cast<int>(axes.min_density); power <= 0; ++power) {
         const double x = axes.x(std::pow(10.0, power));
         text += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>\n", x, y0, y1);
-        text +=
-            label(x, y0 + 18, fmt::format("{:g} %", 100 * std::pow(10.0, power)), "text-anchor=\"middle\"");
+        text += svg_label(x, y0 + 18, fmt::format("{:g} %", 100 * std::pow(10.0, power)),
+                          "text-anchor=\"middle\"");
     }
     for (int power = static_cast<int>(axes.min_young); power <= static_cast<int>(axes.max_young); ++power) {
         const double y = axes.y(std::pow(10.0, power));
         text += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/>\n", x0, y, x1);
-        text += label(x0 - 6, y + 4, fmt::format("{:g}", std::pow(10.0, power)), "text-anchor=\"end\"");
+        text += svg_label(x0 - 6, y + 4, fmt::format("{:g}", std::pow(10.0, power)), "text-anchor=\"end\"");
     }
-    text += label((x0 + x1) / 2, panel - 14, "density, of the solid's", "text-anchor=\"middle\"");
+    text += svg_label((x0 + x1) / 2, panel - 14, "density, of the solid's", "text-anchor=\"middle\"");
     text += fmt::format(
         "<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\">E, MPa</text>\n",
         (y0 + y1) / 2);
@@ -102,7 +86,7 @@ std::string legend(const StiffnessPlot& plot) {
     const auto entry = [&](const char* colour, const std::string& words) {
         text += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h18\"/>\n", colour,
                             left + 10, y - 4);
-        text += label(left + 34, y, words);
+        text += svg_label(left + 34, y, words);
         y += 17;
     };
     entry("#888888", "Voigt: no structure is stiffer");
@@ -196,10 +180,12 @@ std::string surface(const StiffnessPlot::Sample& sample) {
             fmt::format("#{:02x}{:02x}{:02x}", tone(54, 250), tone(96, 196), tone(160, 60));
         text += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\"/>\n", points, colour, colour);
     }
-    text += label(x, top + 16, "Young's modulus to all sides", "text-anchor=\"middle\"");
-    text += label(x, panel - 32, fmt::format("{:.4g} (blue) to {:.4g} MPa (yellow)", moduli.lo, moduli.hi),
+    text += svg_label(x, top + 16, "Young's modulus to all sides", "text-anchor=\"middle\"");
+    text +=
+        svg_label(x, panel - 32, fmt::format("{:.4g} (blue) to {:.4g} MPa (yellow)", moduli.lo, moduli.hi),
                   "text-anchor=\"middle\"");
-    text += label(x, panel - 14, fmt::format("{:.2g} % from isotropic", 100 * anisotropy(sample.stiffness)),
+    text +=
+        svg_label(x, panel - 14, fmt::format("{:.2g} % from isotropic", 100 * anisotropy(sample.stiffness)),
                   "text-anchor=\"middle\"");
     return text;
 }
@@ -215,7 +201,7 @@ std::string stiffness_svg(const StiffnessPlot& plot) {
         "stroke-width:1.6}}polygon{{stroke-width:.4}}</style>\n<rect width=\"100%\" height=\"100%\" "
         "fill=\"white\"/>\n",
         width, panel);
-    text += label(left, 26, svg_escaped(plot.title), "style=\"font-weight:bold\"");
+    text += svg_label(left, 26, svg_escaped(plot.title), "style=\"font-weight:bold\"");
     text += chart(plot);
     if (plot.sample) text += surface(*plot.sample);
     return text + "</svg>\n";

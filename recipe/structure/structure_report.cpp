@@ -47,6 +47,26 @@ CaseReport case_report(const StructuralProblem<Dim>& problem, const ElementDomai
     return result;
 }
 
+template <std::size_t Dim>
+void add_nodes(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report) {
+    const ElasticBody<Dim>& body = problem.topology.body;
+    const glm::ivec3 last = Dim == 2 ? glm::ivec3(domain.size.x, domain.size.y, 0) : domain.size;
+    for (int z = 0; z <= last.z; ++z) {
+        for (int y = 0; y <= last.y; ++y) {
+            for (int x = 0; x <= last.x; ++x) {
+                const std::size_t node = body.grid.number(x, y, z);
+                if (body.fixed[node] != 0) report.held.push_back(domain.node({x, y, z}));
+                for (const LoadCase<Dim>& load : problem.topology.cases) {
+                    dvec3 force(0);
+                    for (std::size_t d = 0; d < Dim; ++d)
+                        force[static_cast<int>(d)] = load.forces.along[d][node];
+                    if (force != dvec3(0)) report.loaded.push_back({domain.node({x, y, z}), force});
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 
 template <std::size_t Dim>
@@ -61,6 +81,7 @@ void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain
     report.body_volume = domain.element_volume() * static_cast<double>(report.elements);
     report.volume_bound = problem.topology.volume;
     report.notes = problem.notes;
+    add_nodes(problem, domain, report);
 }
 
 template <std::size_t Dim>

@@ -20,6 +20,12 @@ struct CaseReport {
     dvec3 stress_at{0};               ///< mm
 };
 
+/// A node on which a load acts, in the load's direction.
+struct NodeForce {
+    dvec3 at{0};     ///< mm
+    dvec3 force{0};  ///< N
+};
+
 /// A step of a search.
 struct OptimizationStep : TopologyIteration {
     double appearance = 0;  ///< A of the densities, see Appearance; 0: no picture was given
@@ -49,10 +55,12 @@ struct StructureReport {
     double least_compliance = 0;            ///< with a picture: of the stiffest densities, N mm
     std::vector<OptimizationStep> history;  ///< compliances in N mm; with a picture as multiples of the least
     std::vector<CaseReport> cases;
+    std::vector<NodeForce> loaded;  ///< nodes with forces, of all cases; without self-weight
+    std::vector<dvec3> held;        ///< nodes that are held along one axis or more, mm
     std::vector<std::string> notes;
 };
 
-/// Describes the problem: sizes, material, notes.
+/// Describes the problem: sizes, material, loads, supports, notes.
 template <std::size_t Dim>
 void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report);
 

@@ -28,8 +28,13 @@ TEST_CASE("optimize reports the search, and saves the densities", "[optimization
     for (const char* words : {"800 in a grid of 40 x 20", "E = 2000 MPa", "of at most 40.00 %", "von Mises"})
         CHECK(mentions(text.out, words));
     CHECK(mentions(text.err, "30/30"));
-    const Outcome json =
-        run_lamella("optimize -q --json " + folder / "plate.toml" + " --save " + folder / "plate.nrrd");
+    const Outcome json = run_lamella("optimize -q --json " + folder / "plate.toml" + " --save " +
+                                     folder / "plate.nrrd" + " --plot " + folder / "plate.svg");
+    const std::string plot = contents(folder / "plate.svg");
+    for (const char* words :
+         {"30 steps", "compliance, N mm", "% of the part", "<rect", "<polygon", "<circle"})
+        CHECK(mentions(plot, words));
+    CHECK(plot.ends_with("</svg>\n"));
     CHECK(json.code == 0);
     CHECK(json.err.empty());
     const Json report = Json::parse(json.out);
