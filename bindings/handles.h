@@ -28,6 +28,7 @@ struct lamella_job {
     lamella::Recipe recipe;
     lamella::MachineProfiles profiles;
     lamella::Job job;
+    lamella::BuiltJob built;  ///< what the job was made of; its own job has been moved out
 };
 
 /// A section. One that was opened at a height owns its slices; that of a layer in flight borrows the layer's.

@@ -7,6 +7,7 @@
 #include "recipe/build/finish_job.h"
 #include "recipe/output/job_picture.h"
 #include "recipe/printer_choice.h"
+#include "recipe/structure/structure_report.h"
 
 namespace lamella {
 
@@ -38,19 +39,32 @@ using namespace lamella;
 
 namespace {
 
-/// The surveys, supports and copies of a recipe's job.
-Job finished(const Recipe& recipe, const lamella_build_options& options) {
-    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+/// Makes what a recipe asks for: search, surveys, supports and copies.
+void make(const lamella_build_options& options, lamella_job& made) {
+    const Recipe& recipe = made.recipe;
+    OptimizeOptions optimizing;
+    optimizing.plans = options.plans ? options.plans : "";
+    optimizing.threads = options.threads;
+    optimizing.cancel = options.cancel ? &options.cancel->token : nullptr;
+    const auto on_progress = progress_to(options.progress, options.user);
+    if (on_progress) {
+        optimizing.on_iteration = [&](const OptimizationStep& step, int steps) {
+            on_progress("optimisation", {step.index, std::max(steps, step.index)});
+        };
+    }
+    made.built = build_job(recipe, optimizing);
+    stop_if_cancelled(optimizing.cancel);  // a search that was cancelled ends with its best so far
     FinishOptions finish;
-    finish.plans = options.plans ? options.plans : "";
+    finish.plans = optimizing.plans;
     finish.threads = options.threads;
-    finish.on_progress = progress_to(options.progress, options.user);
-    finish.cancel = options.cancel ? &options.cancel->token : nullptr;
-    const SupportStructures around = finish_job(recipe, built, finish);
-    add_picture(recipe, built, around.supports, options.threads);
-    if (recipe.plate.copies == 1) return std::move(built.job);
-    const PlateItem item{built.job, recipe.plate.copies};
-    return arrange_plate({&item, 1}, recipe.plate.gap, plate_size(recipe.printer));
+    finish.on_progress = on_progress;
+    finish.cancel = optimizing.cancel;
+    const SupportStructures around = finish_job(recipe, made.built, finish);
+    add_picture(recipe, made.built, around.supports, options.threads);
+    made.job = std::move(made.built.job);
+    if (recipe.plate.copies == 1) return;
+    const PlateItem item{made.job, recipe.plate.copies};
+    made.job = arrange_plate({&item, 1}, recipe.plate.gap, plate_size(recipe.printer));
 }
 
 const lamella_job& job_of(const lamella_job* job) { return wanted(job, "job"); }
@@ -82,7 +96,7 @@ std::int32_t lamella_job_build(lamella_context* context, const lamella_recipe* r
         auto made = std::make_unique<lamella_job>();
         made->recipe = draft.finish();
         made->profiles = recipe->profiles;
-        made->job = finished(made->recipe, with);
+        make(with, *made);
         *job = made.release();
     });
 }

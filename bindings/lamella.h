@@ -209,9 +209,10 @@ typedef struct lamella_build_options {
     int32_t threads;        /* 0: one per core */
     lamella_cancel* cancel; /* may be null */
     lamella_on_progress
-        progress; /* of surveys before the first layer, if the recipe needs any; may be null */
+        progress; /* of searches and surveys before the first layer, if the recipe needs any; may be null */
     void* user;
-    const char* plans; /* folder in which support plans are kept for later runs; null: none are kept */
+    /* folder in which supports and optimised parts are kept for later runs; null: none are kept */
+    const char* plans;
 } lamella_build_options;
 
 typedef struct lamella_job_info {
@@ -237,6 +238,43 @@ LAMELLA_API int32_t lamella_job_layer_z(lamella_context* context, const lamella_
 /* Writes the values of the part's field at `count` points (x, y, z each, mm): below zero inside. */
 LAMELLA_API int32_t lamella_job_values(lamella_context* context, const lamella_job* job, const double* points,
                                        size_t count, double* values);
+
+/* How the part bears the [[load]]s of its recipe. Compliances are weighted sums over the load cases. */
+typedef struct lamella_structure {
+    uint32_t struct_size;
+    int32_t dimensions;          /* 2 for a plate, else 3 */
+    int32_t iterations;          /* of the search that made the part; 0: it was only analysed */
+    int32_t converged;           /* 1: the search ended by its tolerance */
+    double element;              /* edge of the finite elements, mm */
+    double full_compliance;      /* with material everywhere, N mm */
+    double compliance;           /* of the part, N mm */
+    double volume;               /* share of the body that is solid; 0: not known, of a foam by its law */
+    double mass;                 /* g; 0: the material's density is not known */
+    double largest_displacement; /* over all load cases, mm */
+    double peak_stress;          /* von Mises, over all load cases, MPa; 0 of a foam by its law */
+    double appearance;           /* difference from the picture of [optimize]; 0: there is none */
+    double stiffest_appearance;  /* the same of the stiffest part with as much material */
+} lamella_structure;
+
+enum {
+    LAMELLA_MODEL_AUTOMATIC = 0, /* by the foam's law if it has a known one, else by elements */
+    LAMELLA_MODEL_ELEMENTS = 1,  /* elements inside the part: struts need four or more across */
+    LAMELLA_MODEL_LAW = 2
+};
+
+typedef struct lamella_analysis_options {
+    uint32_t struct_size;
+    int32_t model;          /* LAMELLA_MODEL_... */
+    int32_t elements;       /* along the part's longest side; 0: those of [optimize], else a usual number */
+    int32_t threads;        /* 0: one per core */
+    lamella_cancel* cancel; /* may be null */
+} lamella_analysis_options;
+
+/* Analyses a job's part. Without options it is the result of the search, if the recipe has [optimize] and the
+ * result does not come from a plan. */
+LAMELLA_API int32_t lamella_job_structure(lamella_context* context, const lamella_job* job,
+                                          const lamella_analysis_options* options,
+                                          lamella_structure* structure);
 
 /* ---- Sections: a job at one height ------------------------------------------------------------------- */
 

@@ -23,6 +23,7 @@ from ._job_info import JobInfo
 from ._raster import Raster, Runs
 from ._recipe import Recipe
 from ._section import PART, SUPPORTS, Section, SectionInfo, What
+from ._structure import Structure
 
 __version__: str = _native.lamella_version().decode()
 
@@ -48,5 +49,6 @@ __all__ = [
     "Section",
     "SectionInfo",
     "StoppedError",
+    "Structure",
     "What",
 ]

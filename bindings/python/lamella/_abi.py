@@ -95,6 +95,34 @@ class JobInfo(Sized):
     ]
 
 
+class Structure(Sized):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("dimensions", c_int32),
+        ("iterations", c_int32),
+        ("converged", c_int32),
+        ("element", c_double),
+        ("full_compliance", c_double),
+        ("compliance", c_double),
+        ("volume", c_double),
+        ("mass", c_double),
+        ("largest_displacement", c_double),
+        ("peak_stress", c_double),
+        ("appearance", c_double),
+        ("stiffest_appearance", c_double),
+    ]
+
+
+class AnalysisOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("model", c_int32),
+        ("elements", c_int32),
+        ("threads", c_int32),
+        ("cancel", c_void_p),
+    ]
+
+
 class SectionInfo(Sized):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -228,6 +256,7 @@ _signatures: dict[str, tuple[object, tuple]] = {
     "job_info_get": (c_int32, (c_void_p, c_void_p, POINTER(JobInfo))),
     "job_layer_z": (c_int32, (c_void_p, c_void_p, c_int32, POINTER(c_double))),
     "job_values": (c_int32, (c_void_p, c_void_p, c_void_p, c_size_t, c_void_p)),
+    "job_structure": (c_int32, (c_void_p, c_void_p, POINTER(AnalysisOptions), POINTER(Structure))),
     "section_open": (c_int32, (c_void_p, c_void_p, c_double, POINTER(c_void_p))),
     "section_open_layer": (c_int32, (c_void_p, c_void_p, c_int32, POINTER(c_void_p))),
     "section_destroy": (None, _one),

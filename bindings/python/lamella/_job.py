@@ -20,6 +20,7 @@ from ._handle import Handle
 from ._job_info import JobInfo, job_info
 from ._progress import OnProgress, Progress, count_of_threads
 from ._section import Section
+from ._structure import MODELS, Structure, structure
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,38 @@ class Job(Handle):
                 callbacks=self._callbacks,
             )
         return values
+
+    def structure(self) -> Structure:
+        """How the part bears its loads: the result of the search that `[optimize]` asks for, or an analysis
+        where there was none.
+        """
+        told = _abi.Structure()
+        with self._used() as pointer:
+            call(library.lamella_job_structure, pointer, None, byref(told), callbacks=self._callbacks)
+        return structure(told)
+
+    def analyse(
+        self, model: str = "auto", *, elements: int = 0, threads: int = 0, cancel: Cancel | None = None
+    ) -> Structure:
+        """Analyses the part under the recipe's loads. Model "elements" takes the elements inside it, "law" the
+        foam's, "auto" the law if it is known. `elements` along the longest side, 0: as many as usual.
+        """
+        if model not in MODELS:
+            raise CallError(f"model: must be one of {', '.join(MODELS)}, not {model!r}")
+        options = _abi.AnalysisOptions(
+            model=MODELS.index(model), elements=elements, threads=count_of_threads(threads)
+        )
+        told = _abi.Structure()
+
+        def work(job: c_void_p, token: c_void_p) -> None:
+            options.cancel = token
+            call(
+                library.lamella_job_structure, job, byref(options), byref(told), callbacks=self._callbacks
+            )
+
+        with self._used() as pointer:
+            stoppable(lambda token: work(pointer, token), cancel)
+        return structure(told)
 
     def section(self, z: float) -> Section:
         """Cuts the job at any height, mm in part coordinates."""

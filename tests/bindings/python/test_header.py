@@ -23,6 +23,8 @@ STRUCTS = {
     "mesh": _abi.Mesh,
     "build_options": _abi.BuildOptions,
     "job_info": _abi.JobInfo,
+    "structure": _abi.Structure,
+    "analysis_options": _abi.AnalysisOptions,
     "section_info": _abi.SectionInfo,
     "raster": _abi.Raster,
     "runs_view": _abi.RunsView,

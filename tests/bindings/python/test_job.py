@@ -20,6 +20,19 @@ class Jobs(unittest.TestCase):
         self.assertFalse(job.has_supports)
         self.assertAlmostEqual(job.layer_z(3), -RADIUS + 3.5 * 0.5)
 
+    def test_a_bar_stretches_by_its_length_times_stress_over_modulus(self) -> None:
+        recipe = lamella.Recipe(
+            '[part]\nshape = "box"\nsize = [20, 4, 4]\n[material]\nyoung = 2000\npoisson = 0\n'
+            '[[load]]\nface = "+x"\nforce = [16, 0, 0]\n[[anchor]]\nface = "-x"\n'
+        )
+        bar = recipe.build()
+        found = bar.analyse("elements", elements=20)
+        self.assertAlmostEqual(found.largest_displacement, 0.01, places=6)
+        self.assertEqual((found.dimensions, found.iterations), (3, 0))
+        self.assertAlmostEqual(bar.structure().compliance, found.compliance, places=5)
+        with self.assertRaisesRegex(lamella.CallError, "model: must be one of auto, elements, law"):
+            bar.analyse("beams")
+
     def test_bounds_are_a_copy(self) -> None:
         job = ball()
         job.bounds[:] = 0
