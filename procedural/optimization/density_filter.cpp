@@ -51,6 +51,21 @@ DensityFilter::DensityFilter(glm::ivec3 size, std::span<const std::uint8_t> doma
     smooth([](std::size_t) { return 1.0; }, [](std::size_t, double sum) { return sum; }, weight_sums_);
 }
 
+void DensityFilter::open_border(std::span<const std::uint8_t> elements) {
+    grid_.check(elements.size(), "the mask of open elements");
+    const int reach = static_cast<int>(std::ceil(radius_)) - 1, reach_z = grid_.flat() ? 0 : reach;
+    double whole = 0;
+    for (int dz = -reach_z; dz <= reach_z; ++dz) {
+        for (int dy = -reach; dy <= reach; ++dy) {
+            for (int dx = -reach; dx <= reach; ++dx)
+                whole += std::max(0.0, radius_ - std::sqrt(static_cast<double>(dx * dx + dy * dy + dz * dz)));
+        }
+    }
+    for (std::size_t i = 0; i < weight_sums_.size(); ++i) {
+        if (elements[i] != 0 && grid_.inside(i)) weight_sums_[i] = whole;
+    }
+}
+
 /// Returns source(element) for the elements of the domain and 0 for others, with the padding around.
 template <class Source>
 std::vector<double> DensityFilter::padded(const Source& source) const {

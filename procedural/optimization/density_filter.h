@@ -41,6 +41,11 @@ class DensityFilter {
     DensityFilter(glm::ivec3 size, std::span<const std::uint8_t> domain, double radius,
                   FilterPadding padding = FilterPadding::cut);
 
+    /// Lets these elements (1; one number per element) see void where the grid or the domain ends: H_i
+    /// becomes that of an element all of whose neighbours are there. A member along such a border is then
+    /// measured like any other; without it, its mirror image counts as well, and it may be half as thick.
+    void open_border(std::span<const std::uint8_t> elements);
+
     const DesignGrid& grid() const { return grid_; }
     double radius() const { return radius_; }
 

@@ -18,6 +18,8 @@ struct DensitySettings {
     double radius = 1.5;  ///< of the density filter, elements
     FilterPadding padding = FilterPadding::cut;
     std::optional<LengthScale> length_scale{};  ///< replaces the radius: three fields, see RobustFields
+    /// By element: sees void beyond the border, see DensityFilter::open_border. Empty: none does.
+    std::vector<std::uint8_t> open{};
     std::array<bool, 3> mirrored{};             ///< symmetry across the middle of the grid, by axis
     std::optional<OverhangSettings> overhang{};
 };

@@ -31,6 +31,8 @@ class RobustFields {
     RobustFields(glm::ivec3 size, std::span<const std::uint8_t> domain, const LengthScale& scale,
                  FilterPadding padding = FilterPadding::mirror);
 
+    /// As DensityFilter::open_border.
+    void open_border(std::span<const std::uint8_t> elements) { filter_.open_border(elements); }
     const DensityFilter& filter() const { return filter_; }
     const LengthScale& scale() const { return scale_; }
 

@@ -62,6 +62,7 @@ class PartOptimizer {
 
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
+    std::vector<std::uint8_t> far_from_holds(double radius) const;
     std::vector<std::uint8_t> of_parts(const std::vector<std::uint8_t>& flags, int factor) const;
 
     const Recipe& recipe_;
@@ -104,6 +105,29 @@ DensityGrid PartOptimizer<Dim>::densities(const DensityMap& found) const {
             is_smooth ? found.smooth_density() : std::vector<double>(printed.begin(), printed.end())};
 }
 
+/// Returns the elements that neither a support nor a load is near to: there, the body goes on in what holds
+/// or loads it, and a member ends at the border without becoming thin.
+template <std::size_t Dim>
+std::vector<std::uint8_t> PartOptimizer<Dim>::far_from_holds(double radius) const {
+    std::vector<std::uint8_t> far(domain_.use.size(), 1);
+    const DensityGrid grid{domain_.size, {}, {}};
+    const int reach = static_cast<int>(std::ceil(radius));
+    for (std::size_t i = 0; i < far.size(); ++i) {
+        if (problem_->anchored[i] == 0 && problem_->loaded[i] == 0) continue;
+        const glm::ivec3 middle = grid.element(i), lo = glm::max(middle - reach, glm::ivec3(0)),
+                         hi = glm::min(middle + reach, domain_.size - 1);
+        for (int z = lo.z; z <= hi.z; ++z) {
+            for (int y = lo.y; y <= hi.y; ++y) {
+                for (int x = lo.x; x <= hi.x; ++x) {
+                    const dvec3 from(glm::ivec3(x, y, z) - middle);
+                    if (glm::dot(from, from) <= radius * radius) far[grid.place({x, y, z})] = 0;
+                }
+            }
+        }
+    }
+    return far;
+}
+
 /// Returns flags of elements for the parts of a refined grid.
 template <std::size_t Dim>
 std::vector<std::uint8_t> PartOptimizer<Dim>::of_parts(const std::vector<std::uint8_t>& flags,
@@ -130,7 +154,9 @@ PartDesign PartOptimizer<Dim>::optimize() {
     design.report = std::make_shared<StructureReport>();
     StructureReport& report = *design.report;
     describe(*problem_, domain_, report);
-    const TopologySettings settings = topology_settings(*recipe_.optimize, domain_, options_.cancel);
+    TopologySettings settings = topology_settings(*recipe_.optimize, domain_, options_.cancel);
+    if (settings.density.length_scale)
+        settings.density.open = far_from_holds(settings.density.length_scale->radius);
     TopologyOptimizer<Dim> optimizer(problem_->topology, settings);
     search(optimizer, settings.iterations, report);
     design.grid = densities(optimizer.densities());

@@ -69,6 +69,39 @@ TEST_CASE("a part that is optimised under the overhang limit is printed without 
     CHECK(overhangs("") > 0);
 }
 
+TEST_CASE("no member and no gap is thinner than asked", "[optimization][slow]") {
+    struct Problem {
+        std::string size, loads;
+        int elements;
+        double least;
+    };
+    const std::string half_beam =
+        "[[load]]\nbox = [[-60, 20, -2], [-60, 20, 2]]\nforce = [0, -10, 0]\n"
+        "[[anchor]]\nface = \"-x\"\nfix = \"x\"\n[[anchor]]\nbox = [[58, -20, -2], [60, -20, 2]]\nfix = "
+        "\"y\"\n";
+    const std::string console =
+        "[[load]]\nbox = [[40, -1, -2], [40, 1, 2]]\nforce = [0, -10, 0]\n[[anchor]]\nface = \"-x\"\n";
+    const std::string two_cases =
+        "[[load]]\nbox = [[30, 26, -2], [30, 30, 2]]\nforce = [0, 10, 0]\ncase = \"up\"\n"
+        "[[load]]\nbox = [[30, -30, -2], [30, -26, 2]]\nforce = [0, -10, 0]\ncase = \"down\"\n"
+        "[[anchor]]\nface = \"-x\"\n";
+    for (const Problem& problem :
+         {Problem{"120, 40, 3", half_beam, 150, 4}, Problem{"80, 40, 3", console, 120, 3},
+          Problem{"60, 60, 3", two_cases, 100, 3}}) {
+        const Folder folder;
+        const std::string least = std::to_string(problem.least);
+        write(folder / "plate.toml",
+              "[part]\nshape = \"box\"\nsize = [" + problem.size + "]\n" + problem.loads +
+                  "[optimize]\ndimensions = 2\nvolume = 0.4\nelements = " + std::to_string(problem.elements) +
+                  "\nmember = " + least + "\ngap = " + least + "\n");
+        const Outcome check = run_lamella(
+            "check -q " + folder / "plate.toml" + " --plans " + folder / "plans" +
+            " --printer laser-500x300 --check-least-thickness " + least + " --check-least-gap " + least);
+        CAPTURE(problem.loads, check.out);
+        CHECK(check.code == 0);
+    }
+}
+
 TEST_CASE("slice prints what optimize has found, without another search", "[optimization]") {
     const Folder folder;
     write(folder / "plate.toml", plate + search);

@@ -136,6 +136,38 @@ TEST_CASE("the gradient of the density filter is that of differences", "[optimiz
     }
 }
 
+TEST_CASE("elements at an open border see void beyond it", "[optimization]") {
+    // The same as in the middle of a larger grid whose domain is the small one and whose other elements are
+    // 0.
+    const glm::ivec3 size(9, 7, 4), around(4);
+    const double radius = 3.3;
+    const std::size_t n = count_of(size);
+    const Values x = random_values(n, 31);
+    Domain open = random_domain(n, 32);
+    DensityFilter filter(size, Domain(n, 1), radius);
+    Values whole(n), out(n);
+    filter.forward(x, whole);
+    filter.open_border(open);
+    filter.forward(x, out);
+    const glm::ivec3 wide = size + 2 * around;
+    Values padded(count_of(wide)), far(padded.size());
+    const auto place = [](glm::ivec3 p, glm::ivec3 s) {
+        return static_cast<std::size_t>(p.x + s.x * (p.y + s.y * p.z));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        const int k = static_cast<int>(i);
+        padded[place(around + glm::ivec3(k % size.x, k / size.x % size.y, k / size.x / size.y), wide)] = x[i];
+    }
+    DensityFilter(wide, Domain(padded.size(), 1), radius).forward(padded, far);
+    for (std::size_t i = 0; i < n; ++i) {
+        const int k = static_cast<int>(i);
+        const std::size_t at =
+            place(around + glm::ivec3(k % size.x, k / size.x % size.y, k / size.x / size.y), wide);
+        CHECK(out[i] == Approx(open[i] != 0 ? far[at] : whole[i]).epsilon(1e-12));
+    }
+    CHECK_THROWS_AS(filter.open_border(Domain(n - 1, 1)), InputError);
+}
+
 TEST_CASE("a constant stays constant under the density filter, at borders and edges of the domain",
           "[optimization]") {
     for (const Case& c : cases()) {

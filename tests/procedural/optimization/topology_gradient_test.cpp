@@ -145,6 +145,11 @@ void check_all() {
         check_chain(plain, {.padding = FilterPadding::mirror, .length_scale = LengthScale{.radius = 2.2}}, 4,
                     5);
     }
+    SECTION("three fields with open borders") {
+        std::vector<std::uint8_t> open(plain.use.size());
+        for (std::size_t i = 0; i < open.size(); ++i) open[i] = i % 3 != 0;
+        check_chain(plain, {.length_scale = LengthScale{.radius = 2.2}, .open = open}, 4, 15);
+    }
     SECTION("overhang") {
         check_chain(plain, {.radius = 1.8, .overhang = OverhangSettings{.axis = up}}, 0, 6);
         check_chain(plain, {.radius = 1.8, .overhang = OverhangSettings{.axis = up}}, 4, 7);
