@@ -25,6 +25,7 @@ struct StructureCommand : JobOptions {
     std::string save, plot;
     std::string model = "auto";
     int elements = 0;
+    bool resume = false;
     bool json = false;
 };
 
@@ -82,6 +83,7 @@ int optimize(const StructureCommand& command) {
     OptimizeOptions options;
     options.plans = command.plans;
     options.anew = true;
+    options.resume = command.resume;
     options.threads = command.threads;
     options.cancel = &cancel;
     IterationDisplay display(command.quiet);
@@ -138,13 +140,14 @@ void add_optimize_command(CLI::App& root) {
         .add_option("--plot", options->plot,
                     "Picture (SVG) of the steps, and of the result with its loads and supports")
         ->type_name("FILE");
+    command.add_flag("--resume", options->resume, "Go on where Ctrl-C ended the search");
     finish_command(
         command,
         "  lamella optimize bracket.toml --plot bracket.svg\n"
         "  lamella optimize bracket.toml --optimize-elements 96 --json -o report.json\n"
         "  lamella slice bracket.toml -o bracket.sl1\n"
         "The result is kept with the plans, where slice and all other commands find it. Ctrl-C ends the\n"
-        "search and reports the best design so far, which is not kept.");
+        "search and reports the best design so far; --resume goes on with it.");
     command.callback([options] { optimize(*options); });
 }
 

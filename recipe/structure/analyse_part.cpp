@@ -49,7 +49,10 @@ StructureReport analysed(const Recipe& recipe, ElementDomain domain, const Gradi
     if (modulus) density = moduli_by_law(domain, *modulus, problem.material.elastic.young);
     analyse(problem, domain, make_penalty_law({1, void_modulus, 0}), density, modulus != nullptr, cancel,
             report);
-    if (modulus) report.volume = report.mass = 0;  // what was summed were moduli
+    if (modulus) {
+        report.volume = report.mass = 0;  // what was summed were moduli
+        note_bare_foam(recipe, report);
+    }
     return report;
 }
 

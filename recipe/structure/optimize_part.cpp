@@ -93,8 +93,12 @@ std::string optimize_hash(const Recipe& recipe) { return job_identity(relevant(r
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options) {
     const bool is_foam = recipe.optimize->result != OptimizeResult::solid;
-    const std::filesystem::path file =
-        options.plans.empty() ? std::filesystem::path() : options.plans / (optimize_hash(recipe) + ".nrrd");
+    std::filesystem::path file, search;
+    if (!options.plans.empty()) {
+        const std::string hash = optimize_hash(recipe);
+        file = options.plans / (hash + ".nrrd");
+        search = options.plans / (hash + ".search");
+    }
     if (!file.empty() && !options.anew) {
         if (auto kept = kept_part(file, body, is_foam)) {
             if (is_foam) kept->foam_sizes = sizes_of_foam(OptimizedFoam(recipe), kept->grid, kept->box);
@@ -105,7 +109,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     const PartDesign design = arena.execute([&] {
         return recipe.optimize->kind == OptimizeKind::appearance
                    ? pictured_plate(recipe, *body, regions, gradings, options)
-                   : stiffest_part(recipe, *body, regions, gradings, options);
+                   : stiffest_part(recipe, *body, regions, gradings, options, search);
     });
     OptimizedPart part;
     part.grid = design.grid;

@@ -19,11 +19,14 @@ struct StructureReport;
 struct OptimizeOptions {
     std::filesystem::path plans{};  ///< folder for results; empty: none are read or kept
     bool anew = false;              ///< optimises even if the folder has the result
-    int threads = 0;                ///< 0: one per core
+    /// Goes on where a search of the same problem was cancelled, which the folder keeps. Throws InputError if
+    /// it has none.
+    bool resume = false;
+    int threads = 0;  ///< 0: one per core
     /// Called after each iteration with the number of iterations at most; may be empty.
     std::function<void(const OptimizationStep&, int iterations)> on_iteration{};
-    /// Ends the search with the best design so far, which is not kept; may be null. The search for an
-    /// appearance has none before its end.
+    /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null. The
+    /// search for an appearance has none before its end.
     const CancelToken* cancel = nullptr;
 };
 

@@ -145,6 +145,11 @@ OptimizationStep step_of(const AppearanceStep& found, int index) {
 PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                           Gradings& gradings, const OptimizeOptions& options) {
     const OptimizeRecipe& optimize = *recipe.optimize;
+    if (options.resume)
+        throw InputError(
+            "--resume: a search for an appearance that was stopped is not kept; accepted: kind stiffness, or "
+            "no "
+            "--resume");
     const PlateProblems problems(recipe, body, regions, gradings, options.cancel);
     ElementDomain domain;
     const StructuralProblem<2> problem = problems.problem(problems.finest().size, 1, domain);

@@ -1,6 +1,8 @@
 // Problem, loop, shape, and the analysis of the shape.
 #include "recipe/structure/stiffest_part.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "procedural/optimization/overhang_shape.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/optimized_foam.h"
+#include "recipe/structure/stopped_search.h"
 #include "recipe/structure/structural_problem.h"
 
 namespace lamella {
@@ -35,8 +38,8 @@ template <std::size_t Dim>
 class PartOptimizer {
   public:
     PartOptimizer(const Recipe& recipe, ElementDomain domain, Gradings& gradings,
-                  const OptimizeOptions& options)
-        : recipe_(recipe), options_(options), domain_(std::move(domain)) {
+                  const OptimizeOptions& options, const std::filesystem::path& file)
+        : recipe_(recipe), options_(options), file_(file), domain_(std::move(domain)) {
         if (recipe.optimize->result != OptimizeResult::solid) foam_.emplace(recipe);
         problem_.emplace(
             structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : unknown_poisson));
@@ -60,6 +63,8 @@ class PartOptimizer {
   private:
     static constexpr double unknown_poisson = -1;
 
+    void go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
+    void keep(const TopologyOptimizer<Dim>& optimizer, const StructureReport& report) const;
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
     std::vector<std::uint8_t> far_from_holds(double radius) const;
@@ -67,6 +72,7 @@ class PartOptimizer {
 
     const Recipe& recipe_;
     const OptimizeOptions& options_;
+    const std::filesystem::path& file_;  ///< of a search that is stopped
     ElementDomain domain_;
     std::optional<OptimizedFoam> foam_;
     std::optional<StructuralProblem<Dim>> problem_;
@@ -76,6 +82,7 @@ class PartOptimizer {
 template <std::size_t Dim>
 void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iterations,
                                 StructureReport& report) const {
+    if (options_.resume) go_on(optimizer, report);
     while (!optimizer.is_finished()) {
         try {
             OptimizationStep step{optimizer.iterate()};
@@ -84,15 +91,39 @@ void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iteration
             report.history.push_back(step);
         } catch (const Interrupted&) {
             if (report.history.empty()) throw;
+            keep(optimizer, report);
             break;
         }
         if (options_.on_iteration) options_.on_iteration(report.history.back(), iterations);
     }
+    std::error_code ignored;
+    if (optimizer.is_finished()) std::filesystem::remove(file_, ignored);
     optimizer.show_design();
     const OptimizationStep& last = report.history.back();
     report.is_converged = optimizer.is_finished() && last.change < recipe_.optimize->tolerance;
     report.densities_compliance = last.compliance;
     report.greyness = last.greyness;
+}
+
+template <std::size_t Dim>
+void PartOptimizer<Dim>::go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const {
+    std::optional<StoppedSearch> stopped = read_search(file_);
+    if (!stopped)
+        throw InputError(
+            fmt::format("--resume: {} keeps no search of this recipe that was stopped; accepted: the recipe "
+                        "and --plans of "
+                        "then, or no --resume",
+                        file_.empty() ? "no folder" : file_.parent_path().string()));
+    optimizer.set_state(std::move(stopped->state));
+    report.history = std::move(stopped->history);
+}
+
+template <std::size_t Dim>
+void PartOptimizer<Dim>::keep(const TopologyOptimizer<Dim>& optimizer, const StructureReport& report) const {
+    if (file_.empty()) return;
+    std::error_code ignored;
+    std::filesystem::create_directories(file_.parent_path(), ignored);
+    write_search(file_, {optimizer.state(), report.history});
 }
 
 /// The filtered field is smooth, and says where the projected one is solid. What the overhang filter leaves
@@ -161,6 +192,7 @@ PartDesign PartOptimizer<Dim>::optimize() {
     search(optimizer, settings.iterations, report);
     design.grid = densities(optimizer.densities());
     if (foam_) {
+        note_bare_foam(recipe_, report);
         extend_outside(design.grid, extended_layers);
         analyse(*problem_, domain_, problem_->topology.law, design.grid.density, true, nullptr, report);
         return design;
@@ -182,11 +214,12 @@ PartDesign PartOptimizer<Dim>::optimize() {
 }  // namespace
 
 PartDesign stiffest_part(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
-                         Gradings& gradings, const OptimizeOptions& options) {
+                         Gradings& gradings, const OptimizeOptions& options,
+                         const std::filesystem::path& search) {
     ElementDomain domain = element_domain(recipe, body, regions, options.cancel);
     if (domain.dimensions == 2)
-        return PartOptimizer<2>(recipe, std::move(domain), gradings, options).optimize();
-    return PartOptimizer<3>(recipe, std::move(domain), gradings, options).optimize();
+        return PartOptimizer<2>(recipe, std::move(domain), gradings, options, search).optimize();
+    return PartOptimizer<3>(recipe, std::move(domain), gradings, options, search).optimize();
 }
 
 }  // namespace lamella

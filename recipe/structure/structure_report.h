@@ -64,6 +64,9 @@ struct StructureReport {
 template <std::size_t Dim>
 void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report);
 
+/// Adds a note if foam of a known law has neither skin nor frame: its cut cells carry less than the law says.
+void note_bare_foam(const Recipe& recipe, StructureReport& report);
+
 /// Analyses the body with material everywhere (full_compliance) and with these densities under a law, and
 /// adds compliance, volume, mass and the cases. Stresses are of elements that are at least half solid; none
 /// of a foam, whose struts the elements do not show.

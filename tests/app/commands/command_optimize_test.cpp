@@ -156,4 +156,30 @@ TEST_CASE("Ctrl-C ends a search with a report of the best design so far", "[opti
     CHECK(report["compliance_nmm"].get<double>() > 0);
 }
 
+TEST_CASE("a search that was stopped goes on to the same result", "[optimization]") {
+    const Folder folder;
+    const std::string mma =
+        plate +
+        "[optimize]\ndimensions = 2\nelements = 160\niterations = 150\ntolerance = 0\nmethod = \"mma\"\n";
+    write(folder / "plate.toml", mma);
+    const std::string command = "optimize --json " + folder / "plate.toml" + " --plans " + folder / "plans";
+    const Outcome nothing = run_lamella(command + " --resume");
+    CHECK(nothing.code == 2);
+    CHECK(mentions(nothing.err, "keeps no search of this recipe that was stopped"));
+    const pid_t child = start_lamella(command, folder);
+    for (int i = 0; i < 600 && !mentions(contents(folder / "err"), "30/150"); ++i) usleep(20'000);
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WEXITSTATUS(status) == 130);
+    const Json stopped = Json::parse(contents(folder / "out"));
+    REQUIRE(stopped["history"].size() >= 30);
+    REQUIRE(stopped["history"].size() < 150);
+    const Outcome resumed = run_lamella(command + " --resume");
+    REQUIRE(resumed.code == 0);
+    const Outcome whole = run_lamella("optimize --json " + folder / "plate.toml" + " --plans ''");
+    CHECK(Json::parse(resumed.out) == Json::parse(whole.out));
+    CHECK(run_lamella(command + " --resume").code == 2);
+}
+
 }  // namespace command_optimize_test

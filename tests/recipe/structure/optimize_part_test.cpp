@@ -200,11 +200,18 @@ TEST_CASE("a foam is as stiff by its law as its struts are by elements", "[optim
     AnalysisOptions options;
     options.elements = 100;
     options.model = AnalysisModel::law;
-    const double by_law = analyse_part(recipe, job, options).compliance;
+    const StructureReport law = analyse_part(recipe, job, options);
+    CHECK(law.notes.empty());
+    const double by_law = law.compliance;
     options.model = AnalysisModel::elements;
     const double by_elements = analyse_part(recipe, job, options).compliance;
     CAPTURE(by_law, by_elements);
     CHECK(by_elements == Approx(by_law).epsilon(0.1));
+    std::string bare = coupon;
+    bare.erase(bare.find("[skin]"), std::string("[skin]\nthickness = 0.3\n").size());
+    const StructureReport told = analysed(bare, AnalysisModel::law);
+    REQUIRE(told.notes.size() == 1);
+    CHECK(mentions(told.notes.front(), "the foam is bare"));
 }
 
 TEST_CASE("a pressure on a face is its area's force, and a body's weight is its mass's", "[optimization]") {
