@@ -20,7 +20,7 @@ struct DensitySettings {
     std::optional<LengthScale> length_scale{};  ///< replaces the radius: three fields, see RobustFields
     /// By element: sees void beyond the border, see DensityFilter::open_border. Empty: none does.
     std::vector<std::uint8_t> open{};
-    std::array<bool, 3> mirrored{};             ///< symmetry across the middle of the grid, by axis
+    std::array<bool, 3> mirrored{};  ///< symmetry across the middle of the grid, by axis
     std::optional<OverhangSettings> overhang{};
 };
 

@@ -26,8 +26,8 @@
 // whatsoever in two dimensions, the same lemma gives 0.933 in place of 0.943 for two opposite points around
 // a point that survives. In three dimensions only plates, rods and balls were compared.
 //
-// Near borders of the grid or the mask the filter's weights are cut, and the relation holds only with open borders
-// (DensityFilter::open_border), or for members that go on beyond the border as in a mirror, with
+// Near borders of the grid or the mask the filter's weights are cut, and the relation holds only with open
+// borders (DensityFilter::open_border), or for members that go on beyond the border as in a mirror, with
 // mirrored padding. Corners are rounded by a radius, not kept: the thickness is that of members.
 #pragma once
 
