@@ -68,7 +68,7 @@ Value another_value(const Setting& setting) {
         case ValueType::integer:
             return static_cast<std::int64_t>(std::max(setting.limits.lo, setting.limits.hi < 7 ? 2.0 : 7.0));
         case ValueType::number:
-            return setting.limits.hi <= 1 ? 0.375 : 3.0625;
+            return setting.limits.hi <= 1 ? 0.375 : setting.limits.hi < 3 ? 1.8125 : 3.0625;
         case ValueType::text:
         case ValueType::path:
             return std::string("word");
