@@ -164,7 +164,8 @@ void add_survey_options(CLI::App& command, JobOptions& options) {
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--plans", options.plans,
-                    "Folder in which support plans are kept for later runs of the same job, \"\" for none; "
+                    "Folder in which supports and optimised parts are kept for later runs of the same job, "
+                    "\"\" for none; "
                     "default: lamella/plans in the user's cache")
         ->type_name("DIR");
 }

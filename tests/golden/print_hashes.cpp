@@ -1,7 +1,9 @@
-// Prints a hash of the runs, contours and masks of some layers, under every SIMD target of this machine.
-// Compilers, optimisation levels and machines must all print the same.
+// Prints a hash of the runs, contours and masks of some layers, and of the designs that searches end with,
+// under every SIMD target of this machine. Compilers, optimisation levels and machines must all print the
+// same.
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <map>
 
 #include "engine/base/simd_target.h"
@@ -15,11 +17,13 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "engine/solids/shell.h"
+#include "procedural/appearance/appearance_optimizer.h"
 #include "procedural/foam/closed_foam.h"
 #include "procedural/foam/nearest_foam.h"
 #include "procedural/foam/voronoi_foam.h"
 #include "procedural/lattice/strut_lattice.h"
 #include "procedural/lattice/tpms.h"
+#include "tests/procedural/optimization/topology_problems.h"
 
 using namespace lamella;
 
@@ -159,16 +163,67 @@ std::uint64_t hash_of(const FieldPtr& solid) {
     return hash.value();
 }
 
+template <std::size_t Dim>
+std::uint64_t hash_of_search(const TopologyProblem<Dim>& problem, const TopologySettings& settings) {
+    TopologyOptimizer<Dim> optimizer(problem, settings);
+    while (!optimizer.is_finished()) optimizer.iterate();
+    Hash hash;
+    for (const double x : optimizer.state().design) hash.add(x);
+    return hash.value();
+}
+
+std::uint64_t hash_of_appearance() {
+    GreyImage stripes(24, 24);
+    for (int y = 0; y < stripes.height; ++y) {
+        for (int x = 0; x < stripes.width; ++x) stripes.values[stripes.index(x, y)] = (x + y) % 8 < 4 ? 1 : 0;
+    }
+    AppearanceSettings settings;
+    settings.match.neighbourhood = 5;
+    settings.levels = 2;
+    settings.steps = 3;
+    settings.sharpness = 1;
+    settings.steps_a_sharpness = 2;
+    const AppearanceResult found =
+        optimize_appearance([](glm::ivec3 size, int) { return half_mbb_beam(size.x, size.y, 0.4); },
+                            {24, 12, 1}, stripes, 24, settings);
+    Hash hash;
+    for (const double x : found.design) hash.add(x);
+    return hash.value();
+}
+
+std::map<std::string, std::function<std::uint64_t()>> searches() {
+    TopologySettings settings;
+    settings.iterations = 6;
+    settings.tolerance = 0;
+    settings.sharpness = 4;
+    settings.iterations_a_sharpness = 2;
+    TopologySettings robust = settings;
+    robust.method = TopologyMethod::mma;
+    robust.density.length_scale = LengthScale{};
+    TopologySettings printable = settings;
+    printable.density.overhang.emplace();
+    printable.iterations = 3;
+    return {
+        {"appearance", hash_of_appearance},
+        {"topology by moving asymptotes", [=] { return hash_of_search(half_mbb_beam(24, 8, 0.5), robust); }},
+        {"topology by optimality criteria",
+         [=] { return hash_of_search(half_mbb_beam(24, 8, 0.5), settings); }},
+        {"topology without overhangs",
+         [=] { return hash_of_search(solid_cantilever(8, 4, 4, 0.3, 1e-6), printable); }},
+    };
+}
+
 }  // namespace
 
 int main() {
-    const auto all = solids();
+    std::map<std::string, std::function<std::uint64_t()>> all = searches();
+    for (const auto& [name, solid] : solids()) all[name] = [solid = solid] { return hash_of(solid); };
     std::map<std::string, std::uint64_t> first;
     bool same = true;
     for (const std::string& target : simd_targets()) {
         force_simd_target(target);
-        for (const auto& [name, solid] : all) {
-            const std::uint64_t hash = hash_of(solid);
+        for (const auto& [name, make_hash] : all) {
+            const std::uint64_t hash = make_hash();
             const auto [place, added] = first.try_emplace(name, hash);
             if (added) std::printf("%016llx %s\n", static_cast<unsigned long long>(hash), name.c_str());
             if (place->second != hash) {
