@@ -1,13 +1,12 @@
-// A text header and raw samples, under a temporary name until complete.
+// A text header and raw samples.
 #include "procedural/volume/write_nrrd.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <bit>
-#include <fstream>
 #include <string>
 
+#include "engine/base/complete_file.h"
 #include "engine/base/error.h"
 
 namespace lamella {
@@ -27,19 +26,11 @@ void write_nrrd(const std::filesystem::path& file, const std::array<std::size_t,
         "endian: little\nencoding: raw\n\n",
         size[0], size[1], size[2], spacing.x, spacing.y, spacing.z, first.x, first.y, first.z);
     static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
-    // Processes of one job may write the same file at the same time.
-    const std::filesystem::path unfinished = file.string() + ".partial." + std::to_string(getpid());
-    std::ofstream out(unfinished, std::ios::binary);
-    out << header;
-    out.write(reinterpret_cast<const char*>(samples.data()),
-              static_cast<std::streamsize>(samples.size() * sizeof(float)));
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(unfinished, file, error);
-    if (!out || error) {
-        std::filesystem::remove(unfinished, error);
-        throw FaultError(file.string() + " cannot be written");
-    }
+    write_complete_file(file, [&](std::ostream& out) {
+        out << header;
+        out.write(reinterpret_cast<const char*>(samples.data()),
+                  static_cast<std::streamsize>(samples.size() * sizeof(float)));
+    });
 }
 
 }  // namespace lamella

@@ -2,12 +2,12 @@
 #include "recipe/build/support_plan.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <fstream>
 
+#include "engine/base/complete_file.h"
+#include "engine/base/error.h"
 #include "engine/base/json_depth.h"
 #include "recipe/identity.h"
 
@@ -164,24 +164,12 @@ bool keep_plan(const fs::path& folder, const std::string& hash, const SupportPla
                     {"hash", hash},
                     {"contents_hash", contents_hash(contents)},
                     {"contents", contents}};
-    // Shards may write the same plan at the same time: each writes its own temporary file first.
-    std::string unfinished = (folder / (hash + ".partial.XXXXXX")).string();
-    const int descriptor = mkstemp(unfinished.data());
-    if (descriptor < 0) return false;
-    close(descriptor);
-    {
-        std::ofstream file(unfinished, std::ios::binary);
-        file << json.dump() << '\n';
-        file.close();
-        if (file.fail()) {
-            fs::remove(unfinished, error);
-            return false;
-        }
+    try {
+        write_complete_file(file_of(folder, hash), [&](std::ostream& out) { out << json.dump() << '\n'; });
+    } catch (const FaultError&) {
+        return false;
     }
-    fs::rename(unfinished, file_of(folder, hash), error);
-    if (!error) return true;
-    fs::remove(unfinished, error);
-    return false;
+    return true;
 }
 
 }  // namespace lamella

@@ -1,16 +1,12 @@
 // Lists of numbers, each behind its length.
 #include "recipe/structure/stopped_search.h"
 
-#include <unistd.h>
-
 #include <array>
-#include <cstring>
 #include <fstream>
-#include <string>
 #include <system_error>
 #include <type_traits>
 
-#include "engine/base/error.h"
+#include "engine/base/complete_file.h"
 
 namespace lamella {
 
@@ -18,9 +14,9 @@ namespace {
 
 constexpr std::array<char, 16> magic{"lamella search1"};
 
-/// Appends what is visited to bytes.
+/// Writes what is visited.
 struct Writer {
-    std::ofstream& out;
+    std::ostream& out;
 
     template <typename T>
     void operator()(const std::vector<T>& list) const {
@@ -85,20 +81,13 @@ void visit_all(Search& search, Visit& visit) {
 }  // namespace
 
 void write_search(const std::filesystem::path& file, const StoppedSearch& search) {
-    const std::filesystem::path unfinished = file.string() + ".partial." + std::to_string(getpid());
-    std::ofstream out(unfinished, std::ios::binary);
-    out.write(magic.data(), magic.size());
-    const Writer writer{out};
-    visit_all(search, writer);
-    writer(static_cast<std::uint64_t>(search.state.displacements.size()));
-    for (const std::vector<double>& along : search.state.displacements) writer(along);
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(unfinished, file, error);
-    if (!out || error) {
-        std::filesystem::remove(unfinished, error);
-        throw FaultError(file.string() + " cannot be written");
-    }
+    write_complete_file(file, [&](std::ostream& out) {
+        out.write(magic.data(), magic.size());
+        const Writer writer{out};
+        visit_all(search, writer);
+        writer(static_cast<std::uint64_t>(search.state.displacements.size()));
+        for (const std::vector<double>& along : search.state.displacements) writer(along);
+    });
 }
 
 std::optional<StoppedSearch> read_search(const std::filesystem::path& file) {

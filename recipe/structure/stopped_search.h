@@ -14,8 +14,8 @@ struct StoppedSearch {
     std::vector<OptimizationStep> history;  ///< the steps so far
 };
 
-/// Writes the search under a temporary name, and renames the file when it is whole: numbers as they lie in
-/// memory, for the same kind of machine. Throws FaultError when the file cannot be written.
+/// Writes the search as write_complete_file() does: numbers as they lie in memory, for the same kind of
+/// machine.
 void write_search(const std::filesystem::path& file, const StoppedSearch& search);
 
 /// Reads a search; nothing if there is no file, or a damaged one. Lists are no longer than the file.
