@@ -36,7 +36,7 @@ std::string chart(const StructureReport& report) {
     const auto aim = [&](const OptimizationStep& step) {
         return has_picture ? step.appearance : step.compliance;
     };
-    // The first steps from grey would press all others to the chart_bottom.
+    // The first steps from grey would press all others to the bottom.
     std::vector<double> values;
     for (const OptimizationStep& step : report.history) values.push_back(aim(step));
     std::ranges::sort(values);

@@ -27,8 +27,8 @@ DensityMap::DensityMap(glm::ivec3 size, std::vector<ElementUse> use, const Densi
     } else {
         filter_.emplace(size, domain_, settings.radius, settings.padding);
     }
-    if (!settings.open.empty())
-        robust_ ? robust_->open_border(settings.open) : filter_->open_border(settings.open);
+    if (!settings.open.empty() && robust_) robust_->open_border(settings.open);
+    if (!settings.open.empty() && filter_) filter_->open_border(settings.open);
     fields_.resize(robust_ ? 3 : 1);
     if (settings.overhang) {
         for (DensityField& field : fields_) field.overhang.emplace(size, domain_, *settings.overhang);

@@ -170,7 +170,7 @@ void add_appearance(std::vector<Setting>& t) {
         t, "invert", "--optimize-invert",
         {.fallback = "false", .help = "Put material where the picture is bright instead of dark."});
     add_row<&O::threshold>(t, "threshold", "--optimize-threshold",
-                           {.limits = {0, 1},
+                           {.limits = {0.001, 1},
                             .fallback = "parts the picture's histogram best",
                             .help = "Brightness from which the picture is bright, 0 is black and 1 white."});
     add_row<&O::neighbourhood>(t, "neighbourhood", "--optimize-neighbourhood",

@@ -40,8 +40,8 @@ std::vector<double> moduli_by_law(const ElementDomain& domain, const Grading& mo
 template <std::size_t Dim>
 StructureReport analysed(const Recipe& recipe, ElementDomain domain, const GradingPtr& modulus,
                          Gradings& gradings, const CancelToken* cancel) {
-    constexpr double unknown_poisson = -1;
-    const StructuralProblem<Dim> problem = structural_problem<Dim>(recipe, domain, gradings, unknown_poisson);
+    const StructuralProblem<Dim> problem =
+        structural_problem<Dim>(recipe, domain, gradings, material_poisson);
     StructureReport report;
     describe(problem, domain, report);
     report.volume_bound = 1;

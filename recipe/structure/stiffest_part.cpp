@@ -42,7 +42,7 @@ class PartOptimizer {
         : recipe_(recipe), options_(options), file_(file), domain_(std::move(domain)) {
         if (recipe.optimize->result != OptimizeResult::solid) foam_.emplace(recipe);
         problem_.emplace(
-            structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : unknown_poisson));
+            structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : material_poisson));
         const OptimizeRecipe& optimize = *recipe.optimize;
         TopologyProblem<Dim>& topology = problem_->topology;
         topology.volume = volume_bound(optimize, domain_, problem_->material);
@@ -52,19 +52,15 @@ class PartOptimizer {
             topology.greatest_density = foam_->densities().hi;
             foam_->check_volume(topology.volume);
         } else {
-            const bool is_heavy = optimize.gravity != dvec3(0);
-            topology.law =
-                make_penalty_law({optimize.penalty, void_modulus_of<Dim>, is_heavy ? linear_below : 0});
+            topology.law = penalty_law<Dim>(optimize);
         }
     }
 
     PartDesign optimize();
 
   private:
-    static constexpr double unknown_poisson = -1;
-
     void go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
-    void keep(const TopologyOptimizer<Dim>& optimizer, const StructureReport& report) const;
+    void keep(const TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
     std::vector<std::uint8_t> far_from_holds(double radius) const;
@@ -111,19 +107,22 @@ void PartOptimizer<Dim>::go_on(TopologyOptimizer<Dim>& optimizer, StructureRepor
     if (!stopped)
         throw InputError(
             fmt::format("--resume: {} keeps no search of this recipe that was stopped; accepted: the recipe "
-                        "and --plans of "
-                        "then, or no --resume",
+                        "and --plans of then, or no --resume",
                         file_.empty() ? "no folder" : file_.parent_path().string()));
     optimizer.set_state(std::move(stopped->state));
     report.history = std::move(stopped->history);
 }
 
 template <std::size_t Dim>
-void PartOptimizer<Dim>::keep(const TopologyOptimizer<Dim>& optimizer, const StructureReport& report) const {
+void PartOptimizer<Dim>::keep(const TopologyOptimizer<Dim>& optimizer, StructureReport& report) const {
     if (file_.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
-    write_search(file_, {optimizer.state(), report.history});
+    try {
+        write_search(file_, {optimizer.state(), report.history});
+    } catch (const FaultError& error) {  // the report is what there is, then
+        report.notes.push_back(fmt::format("the search cannot be resumed: {}", error.what()));
+    }
 }
 
 /// The filtered field is smooth, and says where the projected one is solid. What the overhang filter leaves

@@ -309,7 +309,7 @@ StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& d
     if (recipe.material) material = base_material(*recipe.material);
     if (!known) material.elastic.young = 1;
     if (!material.has_poisson) material.elastic.poisson = assumed_poisson;
-    const double poisson = element_poisson > -1 ? element_poisson : material.elastic.poisson;
+    const double poisson = element_poisson != material_poisson ? element_poisson : material.elastic.poisson;
     const NodeGrid<Dim> grid(domain.size);
     StructuralProblem<Dim> problem{
         .topology = {.body = ElasticBody<Dim>(

@@ -21,10 +21,14 @@ struct StructuralProblem {
     std::vector<std::string> notes{};                ///< pieces of the body that were left out
 };
 
+/// Stands for the material's Poisson's ratio.
+constexpr double material_poisson = -1;
+
 /// Makes loads and supports of the elements' nodes; pieces of the body that are neither held nor loaded
 /// become outside. A node lies in a place if it is within half an element of it. Forces are spread over nodes
-/// by the number of their elements, as a uniform traction or body force is. Throws InputError for places
-/// without nodes, loaded pieces that are not held, and pieces that can still move or turn.
+/// by the number of their elements, as a uniform traction or body force is. `element_poisson` is that of
+/// the elements, or material_poisson. Throws InputError for places without nodes, loaded pieces that are not
+/// held, and pieces that can still move or turn.
 template <std::size_t Dim>
 StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& domain, Gradings& gradings,
                                           double element_poisson);

@@ -65,7 +65,7 @@ void check_gradient(const Map& map, const Backward& backward, const Values& x, u
                                   (12 * step);
         const double scale = std::max(std::fabs(difference), 0.01 * largest);
         const double error = std::fabs(gradient[j] - difference) / scale;
-        if (error <= worst) continue;
+        if (error <= worst || std::isnan(worst)) continue;  // what is no number is worst
         worst = error;
         worst_at = j;
     }
