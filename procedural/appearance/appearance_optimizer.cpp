@@ -18,7 +18,7 @@ namespace {
 
 constexpr double function_scale = 10;  // Svanberg asks for values of 1 to 100
 constexpr int most_levels = 8;
-constexpr double middle_threshold = 0.5, eroded_threshold = 0.6;  // of the projection
+constexpr double middle_threshold = 0.5, eroded_threshold = 0.58;  // of the projection
 // Steps that would leave compliance this much above its bound are shortened.
 constexpr double compliance_slack = 0.02;
 constexpr int most_halvings = 6;

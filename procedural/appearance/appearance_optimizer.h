@@ -72,7 +72,7 @@ struct AppearanceResult {
 /// Appearance, C the compliance, and C_opt that of TopologyOptimizer at the same volume on the same grid
 /// after as many steps without projection. At each level the exemplar is scaled such that a pixel is an
 /// element, its width being `exemplar_width` elements of the finest grid. At last, the projection comes on;
-/// matches stay. C is that of the densities eroded a little, projected at 0.6 instead of 0.5: without that,
+/// matches stay. C is that of the densities eroded a little, projected at 0.58 instead of 0.5: without that,
 /// members hang on grey joints, which the shape, cut at 0.5, does not have.
 ///
 /// Steps after which a thin strut would part are shortened. C and the volumes of the result miss their bounds

@@ -17,8 +17,6 @@ namespace lamella {
 
 namespace {
 
-constexpr double unknown_poisson = -1;
-
 AppearanceSettings appearance_settings(const OptimizeRecipe& optimize, const DensitySettings& density) {
     AppearanceSettings settings;
     settings.compliance = optimize.compliance;
@@ -58,8 +56,8 @@ void check_room(const OptimizeRecipe& optimize, const ElementDomain& domain, con
         if (std::min(across, high) >= window) return;
         throw InputError(fmt::format(
             "optimize.neighbourhood / --optimize-neighbourhood: windows of {0} x {0} elements do not fit "
-            "{1}, {2} "
-            "x {3} on the coarsest of {4} grids; accepted: smaller windows, fewer levels, more elements{5}",
+            "{1}, {2} x {3} on the coarsest of {4} grids; accepted: smaller windows, fewer levels, more "
+            "elements{5}",
             window, what, across, high, optimize.levels,
             what == "the picture" ? ", or a larger image_size" : ""));
     };
@@ -109,12 +107,15 @@ class PlateProblems {
     /// Returns the problem of a grid, see PlaneProblemMaker; `domain` is what of the body it has.
     StructuralProblem<2> problem(glm::ivec3 size, int edge, ElementDomain& domain) const {
         domain = element_domain_of(recipe_, body_, regions_, finest_, size, edge, cancel_);
-        StructuralProblem<2> made = structural_problem<2>(recipe_, domain, gradings_, unknown_poisson);
+        StructuralProblem<2> made = structural_problem<2>(recipe_, domain, gradings_, material_poisson);
         const OptimizeRecipe& optimize = *recipe_.optimize;
-        const bool is_heavy = optimize.gravity != dvec3(0);
-        made.topology.law =
-            make_penalty_law({optimize.penalty, void_modulus_of<2>, is_heavy ? linear_below : 0});
+        made.topology.law = penalty_law<2>(optimize);
         made.topology.volume = volume_bound(optimize, domain, made.material);
+        // Loads need material to act on: a deck of one element could be lost when the shape is cut.
+        for (std::size_t i = 0; i < domain.use.size(); ++i) {
+            if (made.loaded[i] != 0 && domain.use[i] == ElementUse::free)
+                domain.use[i] = made.topology.use[i] = ElementUse::solid;
+        }
         return made;
     }
 
@@ -147,9 +148,8 @@ PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRe
     const OptimizeRecipe& optimize = *recipe.optimize;
     if (options.resume)
         throw InputError(
-            "--resume: a search for an appearance that was stopped is not kept; accepted: kind stiffness, or "
-            "no "
-            "--resume");
+            "--resume: a search for an appearance that was stopped is not kept; accepted: kind stiffness, "
+            "or no --resume");
     const PlateProblems problems(recipe, body, regions, gradings, options.cancel);
     ElementDomain domain;
     const StructuralProblem<2> problem = problems.problem(problems.finest().size, 1, domain);

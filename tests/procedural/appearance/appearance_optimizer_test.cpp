@@ -140,7 +140,7 @@ TEST_CASE("more compliance allowed lets a part look more like the exemplar, and 
             CHECK(made.least_compliance == Approx(compliance_of(made.stiffest, problem)).epsilon(1e-4));
             // What bears the loads is eroded: so is the shape that is cut from it, and more.
             std::vector<double> eroded = made.filtered;
-            project(eroded, {16, 0.6}, eroded);
+            project(eroded, {16, 0.58}, eroded);
             CHECK(compliance_of(eroded, problem) == Approx(made.compliance).epsilon(1e-4));
             CHECK(made.compliance <= 1.01 * alpha * made.least_compliance);
             CHECK(compliance < made.compliance);
@@ -151,11 +151,11 @@ TEST_CASE("more compliance allowed lets a part look more like the exemplar, and 
             CHECK(now == Approx(made.appearance).epsilon(0.05));
             CHECK(likeness(made.stiffest, size, example.exemplar) ==
                   Approx(made.stiffest_appearance).epsilon(0.05));
-            if (example.is_connected) CHECK(main_piece(made.density, size) > 0.97);
+            if (example.is_connected) CHECK(main_piece(made.density, size) > (alpha < 1.2 ? 0.97 : 0.99));
             if (alpha == 1.2) CHECK(now < (1 - example.saved) * plain);
             before = now;
         }
-        CHECK(before < 0.55 * plain);
+        CHECK(before < 0.5 * plain);
     }
 }
 
