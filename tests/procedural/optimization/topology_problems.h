@@ -45,6 +45,14 @@ inline TopologyProblem<2> plane_cantilever(int nx, int ny, double volume, int at
     return problem;
 }
 
+/// The edge x = 0 is held; one case pulls the upper free corner up, the other the lower one down.
+inline TopologyProblem<2> cantilever_of_two_cases(int nx, int ny, double volume) {
+    TopologyProblem<2> problem = plane_cantilever(nx, ny, volume, 0);
+    problem.cases.push_back({"2", 1, NodalVector<2, double>(problem.body.grid.size())});
+    problem.cases[1].forces.along[1][problem.body.grid.number(nx, ny, 0)] = 1;
+    return problem;
+}
+
 /// The face x = 0 is held; the edge (nx, y, 0) is loaded along -z by half a sine (Ferrari and Sigmund 2020).
 inline TopologyProblem<3> solid_cantilever(int nx, int ny, int nz, double volume, double least_modulus) {
     TopologyProblem<3> problem = free_box<3>({nx, ny, nz}, volume, least_modulus);
