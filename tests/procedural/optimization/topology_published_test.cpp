@@ -65,9 +65,7 @@ void check_row(const Published& row, const TopologyProblem<2>& problem) {
     CHECK(course.loops.at(course.count).volume == Approx(row.volume).epsilon(1e-3));
 }
 
-void check_half_beam(const Published& row) {
-    check_row(row, half_mbb_beam(row.nx, row.ny, row.volume));
-}
+void check_half_beam(const Published& row) { check_row(row, half_mbb_beam(row.nx, row.ny, row.volume)); }
 
 }  // namespace
 
@@ -101,8 +99,8 @@ TEST_CASE("the 120x40 cantilever takes the course of an independent program", "[
     CHECK(course.last() == Approx(198.6537).epsilon(1e-4));
 }
 
-/// Sigmund 2001, "A 99 line topology optimization code written in Matlab", section 4.3: two load cases. Values
-/// of top88 with the changes printed there, which were run under Octave.
+/// Sigmund 2001, "A 99 line topology optimization code written in Matlab", section 4.3: two load cases.
+/// Values of top88 with the changes printed there, which were run under Octave.
 TEST_CASE("a cantilever of two load cases takes the course of top88", "[optimization]") {
     const auto check = [](const Published& row) {
         check_row(row, cantilever_of_two_cases(row.nx, row.ny, row.volume));
