@@ -37,8 +37,14 @@ struct AnchorRecipe : PlaceRecipe {
 /// Least compliance at a bounded volume, or the looks of a picture at a bounded compliance.
 enum class OptimizeKind : unsigned char { stiffness, appearance };
 
-/// What the densities become: material or void, or the foam's cell size or beam radius.
-enum class OptimizeResult : unsigned char { solid, cell, beam };
+/// What the densities become: material or void, the foam's cell size or beam radius, or the [[field]] and
+/// [[grading]] entries of kind `optimized` alone.
+enum class OptimizeResult : unsigned char { solid, cell, beam, field };
+
+/// Returns true if densities are those of the part's foam.
+constexpr bool drives_foam(OptimizeResult result) {
+    return result == OptimizeResult::cell || result == OptimizeResult::beam;
+}
 
 /// The update of densities: optimality criteria, or the method of moving asymptotes.
 enum class OptimizeMethod : unsigned char { oc, mma };

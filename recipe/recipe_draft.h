@@ -143,6 +143,7 @@ class RecipeDraft {
     void check_two_dimensions(const Recipe& recipe);
     void check_density(const Recipe& recipe);
     void check_optimize(const Recipe& recipe);
+    void check_result_entries(const Recipe& recipe);
     void check_driven_foam(const Recipe& recipe);
 
     std::map<Place, Entry> entries_;

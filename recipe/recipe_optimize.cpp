@@ -12,6 +12,7 @@
 #include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_draft.h"
 #include "recipe/recipe_regions.h"
+#include "recipe/result_dependents.h"
 
 namespace lamella {
 
@@ -81,7 +82,43 @@ void RecipeDraft::check_problem(const Recipe& recipe) {
     for (std::size_t i = 0; i < recipe.anchors.size(); ++i)
         check_place(recipe, "anchor", i, recipe.anchors[i]);
     check_weights(recipe);
+    if (mistakes_.empty()) check_result_entries(recipe);
     if (recipe.optimize) check_optimize(recipe);
+}
+
+/// Checks that entries of kind `optimized` are used after the search, and that there is one.
+void RecipeDraft::check_result_entries(const Recipe& recipe) {
+    const ResultDependents late(recipe);
+    if (!recipe.optimize) {
+        const auto refuse_kind = [&](const auto& entries) {
+            for (const auto& entry : entries) {
+                if (entry.kind != optimized_kind) continue;
+                refuse(0,
+                       fmt::format("{}.kind: \"{}\" is the result of a search, and there is none; accepted: "
+                                   "a section [optimize] as well, or another kind",
+                                   entry.where, optimized_kind));
+            }
+        };
+        refuse_kind(recipe.fields);
+        refuse_kind(recipe.gradings);
+        return;
+    }
+    const auto refuse_early = [&](const std::string& place, const std::string& field) {
+        if (!late.fields.contains(field)) return;
+        refuse(0, fmt::format("{}: `{}` depends on the result of the search, which begins with this field; "
+                              "accepted: a field that does not",
+                              place, field));
+    };
+    refuse_early(where("part", "field"), recipe.part.field);
+    for (std::size_t i = 0; i < recipe.loads.size(); ++i)
+        refuse_early(where("load", "field", i), recipe.loads[i].field);
+    for (std::size_t i = 0; i < recipe.anchors.size(); ++i)
+        refuse_early(where("anchor", "field", i), recipe.anchors[i].field);
+    if (recipe.optimize->result == OptimizeResult::field && late.fields.empty() && late.gradings.empty()) {
+        refuse(0, fmt::format("{}: \"field\" leaves the part as it is, and nothing uses what is found; "
+                              "accepted: a [[field]] or [[grading]] of kind \"{}\" as well, or solid",
+                              where("optimize", "result"), optimized_kind));
+    }
 }
 
 void RecipeDraft::check_place(const Recipe& recipe, const std::string& section, std::size_t number,
@@ -126,7 +163,7 @@ void RecipeDraft::check_optimize(const Recipe& recipe) {
     check_held(recipe);
     check_density(recipe);
     if (optimize.dimensions == 2) check_two_dimensions(recipe);
-    if (optimize.result != OptimizeResult::solid) check_driven_foam(recipe);
+    if (drives_foam(optimize.result)) check_driven_foam(recipe);
     if (optimize.kind == OptimizeKind::appearance) check_appearance(recipe);
     // The smallest volume stands beside a mass whose share of the part is not known here.
     if (optimize.mass == 0 && optimize.volume_min > optimize.volume) {
@@ -153,7 +190,7 @@ void RecipeDraft::check_appearance(const Recipe& recipe) {
     if (optimize.method == OptimizeMethod::oc)
         refuse_key("method", "\"oc\" cannot bound the compliance", "mma");
     if (optimize.dimensions != 2) refuse_key("dimensions", "a picture is one of a plate, which has two", "2");
-    if (optimize.result != OptimizeResult::solid) refuse_key("result", "a foam looks like itself", "solid");
+    if (drives_foam(optimize.result)) refuse_key("result", "a foam looks like itself", "solid or field");
     if (optimize.member > 0) refuse_key("member", "there is no least size", "lines as wide in the picture");
     if (optimize.gap > 0) refuse_key("gap", "there is no least size", "gaps as wide in the picture");
     if (optimize.tolerance != OptimizeRecipe().tolerance)
@@ -242,6 +279,12 @@ void RecipeDraft::check_driven_foam(const Recipe& recipe) {
                                   where("foam", "modulus")),
                       "no foam.modulus");
     }
+    const GradedNumber& driven = key == "cell"               ? foam.cell
+                                 : member_of(foam) == "wall" ? foam.wall
+                                                             : foam.beam;
+    if (driven.is_formula())
+        refuse_result(fmt::format("\"{}\" replaces {}, which is a formula", key, driven.where),
+                      "a number there");
     if (constant(foam.stretch) != dvec3(1)) {
         refuse(0, fmt::format("{}: there is no stiffness law for stretched cells; accepted: optimize.result "
                               "= \"{}\" without a stretch",

@@ -75,8 +75,8 @@ void RecipeDraft::check_foam(const FoamRecipe& foam) {
 void RecipeDraft::check_modulus(const Recipe& recipe) {
     const FoamRecipe& foam = *recipe.foam;
     if (!entry("foam", "modulus")) {
-        const bool drives_foam = recipe.optimize && recipe.optimize->result != OptimizeResult::solid;
-        if (!entry("foam", "law") || recipe.material || drives_foam) return;
+        const bool is_driven = recipe.optimize && drives_foam(recipe.optimize->result);
+        if (!entry("foam", "law") || recipe.material || is_driven) return;
         return refuse(0, fmt::format("{}: has no effect without a material; accepted: [material] as well, or "
                                      "foam.modulus / --modulus",
                                      where("foam", "law")));

@@ -66,7 +66,7 @@ void save_densities(const OptimizedPart& part, const std::string& path) {
 }
 
 void draw(const StructureCommand& command, const Recipe& recipe, const OptimizedPart& part) {
-    const bool is_foam = recipe.optimize->result != OptimizeResult::solid;
+    const bool is_foam = drives_foam(recipe.optimize->result);
     TextOutput out(command.plot);
     out.write(structure_svg(recipe.part.name, *part.report, part.grid, part.box, is_foam));
     out.close();

@@ -12,6 +12,7 @@
 #include "engine/solids/primitives.h"
 #include "procedural/volume/volumetric_model.h"
 #include "procedural/voronoi/stretch.h"
+#include "recipe/result_dependents.h"
 
 namespace lamella {
 
@@ -114,6 +115,8 @@ std::span<const FieldBuilder> field_builders() {
         {{"mesh", {"file"}, {"unit", "scale", "at", "turn"}}, mesh_field},
         {{"3mf", {"file"}, {"object", "function", "bounds", "at", "turn"}}, package_field},
         {{std::string(host_kind), {}, {"at", "turn"}}, host_field},
+        {{std::string(optimized_kind), {}, {}},
+         [](const FieldBuildContext& making) { return making.gradings.result().dense; }},
         {{"sphere", {"radius"}, {"at"}}, shape_field<Shape::sphere>},
         {{"box", {"size"}, {"at", "turn"}}, shape_field<Shape::box>},
         {{"cylinder", {"radius", "height"}, {"at", "turn"}}, shape_field<Shape::cylinder>},

@@ -17,6 +17,7 @@
 #include "procedural/volume/volume_grading.h"
 #include "procedural/volume/volumetric_model.h"
 #include "recipe/recipe_formulas.h"
+#include "recipe/result_dependents.h"
 #include "recipe/settings.h"
 
 namespace lamella {
@@ -86,6 +87,8 @@ std::span<const GradingBuilder> grading_builders() {
         {{"table", {"along", "rows|file"}, {"smooth"}}, build_table},
         {{"attribute", {"attribute"}, {"file"}}, attribute},
         {{std::string(host_kind), {}, {}}, [](const G& g, Gradings&) { return g.host.pointer; }},
+        {{std::string(optimized_kind), {}, {}},
+         [](const G&, Gradings& others) { return others.result().density; }},
         {{"attractors", {"near", "far", "radius"}, {"points", "segments", "falloff"}}, attractors},
         {{"point", {"at"}, {}},
          [](const G& g, Gradings&) {
@@ -101,12 +104,19 @@ std::span<const GradingBuilder> grading_builders() {
     return list;
 }
 
-/// Returns the grading behind a name other than x, y and z.
+const SearchResult& Gradings::result() const {
+    if (result_) return *result_;
+    throw InputError(
+        "the result of [optimize] is not there where this is needed; accepted: a number that does not depend "
+        "on it");
+}
+
 void Gradings::set_body(FieldPtr body) {
     body_ = std::move(body);
     made_.erase(std::string(depth_name));
 }
 
+/// Returns the grading behind a name other than x, y and z.
 GradingPtr Gradings::named(const std::string& name) {
     if (const auto made = made_.find(name); made != made_.end()) return made->second;
     if (name == depth_name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -40,6 +41,12 @@ struct RegionalNumber {
     GradedNumber number;
 };
 
+/// The densities that [optimize] found.
+struct SearchResult {
+    GradingPtr density;  ///< above 0.5 is solid; of a foam its solid volume fraction
+    FieldPtr dense;      ///< where it is above 0.5, in the body's bounds and beyond the body
+};
+
 /// The gradings of a recipe. Each is made, and its file read, on first use.
 class Gradings {
   public:
@@ -47,6 +54,12 @@ class Gradings {
 
     /// Sets the body from whose surface depths are measured.
     void set_body(FieldPtr body);
+
+    /// Sets the result of the recipe's search, which entries of kind `optimized` are.
+    void set_result(SearchResult result) { result_ = std::move(result); }
+    bool has_result() const { return result_.has_value(); }
+    /// Throws InputError before set_result().
+    const SearchResult& result() const;
 
     /// Makes a grading known to formulas under a name that the recipe does not define.
     void define(const std::string& name, GradingPtr grading) { made_[name] = std::move(grading); }
@@ -59,6 +72,7 @@ class Gradings {
 
     /// Makes `graded` replace a key's number inside a region; where regions overlap, later ones win.
     void override_number(const std::string& key, RegionalNumber number);
+    void forget_overrides() { overrides_.clear(); }
     /// Returns the overrides of a key.
     std::span<const RegionalNumber> overrides(const std::string& key) const;
 
@@ -71,6 +85,7 @@ class Gradings {
 
     const Recipe& recipe_;
     FieldPtr body_;
+    std::optional<SearchResult> result_;
     std::map<std::string, GradingPtr> made_;
     std::map<std::string, std::vector<RegionalNumber>> overrides_;
 };

@@ -82,6 +82,11 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         built.optimized = optimize_part(recipe, built.body, built.regions, gradings, optimizing);
         built.body = built.optimized->shape;
         gradings.set_body(built.body);
+        gradings.set_result({built.optimized->density, built.optimized->dense});
+        if (built.regions.list.size() < recipe.regions.size()) {
+            gradings.forget_overrides();
+            built.regions = build_regions(recipe, job.bounds, gradings);
+        }
         if (foam && built.optimized->foam_sizes)
             drive_foam(recipe.optimize->result, *built.optimized, *foam, gradings);
     }

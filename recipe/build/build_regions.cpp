@@ -13,6 +13,7 @@
 #include "procedural/grading/field_slope.h"
 #include "recipe/build/build_fields.h"
 #include "recipe/recipe_regions.h"
+#include "recipe/result_dependents.h"
 
 namespace lamella {
 
@@ -141,10 +142,14 @@ bool has(const BuiltRegions& regions, RegionMake make) {
 BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings) {
     BuiltRegions built;
     RegionFields fields(gradings, part, built.warnings);
+    const ResultDependents late(recipe);
+    int number = 0;
     for (const RegionRecipe& region : recipe.regions) {
+        ++number;
+        if (!gradings.has_result() && late.fields.contains(region.field)) continue;
         const FieldPtr field = fields.make(region);
-        built.list.push_back({fmt::format("region {} (`{}`)", built.list.size() + 1, region.field),
-                              region.make, region.blend, field});
+        built.list.push_back(
+            {fmt::format("region {} (`{}`)", number, region.field), region.make, region.blend, field});
         for (const RegionNumber& given : numbers_of(region)) {
             gradings.override_number(given.key, {field, region.blend, *given.number});
         }

@@ -23,7 +23,8 @@ struct BuiltRegions {
 };
 
 /// Makes the regions of a part inside the box, and registers numbers of foam and skin regions as overrides
-/// with the gradings. Throws InputError when a field cannot be made.
+/// with the gradings. Before the gradings have the result of the recipe's search, leaves out the regions that
+/// depend on it. Throws InputError when a field cannot be made.
 BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings);
 
 /// Returns the part with its solid and empty regions applied in order, clipped by the body. `filled`: the

@@ -8,7 +8,7 @@ const std::vector<std::string>& choice_names(OptimizeKind) {
     return list;
 }
 const std::vector<std::string>& choice_names(OptimizeResult) {
-    static const std::vector<std::string> list{"solid", "cell", "beam"};
+    static const std::vector<std::string> list{"solid", "cell", "beam", "field"};
     return list;
 }
 const std::vector<std::string>& choice_names(OptimizeMethod) {
@@ -64,7 +64,8 @@ void add_aims(std::vector<Setting>& t) {
     add_row<&O::result>(t, "result", "--optimize-result",
                         {.fallback = "solid",
                          .help = "What varies in the part: solid is material or void; cell and beam are that "
-                                 "number of the foam."});
+                                 "number of the foam; field leaves the part to fields and gradings of kind "
+                                 "optimized."});
     add_row<&O::volume>(t, "volume", "--optimize-volume",
                         {.limits = {0.001, 0.999},
                          .fallback = format_value(O{}.volume),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -14,6 +15,7 @@
 #include "procedural/volume/write_nrrd.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/identity.h"
+#include "recipe/result_dependents.h"
 #include "recipe/structure/optimized_foam.h"
 #include "recipe/structure/pictured_plate.h"
 #include "recipe/structure/stiffest_part.h"
@@ -22,15 +24,21 @@ namespace lamella {
 
 namespace {
 
-/// Returns what the optimisation leaves the same when it changes: the recipe without printer, layers and skin
-/// pattern.
+/// Returns what the result of the search depends on: the recipe without printer, layers and skin pattern,
+/// and without what depends on the result.
 Recipe relevant(const Recipe& recipe) {
     Recipe kept;
+    const ResultDependents late(recipe);
     kept.part = recipe.part;
-    kept.fields = recipe.fields;
-    kept.gradings = recipe.gradings;
-    kept.regions = recipe.regions;
-    kept.foam = recipe.foam;
+    std::ranges::copy_if(recipe.fields, std::back_inserter(kept.fields),
+                         [&](const FieldRecipe& field) { return !late.fields.contains(field.name); });
+    std::ranges::copy_if(recipe.gradings, std::back_inserter(kept.gradings),
+                         [&](const GradingRecipe& grading) { return !late.gradings.contains(grading.name); });
+    for (const RegionRecipe& region : recipe.regions) {
+        const bool prescribes = region.make == RegionMake::solid || region.make == RegionMake::empty;
+        if (prescribes && !late.fields.contains(region.field)) kept.regions.push_back(region);
+    }
+    if (drives_foam(recipe.optimize->result)) kept.foam = recipe.foam;
     kept.material = recipe.material;
     kept.skin = recipe.skin;
     kept.loads = recipe.loads;
@@ -53,21 +61,20 @@ GradingPtr sizes_of_foam(const OptimizedFoam& foam, const DensityGrid& grid, con
 }
 
 /// Makes grading and shape of the densities in single precision, as a plan keeps them.
-void make_fields(const FieldPtr& body, bool is_foam, std::vector<float> density, OptimizedPart& part) {
+void make_fields(const FieldPtr& body, OptimizeResult result, std::vector<float> density,
+                 OptimizedPart& part) {
     for (std::size_t i = 0; i < density.size(); ++i) part.grid.density[i] = static_cast<double>(density[i]);
     part.density =
         make_volume_grading(Volume{sides(part.grid.size), std::move(density), 1.0, part.box}, part.box);
-    part.shape = body;
-    if (is_foam) return;
     constexpr double level = 0.5;
     const std::vector<std::string> names{"x", "y", "z", "density"};
-    const FieldPtr dense = make_formula_field(parse_formula(fmt::format("{} - density", level), names),
-                                              {part.density}, body->bounds());
-    part.shape = make_intersection({body, dense});
+    part.dense = make_formula_field(parse_formula(fmt::format("{} - density", level), names), {part.density},
+                                    body->bounds());
+    part.shape = result == OptimizeResult::solid ? make_intersection({body, part.dense}) : body;
 }
 
 std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const FieldPtr& body,
-                                       bool is_foam) {
+                                       OptimizeResult result) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return std::nullopt;
     try {
@@ -79,7 +86,7 @@ std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const 
                           static_cast<int>(volume.size[2])};
         auto samples = std::get<std::vector<float>>(std::move(volume.samples));
         part.grid.density.resize(samples.size());
-        make_fields(body, is_foam, std::move(samples), part);
+        make_fields(body, result, std::move(samples), part);
         return part;
     } catch (const Error&) {
         return std::nullopt;  // a damaged plan is made anew
@@ -92,7 +99,7 @@ std::string optimize_hash(const Recipe& recipe) { return job_identity(relevant(r
 
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options) {
-    const bool is_foam = recipe.optimize->result != OptimizeResult::solid;
+    const OptimizeResult result = recipe.optimize->result;
     std::filesystem::path file, search;
     if (!options.plans.empty()) {
         const std::string hash = optimize_hash(recipe);
@@ -100,8 +107,9 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
         search = options.plans / (hash + ".search");
     }
     if (!file.empty() && !options.anew) {
-        if (auto kept = kept_part(file, body, is_foam)) {
-            if (is_foam) kept->foam_sizes = sizes_of_foam(OptimizedFoam(recipe), kept->grid, kept->box);
+        if (auto kept = kept_part(file, body, result)) {
+            if (drives_foam(result))
+                kept->foam_sizes = sizes_of_foam(OptimizedFoam(recipe), kept->grid, kept->box);
             return std::move(*kept);
         }
     }
@@ -115,8 +123,8 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     part.grid = design.grid;
     part.box = design.box;
     part.report = design.report;
-    make_fields(body, is_foam, {part.grid.density.begin(), part.grid.density.end()}, part);
-    if (is_foam) part.foam_sizes = sizes_of_foam(OptimizedFoam(recipe), part.grid, part.box);
+    make_fields(body, result, {part.grid.density.begin(), part.grid.density.end()}, part);
+    if (drives_foam(result)) part.foam_sizes = sizes_of_foam(OptimizedFoam(recipe), part.grid, part.box);
     const bool is_whole = options.cancel == nullptr || !options.cancel->cancelled();
     if (!file.empty() && is_whole) {
         std::error_code error;

@@ -37,7 +37,8 @@ struct OptimizedPart {
     Box box;                ///< of the grid, mm
     GradingPtr density;     ///< the same, as a grading
     GradingPtr foam_sizes;  ///< of the cells or members that are driven, mm; null without a foam
-    FieldPtr shape;         ///< the body, cut to where it is solid; the body itself for a foam
+    FieldPtr dense;         ///< where the density is above 0.5, beyond the body, too
+    FieldPtr shape;         ///< the body, cut to where it is solid; the body itself for other results
     std::shared_ptr<const StructureReport> report;  ///< null when the result comes from a plan
 };
 

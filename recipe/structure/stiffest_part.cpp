@@ -28,7 +28,7 @@ TopologySettings topology_settings(const OptimizeRecipe& optimize, const Element
     settings.method = needs_mma ? TopologyMethod::mma : TopologyMethod::oc;
     settings.tolerance = optimize.tolerance;
     if (optimize.iterations > 0) settings.iterations = optimize.iterations;
-    settings.sharpness = optimize.result == OptimizeResult::solid ? optimize.sharpness : 0;
+    settings.sharpness = drives_foam(optimize.result) ? 0 : optimize.sharpness;
     settings.cancel = cancel;
     return settings;
 }
@@ -40,7 +40,7 @@ class PartOptimizer {
     PartOptimizer(const Recipe& recipe, ElementDomain domain, Gradings& gradings,
                   const OptimizeOptions& options, const std::filesystem::path& file)
         : recipe_(recipe), options_(options), file_(file), domain_(std::move(domain)) {
-        if (recipe.optimize->result != OptimizeResult::solid) foam_.emplace(recipe);
+        if (drives_foam(recipe.optimize->result)) foam_.emplace(recipe);
         problem_.emplace(
             structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : material_poisson));
         const OptimizeRecipe& optimize = *recipe.optimize;
