@@ -5,11 +5,14 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
 #include "app/console/interrupt.h"
 #include "app/console/text_output.h"
+#include "app/ranks/distribute_cases.h"
+#include "app/ranks/run_on_ranks.h"
 #include "app/reports/structure_plot.h"
 #include "app/reports/structure_text.h"
 #include "engine/base/error.h"
@@ -72,20 +75,35 @@ void draw(const StructureCommand& command, const Recipe& recipe, const Optimized
     out.close();
 }
 
-int optimize(const StructureCommand& command) {
-    CancelToken cancel;
-    const InterruptGuard guard(cancel);
-    const Recipe recipe = command.recipe.read();
+Recipe optimized_recipe(const StructureCommand& command) {
+    Recipe recipe = command.recipe.read();
     if (!recipe.optimize)
         throw InputError(
             "[optimize] is missing: there is nothing to optimise; accepted: a recipe with [optimize], "
             "[[load]] and [[anchor]]");
+    return recipe;
+}
+
+OptimizeOptions optimize_options(const StructureCommand& command, const CancelToken& cancel,
+                                 SharedSolves* shared) {
     OptimizeOptions options;
     options.plans = command.plans;
     options.anew = true;
     options.resume = command.resume;
     options.threads = command.threads;
     options.cancel = &cancel;
+    options.shared = shared;
+    return options;
+}
+
+/// `ranks`: the processes that share the load cases; null for a single process.
+void optimize(const StructureCommand& command, Ranks* ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const Recipe recipe = optimized_recipe(command);
+    std::optional<DistributedCases> cases;
+    if (ranks != nullptr) cases.emplace(*ranks, &cancel);
+    OptimizeOptions options = optimize_options(command, cancel, cases ? &*cases : nullptr);
     IterationDisplay display(command.quiet);
     options.on_iteration = [&](const OptimizationStep& step, int steps) { display.show(step, steps); };
     const BuiltJob built = build_job(recipe, options);
@@ -93,7 +111,14 @@ int optimize(const StructureCommand& command) {
     if (!command.plot.empty()) draw(command, recipe, *built.optimized);
     write_report(command, *built.optimized->report);
     if (cancel.cancelled()) throw Interrupted("stopped; the report is that of the best design so far");
-    return 0;
+}
+
+/// The work of ranks other than 0: the same search, without a report.
+void help_to_optimize(const StructureCommand& command, Ranks& ranks) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    DistributedCases cases(ranks, &cancel);
+    build_job(optimized_recipe(command), optimize_options(command, cancel, &cases));
 }
 
 int analyze(const StructureCommand& command) {
@@ -146,9 +171,15 @@ void add_optimize_command(CLI::App& root) {
         "  lamella optimize bracket.toml --plot bracket.svg\n"
         "  lamella optimize bracket.toml --optimize-elements 96 --json -o report.json\n"
         "  lamella slice bracket.toml -o bracket.sl1\n"
+        "  mpirun -n 3 lamella optimize bracket.toml\n"
         "The result is kept with the plans, where slice and all other commands find it. Ctrl-C ends the\n"
-        "search and reports the best design so far; --resume goes on with it.");
-    command.callback([options] { optimize(*options); });
+        "search and reports the best design so far; --resume goes on with it. mpirun distributes load "
+        "cases:\n"
+        "a recipe with a single one uses one process.");
+    command.callback([options] {
+        const auto lead = [&](Ranks* ranks) { return optimize(*options, ranks), std::string(); };
+        run_on_ranks(lead, [&](Ranks& ranks) { help_to_optimize(*options, ranks); });
+    });
 }
 
 void add_analyze_command(CLI::App& root) {

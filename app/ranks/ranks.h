@@ -35,6 +35,7 @@ enum RankTag : int {
     task_tag,       ///< its next task
     result_tag,     ///< the result of a task
     turn_tag,       ///< assignment of the next layers
+    case_tag,       ///< displacements of a load case
     first_layer_tag = 16
 };
 

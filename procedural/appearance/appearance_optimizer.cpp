@@ -124,7 +124,8 @@ LevelOptimizer::LevelOptimizer(const TopologyProblem<2>& problem, const GreyImag
       level_(level),
       least_compliance_(least_compliance),
       map_(problem.body.grid.elements(), problem.use, eroded_settings(settings)),
-      compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel}),
+      compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel},
+                  settings.shared),
       appearance_(exemplar, map_.size().x, map_.size().y, settings.match, level, prescribed(problem.use)),
       bounds_(design_bounds(problem)) {
     for (const ElementUse use : problem.use) {
@@ -277,6 +278,7 @@ TopologySettings topology_settings(const AppearanceSettings& settings, int steps
     stiff.iterations = steps;
     stiff.solver_tolerance = settings.solver_tolerance;
     stiff.cancel = settings.cancel;
+    stiff.shared = settings.shared;
     return stiff;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "procedural/appearance/patch_match.h"
+#include "procedural/optimization/shared_solves.h"
 #include "procedural/optimization/topology_problem.h"
 
 namespace lamella {
@@ -36,6 +37,7 @@ struct AppearanceSettings {
     double solver_tolerance = 1e-5;                     ///< relative residual; at 1e-4 thin members break off
     std::function<void(const AppearanceStep&)> report;  ///< called after each step; may be empty
     const CancelToken* cancel = nullptr;                ///< may be null
+    SharedSolves* shared = nullptr;                     ///< see TopologySettings
 };
 
 /// Returns the number of steps on all grids and with all projections, without those that settle the

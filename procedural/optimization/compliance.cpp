@@ -2,6 +2,7 @@
 #include "procedural/optimization/compliance.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "engine/base/error.h"
 #include "procedural/optimization/variable_blocks.h"
@@ -22,13 +23,22 @@ ElasticBody<Dim> body_in_use(const TopologyProblem<Dim>& problem, const std::vec
     return body;
 }
 
+/// FNV-1a over whole numbers instead of bytes.
+std::uint64_t hash_of(std::span<const double> numbers) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const double number : numbers) hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3U;
+    return hash;
+}
+
 }  // namespace
 
 template <std::size_t Dim>
-Compliance<Dim>::Compliance(const TopologyProblem<Dim>& problem, const ElasticSolverOptions& options)
+Compliance<Dim>::Compliance(const TopologyProblem<Dim>& problem, const ElasticSolverOptions& options,
+                            SharedSolves* shared)
     : problem_(problem),
       numbers_(element_numbers(problem.body.grid)),
       solver_(body_in_use(problem, numbers_), options),
+      shared_(shared),
       displacements_(problem.cases.size(), NodalVector<Dim, double>(problem.body.grid.size())) {}
 
 /// Adds the weight of the elements, spread evenly over their corners.
@@ -72,6 +82,69 @@ std::vector<std::vector<double>> Compliance<Dim>::all_displacements() const {
 }
 
 template <std::size_t Dim>
+bool Compliance<Dim>::is_heavy() const {
+    return std::ranges::any_of(problem_.weight, [](double w) { return w != 0; });
+}
+
+template <std::size_t Dim>
+NodalVector<Dim, double> Compliance<Dim>::forces(std::size_t load_case,
+                                                 std::span<const double> density) const {
+    NodalVector<Dim, double> all = problem_.cases[load_case].forces;
+    if (is_heavy()) add_weight(density, all);
+    return all;
+}
+
+/// Solves the cases of this process and takes those of others. Returns the most iterations of a case.
+template <std::size_t Dim>
+int Compliance<Dim>::solve_cases(std::span<const double> density) {
+    int most = 0;
+    for (std::size_t c = 0; c < problem_.cases.size(); ++c) {
+        if (shared_ != nullptr && !shared_->is_solved_here(c)) continue;
+        NodalVector<Dim, double>& u = displacements_[c];
+        const int iterations = solver_.solve(forces(c, density), u);
+        most = std::max(most, iterations);
+        if (shared_ != nullptr) shared_->give({moduli_hash_, iterations, {u.along.begin(), u.along.end()}});
+    }
+    for (std::size_t c = 0; shared_ != nullptr && c < problem_.cases.size(); ++c) {
+        if (shared_->is_solved_here(c)) continue;
+        SolvedCase solved = shared_->take(c, moduli_hash_);
+        if (solved.displacements.size() != Dim)
+            throw FaultError("displacements of a load case lack a direction");
+        std::ranges::move(solved.displacements, displacements_[c].along.begin());
+        most = std::max(most, solved.iterations);
+    }
+    return most;
+}
+
+/// Adds the compliance of a case that is solved, and its gradient.
+template <std::size_t Dim>
+void Compliance<Dim>::add_case(std::size_t load_case, std::span<const double> density, Result& result) const {
+    const NodalVector<Dim, double>& u = displacements_[load_case];
+    const double weight = problem_.cases[load_case].weight;
+    result.by_case.push_back(solver_.work(forces(load_case, density), u));
+    result.total += weight * result.by_case.back();
+    const std::vector<double> energies = solver_.unit_energies(u);
+    const auto corners = problem_.body.grid.corner_steps();
+    const bool heavy = is_heavy();
+    for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (problem_.use[i] == ElementUse::outside) continue;
+            double slope = -problem_.law->slope(density[i]) * energies[numbers_[i]];
+            if (heavy) {
+                for (const std::ptrdiff_t corner : corners) {
+                    const auto node =
+                        static_cast<std::size_t>(static_cast<std::ptrdiff_t>(numbers_[i]) + corner);
+                    for (std::size_t d = 0; d < Dim; ++d)
+                        slope +=
+                            2 * u.along[d][node] * problem_.weight[d] / static_cast<double>(corners.size());
+                }
+            }
+            result.gradient[i] += weight * slope;
+        }
+    });
+}
+
+template <std::size_t Dim>
 auto Compliance<Dim>::evaluate(std::span<const double> density) -> Result {
     std::vector<double> moduli(problem_.body.grid.size());
     for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -80,42 +153,12 @@ auto Compliance<Dim>::evaluate(std::span<const double> density) -> Result {
                 moduli[numbers_[i]] = problem_.law->modulus(density[i]);
         }
     });
+    if (shared_ != nullptr) moduli_hash_ = hash_of(moduli);
     solver_.set_moduli(std::move(moduli));
-    const bool heavy = std::ranges::any_of(problem_.weight, [](double w) { return w != 0; });
     Result result;
     result.gradient.assign(density.size(), 0.0);
-    for (std::size_t c = 0; c < problem_.cases.size(); ++c) {
-        const LoadCase<Dim>& load = problem_.cases[c];
-        NodalVector<Dim, double>& u = displacements_[c];
-        const NodalVector<Dim, double>* forces = &load.forces;
-        NodalVector<Dim, double> with_weight;
-        if (heavy) {
-            with_weight = load.forces;
-            add_weight(density, with_weight);
-            forces = &with_weight;
-        }
-        result.iterations = std::max(result.iterations, solver_.solve(*forces, u));
-        result.by_case.push_back(solver_.work(*forces, u));
-        result.total += load.weight * result.by_case.back();
-        const std::vector<double> energies = solver_.unit_energies(u);
-        const auto corners = problem_.body.grid.corner_steps();
-        for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (problem_.use[i] == ElementUse::outside) continue;
-                double slope = -problem_.law->slope(density[i]) * energies[numbers_[i]];
-                if (heavy) {
-                    for (const std::ptrdiff_t corner : corners) {
-                        const auto node =
-                            static_cast<std::size_t>(static_cast<std::ptrdiff_t>(numbers_[i]) + corner);
-                        for (std::size_t d = 0; d < Dim; ++d)
-                            slope += 2 * u.along[d][node] * problem_.weight[d] /
-                                     static_cast<double>(corners.size());
-                    }
-                }
-                result.gradient[i] += load.weight * slope;
-            }
-        });
-    }
+    result.iterations = solve_cases(density);
+    for (std::size_t c = 0; c < problem_.cases.size(); ++c) add_case(c, density, result);
     return result;
 }
 

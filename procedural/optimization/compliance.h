@@ -1,6 +1,7 @@
 // Compliance: how far the loads of a design move, and its gradient.
 #pragma once
 
+#include "procedural/optimization/shared_solves.h"
 #include "procedural/optimization/topology_problem.h"
 
 namespace lamella {
@@ -10,8 +11,9 @@ namespace lamella {
 template <std::size_t Dim>
 class Compliance {
   public:
-    /// Keeps a reference to the problem.
-    Compliance(const TopologyProblem<Dim>& problem, const ElasticSolverOptions& options);
+    /// Keeps a reference to the problem. `shared`: the processes that share the solves; null for one.
+    Compliance(const TopologyProblem<Dim>& problem, const ElasticSolverOptions& options,
+               SharedSolves* shared = nullptr);
 
     struct Result {
         double total = 0;              ///< sum over cases of weight times compliance
@@ -30,11 +32,17 @@ class Compliance {
     }
 
   private:
+    bool is_heavy() const;
     void add_weight(std::span<const double> density, NodalVector<Dim, double>& forces) const;
+    NodalVector<Dim, double> forces(std::size_t load_case, std::span<const double> density) const;
+    int solve_cases(std::span<const double> density);
+    void add_case(std::size_t load_case, std::span<const double> density, Result& result) const;
 
     const TopologyProblem<Dim>& problem_;
     std::vector<std::size_t> numbers_;
     ElasticSolver<Dim> solver_;
+    SharedSolves* shared_;
+    std::uint64_t moduli_hash_ = 0;  ///< of the last design, with others to share the solves
     std::vector<NodalVector<Dim, double>> displacements_;
 };
 

@@ -21,6 +21,7 @@ struct TopologySettings {
     double solver_tolerance = 1e-5;
     double oc_tolerance = 1e-3;           ///< of the multiplier of the volume, relative
     const CancelToken* cancel = nullptr;  ///< may be null
+    SharedSolves* shared = nullptr;       ///< the processes that share the solves; null for one
 };
 
 /// What an iteration found, before it changed the design.

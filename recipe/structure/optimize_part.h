@@ -13,6 +13,7 @@
 
 namespace lamella {
 
+class SharedSolves;
 struct OptimizationStep;
 struct StructureReport;
 
@@ -28,6 +29,7 @@ struct OptimizeOptions {
     /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null. The
     /// search for an appearance has none before its end.
     const CancelToken* cancel = nullptr;
+    SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
 };
 
 /// An optimised part.

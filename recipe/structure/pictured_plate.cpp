@@ -163,6 +163,7 @@ PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRe
     AppearanceSettings settings = appearance_settings(optimize, density_settings(optimize, domain));
     settings.volume = problem.topology.volume;
     settings.cancel = options.cancel;
+    settings.shared = options.shared;
     settings.report = [&](const AppearanceStep& found) {
         report.history.push_back(step_of(found, static_cast<int>(report.history.size()) + 1));
         if (options.on_iteration) options.on_iteration(report.history.back(), step_count(settings));

@@ -185,6 +185,7 @@ PartDesign PartOptimizer<Dim>::optimize() {
     StructureReport& report = *design.report;
     describe(*problem_, domain_, report);
     TopologySettings settings = topology_settings(*recipe_.optimize, domain_, options_.cancel);
+    settings.shared = options_.shared;
     if (settings.density.length_scale)
         settings.density.open = far_from_holds(settings.density.length_scale->radius);
     TopologyOptimizer<Dim> optimizer(problem_->topology, settings);

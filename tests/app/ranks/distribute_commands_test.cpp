@@ -11,20 +11,6 @@ using namespace lamella;
 
 namespace {
 
-/// `lamella` by so many processes, with one thread each and nothing of the user's; 0: without mpirun.
-Outcome run_by(int size, const std::string& arguments, const Folder& folder) {
-    if (size == 0) return run_lamella(arguments);
-    return mpirun("-x XDG_CACHE_HOME=" + folder / "cache" + " -n " + std::to_string(size) + " " +
-                      LAMELLA_COMMAND + " " + arguments,
-                  folder);
-}
-
-std::size_t times(const std::string& text, const std::string& words) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++count;
-    return count;
-}
-
 /// Bare foam: thin, hanging, with pieces on their own.
 const std::string faulty =
     "--shape box --shape-size 6,6,5 --cell 2 --beam 0.3 --layer-height 0.1 --threads 1 -q ";

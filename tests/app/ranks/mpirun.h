@@ -56,5 +56,20 @@ inline Outcome mpirun(const std::string& arguments, const Folder& folder) {
     return {exited ? WEXITSTATUS(*status) : -1, contents(folder / "out"), contents(folder / "err")};
 }
 
+/// `lamella` by so many processes, with nothing of the user's; 0: without mpirun.
+inline Outcome run_by(int size, const std::string& arguments, const Folder& folder) {
+    if (size == 0) return run_lamella(arguments);
+    return mpirun("-x XDG_CACHE_HOME=" + folder / "cache" + " -n " + std::to_string(size) + " " +
+                      LAMELLA_COMMAND + " " + arguments,
+                  folder);
+}
+
+/// How often words occur in a text.
+inline std::size_t times(const std::string& text, const std::string& words) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++count;
+    return count;
+}
+
 }  // namespace lamella
 #endif

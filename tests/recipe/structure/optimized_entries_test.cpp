@@ -16,7 +16,8 @@ const std::string block =
 const std::string search =
     "[optimize]\nresult = \"field\"\nelements = 24\niterations = 15\nsharpness = 4\nvolume = 0.3\n";
 const std::string entries =
-    "[[field]]\nname = \"frame\"\nkind = \"optimized\"\n[[grading]]\nname = \"share\"\nkind = \"optimized\"\n";
+    "[[field]]\nname = \"frame\"\nkind = \"optimized\"\n[[grading]]\nname = \"share\"\nkind = "
+    "\"optimized\"\n";
 
 template <typename Visit>
 void visit_points(Visit visit) {
@@ -30,8 +31,8 @@ void visit_points(Visit visit) {
 }  // namespace
 
 TEST_CASE("a region of the result is solid where the search found material", "[optimization]") {
-    const BuiltJob empty = build_job(
-        recipe_of(block + search + entries + "[[region]]\nfield = \"frame\"\nmake = \"empty\"\n"));
+    const BuiltJob empty =
+        build_job(recipe_of(block + search + entries + "[[region]]\nfield = \"frame\"\nmake = \"empty\"\n"));
     const OptimizedPart& part = *empty.optimized;
     int dense = 0, points = 0;
     visit_points([&](dvec3 p) {
@@ -97,8 +98,9 @@ TEST_CASE("a result that is not there is told", "[optimization]") {
     CHECK(mentions(told("[part]\nshape = \"box\"\nsize = [24, 12, 12]\n" + entries),
                    "test.toml:4: field.kind: \"optimized\" is the result of a search, and there is none"));
     CHECK(mentions(told(block + search), "optimize.result: \"field\" leaves the part as it is"));
-    CHECK(mentions(told(block + search + entries + "[[anchor]]\nfield = \"frame\"\n"),
-                   "anchor.field: `frame` depends on the result of the search, which begins with this field"));
+    CHECK(
+        mentions(told(block + search + entries + "[[anchor]]\nfield = \"frame\"\n"),
+                 "anchor.field: `frame` depends on the result of the search, which begins with this field"));
     const std::string hidden =
         "[[field]]\nname = \"later\"\nformula = \"share - 0.2\"\n[[load]]\nfield = \"later\"\npressure = 1\n";
     CHECK(mentions(told(block + search + entries + hidden), "load.field: `later` depends on the result"));
