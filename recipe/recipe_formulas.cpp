@@ -262,6 +262,25 @@ std::vector<std::string> names_beyond_place(std::string_view formula) {
     return names;
 }
 
+bool uses_depth(const Recipe& recipe) {
+    std::vector<const GradedNumber*> numbers;
+    for (const GradingRecipe& grading : recipe.gradings)
+        numbers.insert(numbers.end(), {&grading.formula, &grading.along});
+    for (const RegionRecipe& region : recipe.regions) {
+        for (const RegionNumber& given : numbers_of(region)) numbers.push_back(given.number);
+    }
+    if (recipe.foam) {
+        for (const GradedNumber* number : numbers_of(*recipe.foam)) numbers.push_back(number);
+    }
+    if (recipe.frame) numbers.push_back(&recipe.frame->beam);
+    if (recipe.skin) numbers.insert(numbers.end(), {&recipe.skin->thickness, &recipe.skin->strut});
+    return std::ranges::any_of(numbers, [](const GradedNumber* number) {
+        if (!number->is_formula()) return false;
+        const std::vector<std::string> names = names_beyond_place(number->formula());
+        return std::ranges::find(names, depth_name) != names.end();
+    });
+}
+
 std::string unused_entries(const Recipe& recipe) {
     std::set<std::string> used;
     std::vector<const GradedNumber*> open;

@@ -29,6 +29,9 @@ std::vector<std::string> formula_mistakes(const Recipe& recipe);
 /// mistakes.
 std::vector<std::string> formula_text_mistakes(const Recipe& recipe);
 
+/// Returns true if a formula of the recipe uses the depth `d`.
+bool uses_depth(const Recipe& recipe);
+
 /// Returns a sentence that lists the [[grading]] and [[field]] entries that nothing uses; empty when there
 /// are none.
 std::string unused_entries(const Recipe& recipe);

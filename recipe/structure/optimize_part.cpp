@@ -10,11 +10,14 @@
 #include "engine/base/parallel.h"
 #include "engine/formula/formula_field.h"
 #include "engine/formula/formula_parser.h"
+#include "engine/mesh/mesh_field.h"
 #include "engine/solids/csg.h"
+#include "procedural/optimization/density_surface.h"
 #include "procedural/volume/volume_grading.h"
 #include "procedural/volume/write_nrrd.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/identity.h"
+#include "recipe/recipe_formulas.h"
 #include "recipe/result_dependents.h"
 #include "recipe/structure/optimized_foam.h"
 #include "recipe/structure/pictured_plate.h"
@@ -24,8 +27,8 @@ namespace lamella {
 
 namespace {
 
-/// Returns what the result of the search depends on: the recipe without printer, layers and skin pattern,
-/// and without what depends on the result.
+/// Returns the search's problem: the recipe without printer, layers and skin pattern, without what depends on
+/// the result, and without the skin and foam that fill a solid shape once it is found.
 Recipe relevant(const Recipe& recipe) {
     Recipe kept;
     const ResultDependents late(recipe);
@@ -40,7 +43,7 @@ Recipe relevant(const Recipe& recipe) {
     }
     if (drives_foam(recipe.optimize->result)) kept.foam = recipe.foam;
     kept.material = recipe.material;
-    kept.skin = recipe.skin;
+    if (recipe.optimize->result != OptimizeResult::solid) kept.skin = recipe.skin;
     kept.loads = recipe.loads;
     kept.anchors = recipe.anchors;
     kept.optimize = recipe.optimize;
@@ -61,7 +64,7 @@ GradingPtr sizes_of_foam(const OptimizedFoam& foam, const DensityGrid& grid, con
 }
 
 /// Makes grading and shape of the densities in single precision, as a plan keeps them.
-void make_fields(const FieldPtr& body, OptimizeResult result, std::vector<float> density,
+void make_fields(const Recipe& recipe, const FieldPtr& body, std::vector<float> density,
                  OptimizedPart& part) {
     for (std::size_t i = 0; i < density.size(); ++i) part.grid.density[i] = static_cast<double>(density[i]);
     part.density =
@@ -70,11 +73,18 @@ void make_fields(const FieldPtr& body, OptimizeResult result, std::vector<float>
     const std::vector<std::string> names{"x", "y", "z", "density"};
     part.dense = make_formula_field(parse_formula(fmt::format("{} - density", level), names), {part.density},
                                     body->bounds());
-    part.shape = result == OptimizeResult::solid ? make_intersection({body, part.dense}) : body;
+    part.shape = body;
+    if (recipe.optimize->result != OptimizeResult::solid) return;
+    // Skins and depths need distances, which densities are not.
+    const bool needs_distances = recipe.skin || uses_depth(recipe);
+    part.shape = make_intersection(
+        {body, needs_distances ? make_mesh_field(close_mesh(density_surface(part.grid, part.box, level),
+                                                            "the optimised shape"))
+                               : part.dense});
 }
 
-std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const FieldPtr& body,
-                                       OptimizeResult result) {
+std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const Recipe& recipe,
+                                       const FieldPtr& body) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return std::nullopt;
     try {
@@ -86,7 +96,7 @@ std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const 
                           static_cast<int>(volume.size[2])};
         auto samples = std::get<std::vector<float>>(std::move(volume.samples));
         part.grid.density.resize(samples.size());
-        make_fields(body, result, std::move(samples), part);
+        make_fields(recipe, body, std::move(samples), part);
         return part;
     } catch (const Error&) {
         return std::nullopt;  // a damaged plan is made anew
@@ -107,23 +117,27 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
         search = options.plans / (hash + ".search");
     }
     if (!file.empty() && !options.anew) {
-        if (auto kept = kept_part(file, body, result)) {
+        if (auto kept = kept_part(file, recipe, body)) {
             if (drives_foam(result))
                 kept->foam_sizes = sizes_of_foam(OptimizedFoam(recipe), kept->grid, kept->box);
             return std::move(*kept);
         }
     }
     ThreadArena arena(options.threads);
+    const Recipe problem = relevant(recipe);
     const PartDesign design = arena.execute([&] {
-        return recipe.optimize->kind == OptimizeKind::appearance
-                   ? pictured_plate(recipe, *body, regions, gradings, options)
-                   : stiffest_part(recipe, *body, regions, gradings, options, search);
+        return problem.optimize->kind == OptimizeKind::appearance
+                   ? pictured_plate(problem, *body, regions, gradings, options)
+                   : stiffest_part(problem, *body, regions, gradings, options, search);
     });
+    if (result == OptimizeResult::solid && (recipe.foam || recipe.skin))
+        design.report->notes.emplace_back(
+            "compliance is that of the solid shape; `lamella analyze` computes it as the shape is filled");
     OptimizedPart part;
     part.grid = design.grid;
     part.box = design.box;
     part.report = design.report;
-    make_fields(body, result, {part.grid.density.begin(), part.grid.density.end()}, part);
+    make_fields(recipe, body, {part.grid.density.begin(), part.grid.density.end()}, part);
     if (drives_foam(result)) part.foam_sizes = sizes_of_foam(OptimizedFoam(recipe), part.grid, part.box);
     const bool is_whole = options.cancel == nullptr || !options.cancel->cancelled();
     if (!file.empty() && is_whole) {

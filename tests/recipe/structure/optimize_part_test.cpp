@@ -155,6 +155,60 @@ TEST_CASE("a driven foam has the asked mean density, and beams within the printe
     CHECK(again.compliance == Approx(report.compliance).epsilon(0.1));
 }
 
+TEST_CASE("a skin on an optimised shape is as thick as asked, and the rest is foam", "[optimization]") {
+    constexpr double thickness = 0.6;
+    const BuiltJob job =
+        built(block + in_space + "volume = 0.6\n[skin]\nthickness = 0.6\n[foam]\ncell = 3\nbeam = 0.2\n");
+    const OptimizedPart& part = *job.optimized;
+    CHECK(mentions(part.report->notes.back(), "compliance is that of the solid shape"));
+    const auto is_solid = [&](dvec3 p) {
+        return part.density->at(p) > 0.5 && Box{{-12, -6, -6}, {12, 6, 6}}.contains(p);
+    };
+    const auto is_clear = [&](dvec3 p, double distance) {
+        for (int k = 0; k < 300; ++k) {
+            const double z = 1 - (2 * k + 1) / 300.0, r = std::sqrt(1 - z * z), turn = 2.399963 * k;
+            const dvec3 way(r * std::cos(turn), r * std::sin(turn), z);
+            for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+                if (!is_solid(p + way * (share * distance))) return false;
+            }
+        }
+        return true;
+    };
+    int skin = 0, deep = 0;
+    for (double x = -11.7; x < 12; x += 0.9) {
+        for (double y = -5.6; y < 6; y += 0.8) {
+            for (double z = -5.7; z < 6; z += 0.7) {
+                const dvec3 p(x, y, z);
+                const double density = part.density->at(p);
+                if (density < 0.45) CHECK(job.job.part->value(p) > 0);
+                if (density < 0.55) continue;
+                if (!is_clear(p, 0.75 * thickness)) {
+                    // The mesh of the surface is right to a tenth of an element.
+                    CHECK(job.job.part->value(p) < 0.1);
+                    ++skin;
+                } else if (is_clear(p, 1.25 * thickness)) {
+                    CHECK((job.job.part->value(p) < 0) == (job.foam->field->value(p) < 0));
+                    ++deep;
+                }
+            }
+        }
+    }
+    CHECK(skin > 500);
+    CHECK(deep > 100);
+}
+
+TEST_CASE("the depth in an optimised shape is the distance to its surface", "[optimization]") {
+    const BuiltJob job = built(block + in_space + "volume = 0.4\n[foam]\ncell = \"2 + d\"\nbeam = 0.2\n");
+    const GradingPtr& cell = job.foam->cell.asked;
+    double most = 0;
+    for (double x = -11.7; x < 12; x += 0.9) {
+        for (double z = -5.7; z < 6; z += 0.7) most = std::max(most, cell->at({x, 0.1, z}) - 2);
+    }
+    CHECK(most > 1);
+    CHECK(most < 3);
+    CHECK(cell->at({-11.8, -4, 5.5}) - 2 == Approx(0.2).margin(0.05));
+}
+
 TEST_CASE("a bar that is analysed stretches as the textbook says", "[optimization]") {
     // F L / (E A) with a pull of 100 N on 20 x 4 mm over 40 mm, and C = F u.
     const std::string bar =
