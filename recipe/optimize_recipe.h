@@ -34,8 +34,8 @@ struct AnchorRecipe : PlaceRecipe {
     std::string fix = "xyz";  ///< the axes along which it cannot move: letters x, y, z, each at most once
 };
 
-/// Least compliance at a bounded volume, or the looks of a picture at a bounded compliance.
-enum class OptimizeKind : unsigned char { stiffness, appearance };
+/// Least compliance at a bounded volume; or, at a bounded compliance, least volume or the looks of a picture.
+enum class OptimizeKind : unsigned char { stiffness, lightness, appearance };
 
 /// What the densities become: material or void, the foam's cell size or beam radius, or the [[field]] and
 /// [[grading]] entries of kind `optimized` alone.
@@ -51,13 +51,16 @@ enum class OptimizeMethod : unsigned char { oc, mma };
 
 /// What is optimised. The part is the design domain; regions that are solid or empty stay as they are.
 struct OptimizeRecipe {
+    static constexpr double whole_part = 0.999;  ///< the largest `volume`
+
     OptimizeKind kind = OptimizeKind::stiffness;
     OptimizeResult result = OptimizeResult::solid;
-    double volume = 0.5;      ///< share of the part's volume, at most; without effect when `mass` is given
-    double volume_min = 0;    ///< appearance: share of the part's volume, at least
-    double mass = 0;          ///< at most, g; 0: `volume` holds
-    double compliance = 1.2;  ///< appearance: at most, as a multiple of the least compliance
-    double element = 0;       ///< edge of the finite elements, mm; 0: not given
+    double volume = 0.5;    ///< share of the part's volume, at most; without effect when `mass` is given
+    double volume_min = 0;  ///< appearance: share of the part's volume, at least
+    double mass = 0;        ///< at most, g; 0: `volume` holds
+    /// At most: for lightness as a multiple of the full part's, for appearance of the least compliance.
+    double compliance = 1.2;
+    double element = 0;  ///< edge of the finite elements, mm; 0: not given
     int elements = 0;    ///< number along the part's longest side; 0: not given. Neither: 64 in 3D, 200 in 2D
     int dimensions = 3;  ///< 2: a plate in the xy plane in plane stress, as thick as the part is high
     double radius = 0;   ///< of the density filter, mm; 0: 1.5 elements

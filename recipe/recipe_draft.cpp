@@ -355,6 +355,8 @@ Recipe RecipeDraft::assemble() {
         recipe.anchors[i].where = where_begins("anchor", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
     if (count(*find_section("optimize")) > 0 && !recipe.optimize) recipe.optimize.emplace();
+    if (recipe.optimize && recipe.optimize->kind == OptimizeKind::lightness && !entry("optimize", "volume"))
+        recipe.optimize->volume = OptimizeRecipe::whole_part;
     if (recipe.optimize && recipe.optimize->kind == OptimizeKind::appearance) {
         if (!entry("optimize", "method")) recipe.optimize->method = OptimizeMethod::mma;
         if (!entry("optimize", "dimensions")) recipe.optimize->dimensions = 2;

@@ -46,6 +46,7 @@ const std::vector<KindSection>& kind_sections() {
          "kind",
          "stiffness",
          {{"stiffness", {}, {}},
+          {"lightness", {"compliance"}, {}},
           {"appearance",
            {"image", "image_size"},
            {"volume_min", "compliance", "invert", "threshold", "neighbourhood", "exponent", "spread",

@@ -165,6 +165,11 @@ void RecipeDraft::check_optimize(const Recipe& recipe) {
     if (optimize.dimensions == 2) check_two_dimensions(recipe);
     if (drives_foam(optimize.result)) check_driven_foam(recipe);
     if (optimize.kind == OptimizeKind::appearance) check_appearance(recipe);
+    if (optimize.kind == OptimizeKind::lightness && optimize.gravity != dvec3(0)) {
+        refuse(0, fmt::format("{}: with optimize.kind = \"lightness\", less volume must not mean less load; "
+                              "accepted: no gravity, or kind stiffness",
+                              where("optimize", "gravity")));
+    }
     // The smallest volume stands beside a mass whose share of the part is not known here.
     if (optimize.mass == 0 && optimize.volume_min > optimize.volume) {
         refuse(0, fmt::format("{}: {} is more than {}, {}; accepted: at most the largest volume",

@@ -155,7 +155,8 @@ void add_options(CLI::App& command, StructureCommand& options) {
 void add_optimize_command(CLI::App& root) {
     auto options = std::make_shared<StructureCommand>();
     CLI::App& command = *root.add_subcommand(
-        "optimize", "Find the stiffest shape or foam of a part under its loads, or a plate like a picture");
+        "optimize",
+        "Find the stiffest or lightest shape or foam of a part under its loads, or a plate like a picture");
     add_options(command, *options);
     command
         .add_option("--save", options->save,

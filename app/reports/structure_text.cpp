@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "recipe/build/json_triple.h"
+#include "recipe/optimize_recipe.h"
 
 namespace lamella {
 
 namespace {
+
+constexpr double whole_part = OptimizeRecipe::whole_part;
 
 std::string line(const char* name, const std::string& value) {
     return fmt::format("{:<22}{}\n", name, value);
@@ -96,13 +99,16 @@ std::string structure_text(const StructureReport& report) {
                              report.is_converged ? "" : " (not settled)", grey_text(", ", report.greyness)));
     }
     text += appearance_text(report);
-    text += line("result", compliance_text(report.compliance, report));
+    const std::string bound =
+        report.compliance_bound > 0 ? fmt::format(" (at most {:.4g})", report.compliance_bound) : "";
+    text += line("result", compliance_text(report.compliance, report) + bound);
     if (report.volume > 0) {
-        text += line("volume", fmt::format("{:.2f} %{}{}", 100 * report.volume,
-                                           report.history.empty() ? ""
-                                                                  : fmt::format(" of at most {:.2f} %",
-                                                                                100 * report.volume_bound),
-                                           report.mass > 0 ? fmt::format(", {:.4g} g", report.mass) : ""));
+        text +=
+            line("volume", fmt::format("{:.2f} %{}{}", 100 * report.volume,
+                                       report.history.empty() || report.volume_bound >= whole_part
+                                           ? ""
+                                           : fmt::format(" of at most {:.2f} %", 100 * report.volume_bound),
+                                       report.mass > 0 ? fmt::format(", {:.4g} g", report.mass) : ""));
     }
     if (report.stray_pieces > 0) text += line("stray pieces", fmt::format("{} dropped", report.stray_pieces));
     for (const std::string& note : report.notes) text += line("note", note);
@@ -138,6 +144,7 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
             {"material_is_assumed", report.material_is_assumed},
             {"body_volume_mm3", report.body_volume},
             {"volume_bound", report.volume_bound},
+            {"compliance_bound", report.compliance_bound},
             {"full_compliance_nmm", report.full_compliance},
             {"densities_compliance_nmm", report.densities_compliance},
             {"least_compliance_nmm", report.least_compliance},

@@ -54,7 +54,9 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
     if (settings.sensitivity_filter &&
         (density.length_scale || density.overhang || mirrored || settings.sharpness > 0))
         throw InputError("the sensitivity filter knows no length scale, overhang, symmetry or projection");
-    const double start = (problem.volume * elements_ - solid) / free;
+    least_volume_ = (solid + free * problem.least_density) / elements_;
+    if (settings.compliance > 0) state_.volume = 0.5 * (least_volume_ + problem.volume);
+    const double start = (volume() * elements_ - solid) / free;
     if (!(start > problem.least_density))
         throw InputError("what is kept solid fills " + std::to_string(100 * solid / elements_) +
                          " % of the body; the volume may be " + std::to_string(100 * problem.volume) + " %");
@@ -117,10 +119,10 @@ std::vector<double> TopologyOptimizer<Dim>::oc_step(const std::vector<double>& c
     constexpr double enough = 1e-3;  // of the volume
     const auto error_of = [&](const std::vector<double>& design) {
         map_.forward(design, sharpness());
-        return mean_of(density(DensityMap::Role::result), elements_) - problem_.volume;
+        return mean_of(density(DensityMap::Role::result), elements_) - volume();
     };
     double error = error_of(next), least = std::abs(error), former_excess = excess, former_error = error;
-    for (int k = 1; k < most_steps && least > enough * problem_.volume; ++k) {
+    for (int k = 1; k < most_steps && least > enough * volume(); ++k) {
         const double slope = k == 1 ? -1 / elements_ : (error - former_error) / (excess - former_excess);
         if (!(slope < 0)) break;  // every variable is at a bound
         former_excess = std::exchange(excess, excess - error / slope);
@@ -145,10 +147,10 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
     // Svanberg asks for values of 1 to 100.
     constexpr double objective_scale = 10, constraint_scale = 100;
     if (state_.first_compliance == 0) state_.first_compliance = found.total;
-    std::vector<double> objective(compliance_gradient), volume(volume_gradient);
-    const double bound = problem_.volume * elements_;
+    std::vector<double> objective(compliance_gradient), used(volume_gradient);
+    const double bound = volume() * elements_;
     for (double& g : objective) g *= objective_scale / state_.first_compliance;
-    for (double& g : volume) g *= constraint_scale / bound;
+    for (double& g : used) g *= constraint_scale / bound;
     const double constraint = constraint_scale * excess / bound;
     return mma_
         .update({.x = state_.design,
@@ -156,18 +158,27 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
                  .upper = bounds_.upper,
                  .objective_gradient = objective,
                  .constraints = {&constraint, 1},
-                 .gradients = {volume}})
+                 .gradients = {used}})
         .x;
+}
+
+/// Compliance falls by about the square of the volume; half of the way there is stable with steps of designs.
+template <std::size_t Dim>
+void TopologyOptimizer<Dim>::seek_volume(double compliance) {
+    constexpr double most_change = 1.05;
+    const double factor = std::sqrt(compliance / settings_.compliance);
+    const double least = least_volume_ + 1e-3 * (problem_.volume - least_volume_);
+    state_.volume *= std::clamp(factor, 1 / most_change, most_change);
+    state_.volume = std::clamp(state_.volume, least, problem_.volume);
 }
 
 /// Counts the iteration, and goes on to the next sharpness when it is time.
 template <std::size_t Dim>
-void TopologyOptimizer<Dim>::advance(double change) {
+void TopologyOptimizer<Dim>::advance(bool settled) {
     ++state_.iteration;
     const int left = settings_.iterations - state_.iteration,
               in_phase = state_.iteration - state_.phase_began;
     const int needed = (phases_ - state_.phase) * settings_.iterations_a_sharpness;
-    const bool settled = change < settings_.tolerance;
     const bool next =
         state_.phase == 0 ? settled || left <= needed : in_phase >= settings_.iterations_a_sharpness;
     if (state_.phase < phases_ && next) {
@@ -187,7 +198,7 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
     // Whatever was analysed in between or broken off leaves no trace.
     compliance_.set_displacements(state_.displacements);
     const typename Compliance<Dim>::Result found = compliance_.evaluate(density(Role::stiffness));
-    const std::span<const double> volume = density(Role::volume), result = density(Role::result);
+    const std::span<const double> filling = density(Role::volume), result = density(Role::result);
 
     std::vector<double> ones(problem_.use.size());
     for (std::size_t i = 0; i < ones.size(); ++i) ones[i] = problem_.use[i] == ElementUse::free ? 1.0 : 0.0;
@@ -212,16 +223,20 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
                                                  }) /
                       free;
 
+    if (settings_.compliance > 0) seek_volume(found.total);
     // With three fields, the dilated one is bounded such that the result meets the volume (Wang et al. 2011).
-    const double present = mean_of(volume, elements_);
-    const double bound = report.volume > 0 ? problem_.volume * present / report.volume : problem_.volume;
+    const double present = mean_of(filling, elements_);
+    const double bound = report.volume > 0 ? volume() * present / report.volume : volume();
     const std::vector<double> next =
         next_design(found, compliance_gradient, volume_gradient, (present - bound) * elements_);
     for (std::size_t i = 0; i < next.size(); ++i)
         report.change = std::max(report.change, std::abs(next[i] - state_.design[i]));
     state_.design = next;
     state_.displacements = compliance_.all_displacements();
-    advance(report.change);
+    constexpr double near_bound = 0.01;
+    const bool is_at_bound =
+        settings_.compliance == 0 || std::abs(found.total / settings_.compliance - 1) < near_bound;
+    advance(report.change < settings_.tolerance && is_at_bound);
     state_.mma = mma_.state();
     report.index = state_.iteration;
     return report;

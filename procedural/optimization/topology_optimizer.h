@@ -18,6 +18,9 @@ struct TopologySettings {
     /// Of the projection at the end; 0: none. It comes on at 1 and doubles every `iterations_a_sharpness`.
     double sharpness = 0;
     int iterations_a_sharpness = 10;
+    /// At most; 0: the problem's volume is filled. Above 0: the least volume with it is sought, up to the
+    /// problem's.
+    double compliance = 0;
     double solver_tolerance = 1e-5;
     double oc_tolerance = 1e-3;           ///< of the multiplier of the volume, relative
     const CancelToken* cancel = nullptr;  ///< may be null
@@ -43,6 +46,7 @@ struct TopologyState {
     int phase = 0;        ///< of the projection
     int phase_began = 0;  ///< iteration after which it came on
     double first_compliance = 0;
+    double volume = 0;  ///< with a bounded compliance: most of the mean density in the next iteration
     bool finished = false;
     /// By load case, then direction: where the solver begins. Without them, iterations differ within the
     /// solver's tolerance.
@@ -50,7 +54,9 @@ struct TopologyState {
 };
 
 /// Minimises compliance at a bounded volume (Bendsoe and Sigmund 2003, "Topology Optimization", section 1) by
-/// optimality criteria or the method of moving asymptotes. A pure function of problem and settings.
+/// optimality criteria or the method of moving asymptotes; or the volume at a bounded compliance, which is
+/// the same problem at the volume where the least compliance meets the bound. A pure function of problem and
+/// settings.
 template <std::size_t Dim>
 class TopologyOptimizer {
   public:
@@ -77,6 +83,8 @@ class TopologyOptimizer {
     void set_state(TopologyState state);
 
   private:
+    double volume() const { return settings_.compliance > 0 ? state_.volume : problem_.volume; }
+    void seek_volume(double compliance);
     double sharpness() const;
     double move() const;
     std::span<const double> density(DensityMap::Role role) const;
@@ -85,7 +93,7 @@ class TopologyOptimizer {
                                     const std::vector<double>& volume_gradient, double excess);
     std::vector<double> oc_step(const std::vector<double>& compliance_gradient,
                                 const std::vector<double>& volume_gradient, double excess);
-    void advance(double change);
+    void advance(bool settled);
 
     const TopologyProblem<Dim>& problem_;
     TopologySettings settings_;
@@ -93,7 +101,8 @@ class TopologyOptimizer {
     Compliance<Dim> compliance_;
     Mma mma_;
     DesignBounds bounds_;
-    double elements_ = 0;  ///< not outside
+    double least_volume_ = 0;  ///< with all free elements at their least density
+    double elements_ = 0;      ///< not outside
     int phases_ = 0;
     TopologyState state_;
 };

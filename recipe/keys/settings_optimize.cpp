@@ -4,7 +4,7 @@
 namespace lamella {
 
 const std::vector<std::string>& choice_names(OptimizeKind) {
-    static const std::vector<std::string> list{"stiffness", "appearance"};
+    static const std::vector<std::string> list{"stiffness", "lightness", "appearance"};
     return list;
 }
 const std::vector<std::string>& choice_names(OptimizeResult) {
@@ -57,18 +57,20 @@ void add_row(std::vector<Setting>& t, const char* key, const char* flag, Setting
 }
 
 void add_aims(std::vector<Setting>& t) {
-    add_row<&O::kind>(t, "kind", "--optimize-kind",
-                      {.fallback = "stiffness",
-                       .help = "What is sought: stiffness is the least compliance at a bounded volume; "
-                               "appearance looks like a picture at a bounded compliance."});
+    add_row<&O::kind>(
+        t, "kind", "--optimize-kind",
+        {.fallback = "stiffness",
+         .help = "What is sought: stiffness is the least compliance at a bounded volume; "
+                 "lightness is the least volume, and appearance looks like a picture, both at a "
+                 "bounded compliance."});
     add_row<&O::result>(t, "result", "--optimize-result",
                         {.fallback = "solid",
                          .help = "What varies in the part: solid is material or void; cell and beam are that "
                                  "number of the foam; field leaves the part to fields and gradings of kind "
                                  "optimized."});
     add_row<&O::volume>(t, "volume", "--optimize-volume",
-                        {.limits = {0.001, 0.999},
-                         .fallback = format_value(O{}.volume),
+                        {.limits = {0.001, O::whole_part},
+                         .fallback = format_value(O{}.volume) + ", for lightness the whole part",
                          .help = "Largest volume of the result, as a share of the part's."});
     add_row<&O::volume_min>(t, "volume_min", "--optimize-volume-min",
                             {.limits = {0, 0.999},
@@ -80,10 +82,12 @@ void add_aims(std::vector<Setting>& t) {
          .limits = {1e-6, 1e9},
          .fallback = "volume holds",
          .help = "Largest mass of the result, instead of volume. Needs the material's density."});
-    add_row<&O::compliance>(t, "compliance", "--optimize-compliance",
-                            {.limits = {1, 1000},
-                             .fallback = format_value(O{}.compliance),
-                             .help = "Largest compliance of the result, as a multiple of the least one."});
+    add_row<&O::compliance>(
+        t, "compliance", "--optimize-compliance",
+        {.limits = {1, 1000},
+         .fallback = format_value(O{}.compliance),
+         .help = "Largest compliance of the result: for lightness as a multiple of the full "
+                 "part's, for appearance of the least one."});
 }
 
 void add_elements(std::vector<Setting>& t) {

@@ -50,6 +50,9 @@ class PartOptimizer {
             topology.law = foam_->law();
             topology.least_density = foam_->densities().lo;
             topology.greatest_density = foam_->densities().hi;
+            if (optimize.kind == OptimizeKind::lightness)
+                topology.volume =
+                    std::min(topology.volume, OptimizeRecipe::whole_part * foam_->densities().hi);
             foam_->check_volume(topology.volume);
         } else {
             topology.law = penalty_law<Dim>(optimize);
@@ -59,6 +62,9 @@ class PartOptimizer {
     PartDesign optimize();
 
   private:
+    double full_compliance() const;
+    DensityGrid cut(const DensityGrid& found, double volume, StructureReport& report) const;
+    void cut_to_bound(const DensityGrid& found, PartDesign& design) const;
     void go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
     void keep(const TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
@@ -177,6 +183,53 @@ int refinement(glm::ivec3 size) {
     return std::clamp(static_cast<int>(std::cbrt(most_parts / elements)), 1, 6);
 }
 
+/// Returns the compliance with material everywhere, as the search measures it.
+template <std::size_t Dim>
+double PartOptimizer<Dim>::full_compliance() const {
+    TopologyProblem<Dim> full = problem_->topology;
+    if (!foam_) full.law = make_penalty_law({1, void_modulus_of<Dim>, 0});
+    Compliance<Dim> compliance(full, {.tolerance = 1e-6, .cancel = options_.cancel});
+    return compliance.evaluate(full_densities(full.use)).total;
+}
+
+/// Returns the densities of the shape that fills this share of the body, and analyses it.
+template <std::size_t Dim>
+DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& found, double volume, StructureReport& report) const {
+    DensityGrid grid = found;
+    const int factor = recipe_.optimize->overhang ? refinement(domain_.size) : 1;
+    if (recipe_.optimize->overhang) {
+        extend_outside(grid, extended_layers);
+        grid = with_limited_overhang(grid, volume, factor);
+    }
+    report.stray_pieces = cut_shape(grid, {volume, volume}, of_parts(problem_->anchored, factor),
+                                    of_parts(problem_->loaded, factor));
+    // A cut element counts by its solid share.
+    analyse(*problem_, domain_, make_penalty_law({1, void_modulus_of<Dim>, 0}),
+            coarsened(solid_shares(grid, 0.5), domain_.size, factor), false, nullptr, report);
+    return grid;
+}
+
+/// Cuts the shape from the densities: it fills as much as they do. With a bounded compliance, the shape,
+/// which has no grey, may be lighter.
+template <std::size_t Dim>
+void PartOptimizer<Dim>::cut_to_bound(const DensityGrid& found, PartDesign& design) const {
+    const StructureReport before = *design.report;
+    const double most = problem_->topology.volume, bound = before.compliance_bound;
+    double volume = std::min(before.history.back().volume, most);
+    constexpr int most_rounds = 8;
+    constexpr double enough = 0.003;
+    for (int round = 1;; ++round) {
+        *design.report = before;
+        design.grid = cut(found, volume, *design.report);
+        const double excess =
+            bound > 0 ? design.report->compliance / (bound * design.report->full_compliance) : 1;
+        if (round == most_rounds || std::abs(excess - 1) < enough) break;
+        const double next = std::min(volume * std::sqrt(excess), most);
+        if (next == volume) break;
+        volume = next;
+    }
+}
+
 template <std::size_t Dim>
 PartDesign PartOptimizer<Dim>::optimize() {
     PartDesign design;
@@ -188,6 +241,10 @@ PartDesign PartOptimizer<Dim>::optimize() {
     settings.shared = options_.shared;
     if (settings.density.length_scale)
         settings.density.open = far_from_holds(settings.density.length_scale->radius);
+    if (recipe_.optimize->kind == OptimizeKind::lightness) {
+        report.compliance_bound = recipe_.optimize->compliance;
+        settings.compliance = report.compliance_bound * full_compliance();
+    }
     TopologyOptimizer<Dim> optimizer(problem_->topology, settings);
     search(optimizer, settings.iterations, report);
     design.grid = densities(optimizer.densities());
@@ -195,19 +252,14 @@ PartDesign PartOptimizer<Dim>::optimize() {
         note_bare_foam(recipe_, report);
         extend_outside(design.grid, extended_layers);
         analyse(*problem_, domain_, problem_->topology.law, design.grid.density, true, nullptr, report);
-        return design;
+    } else {
+        cut_to_bound(DensityGrid(design.grid), design);
     }
-    const double volume = std::min(report.history.back().volume, problem_->topology.volume);
-    const int factor = recipe_.optimize->overhang ? refinement(domain_.size) : 1;
-    if (recipe_.optimize->overhang) {
-        extend_outside(design.grid, extended_layers);
-        design.grid = with_limited_overhang(design.grid, volume, factor);
-    }
-    report.stray_pieces = cut_shape(design.grid, {volume, volume}, of_parts(problem_->anchored, factor),
-                                    of_parts(problem_->loaded, factor));
-    // A cut element counts by its solid share.
-    analyse(*problem_, domain_, make_penalty_law({1, void_modulus_of<Dim>, 0}),
-            coarsened(solid_shares(design.grid, 0.5), domain_.size, factor), false, nullptr, report);
+    constexpr double bound_is_kept = 1.01;
+    if (report.compliance_bound > 0 &&
+        report.compliance > bound_is_kept * report.compliance_bound * report.full_compliance)
+        report.notes.emplace_back(
+            "the compliance is above its bound: more volume or iterations, or a larger part may meet it");
     return design;
 }
 

@@ -12,7 +12,7 @@ namespace lamella {
 
 namespace {
 
-constexpr std::array<char, 16> magic{"lamella search1"};
+constexpr std::array<char, 16> magic{"lamella search2"};
 
 /// Writes what is visited.
 struct Writer {
@@ -75,6 +75,7 @@ void visit_all(Search& search, Visit& visit) {
     visit(state.phase);
     visit(state.phase_began);
     visit(state.first_compliance);
+    visit(state.volume);
     visit(search.history);
 }
 

@@ -93,17 +93,24 @@ void note_bare_foam(const Recipe& recipe, StructureReport& report) {
         "softer than its law says, one of 5 cells a fifth; with a skin or a frame it is not");
 }
 
+std::vector<double> full_densities(std::span<const ElementUse> use) {
+    std::vector<double> full;
+    full.reserve(use.size());
+    for (const ElementUse u : use) full.push_back(u == ElementUse::free || u == ElementUse::solid ? 1 : 0);
+    return full;
+}
+
 template <std::size_t Dim>
 void analyse(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
              const std::shared_ptr<const ModulusLaw>& law, std::span<const double> density, bool is_foam,
              const CancelToken* cancel, StructureReport& report) {
     TopologyProblem<Dim> topology = problem.topology;
     topology.law = law;
-    std::vector<double> full(density.size()), shape(density.begin(), density.end());
+    const std::vector<double> full = full_densities(topology.use);
+    std::vector<double> shape(density.begin(), density.end());
     double sum = 0;
     for (std::size_t i = 0; i < full.size(); ++i) {
         const ElementUse use = topology.use[i];
-        full[i] = use == ElementUse::free || use == ElementUse::solid ? 1 : 0;
         if (use != ElementUse::free) shape[i] = use == ElementUse::solid ? 1 : 0;
         sum += shape[i];
     }

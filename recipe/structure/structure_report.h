@@ -42,6 +42,7 @@ struct StructureReport {
     bool material_is_assumed = false;
     double body_volume = 0;           ///< of the body's elements, mm^3
     double volume_bound = 1;          ///< share of it
+    double compliance_bound = 0;      ///< as a multiple of full_compliance; 0: none
     double full_compliance = 0;       ///< with material everywhere, N mm; weighted sum over the cases
     double densities_compliance = 0;  ///< of the densities at the end, N mm; 0: nothing was optimised
     double compliance = 0;            ///< of the shape (or of the foam), N mm
@@ -66,6 +67,9 @@ void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain
 
 /// Adds a note if foam of a known law has neither skin nor frame: its cut cells carry less than the law says.
 void note_bare_foam(const Recipe& recipe, StructureReport& report);
+
+/// Returns the densities of the body with material everywhere.
+std::vector<double> full_densities(std::span<const ElementUse> use);
 
 /// Analyses the body with material everywhere (full_compliance) and with these densities under a law, and
 /// adds compliance, volume, mass and the cases. Stresses are of elements that are at least half solid; none

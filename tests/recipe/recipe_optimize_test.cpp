@@ -249,12 +249,22 @@ TEST_CASE("an appearance has a picture and its width, and is found by moving asy
 TEST_CASE("keys of an appearance are refused without it") {
     for (const std::string key :
          {"image = \"a.png\"", "image_size = 3", "invert = true", "threshold = 0.3", "neighbourhood = 8",
-          "exponent = 2", "spread = 1", "levels = 2", "compliance = 2", "volume_min = 0.1"}) {
+          "exponent = 2", "spread = 1", "levels = 2", "volume_min = 0.1"}) {
         CAPTURE(key);
         CHECK(mentions(told_keys(key + "\n"), "optimize." + key.substr(0, key.find(' ')) +
                                                   ": does not apply to kind stiffness; accepted: kind "
                                                   "appearance"));
     }
+}
+
+TEST_CASE("a search for the lightest part has a compliance to keep, and may fill the whole part") {
+    CHECK(mentions(told_keys("kind = \"lightness\"\n"),
+                   "optimize.compliance: missing, required by kind lightness"));
+    CHECK(mentions(told_keys("compliance = 2\n"), "optimize.compliance: does not apply to kind stiffness"));
+    CHECK(mentions(told_keys("kind = \"lightness\"\ncompliance = 2\ngravity = [0, 0, -9]\n"),
+                   "optimize.gravity: with optimize.kind = \"lightness\""));
+    CHECK(optimized("kind = \"lightness\"\ncompliance = 2\n").volume == OptimizeRecipe::whole_part);
+    CHECK(optimized("kind = \"lightness\"\ncompliance = 2\nvolume = 0.4\n").volume == 0.4);
 }
 
 TEST_CASE("a driven number is one that the foam has") {

@@ -212,7 +212,7 @@ TEST_CASE("a sharp projection leaves little grey", "[optimization]") {
 }
 
 TEST_CASE("an optimisation that was saved goes on to the same bits", "[optimization]") {
-    for (int variant = 0; variant < 4; ++variant) {
+    for (int variant = 0; variant < 6; ++variant) {
         CAPTURE(variant);
         TopologyProblem<2> problem = half_mbb_beam(36, 12, 0.5);
         TopologySettings settings;
@@ -223,6 +223,7 @@ TEST_CASE("an optimisation that was saved goes on to the same bits", "[optimizat
             problem.cases.push_back(problem.cases[0]);
             problem.cases[1].forces.along[1][problem.body.grid.number(9, 0, 0)] = 0.7;
         }
+        if (variant >= 4) settings.compliance = 400;
         TopologyOptimizer<2> whole(problem, settings);
         for (int i = 0; i < 20; ++i) whole.iterate();
         const TopologyState saved = whole.state();

@@ -209,6 +209,41 @@ TEST_CASE("the depth in an optimised shape is the distance to its surface", "[op
     CHECK(cell->at({-11.8, -4, 5.5}) - 2 == Approx(0.2).margin(0.05));
 }
 
+TEST_CASE("the lightest part keeps its compliance, and is the stiffest of its volume", "[optimization]") {
+    std::string arm = block;  // loaded along an edge: a load on a whole face needs material on all of it
+    arm.replace(arm.find("face = \"+x\""), 11, "box = [[12, -6, -6], [12, 6, -6]]");
+    for (const std::string& part : {plate + in_plane, arm + in_space}) {
+        const StructureReport light =
+            *built(part + "kind = \"lightness\"\ncompliance = 2\n").optimized->report;
+        CHECK(light.compliance == Approx(2 * light.full_compliance).epsilon(0.01));
+        CHECK(light.volume < 0.7);
+        CHECK(light.volume > 0.2);
+        CHECK(light.notes.empty());
+        const StructureReport stiff =
+            *built(part + "volume = " + std::to_string(light.volume) + "\n").optimized->report;
+        CHECK(stiff.compliance == Approx(light.compliance).epsilon(0.03));
+    }
+}
+
+TEST_CASE("the lightest foam keeps its compliance", "[optimization]") {
+    const std::string foam = "[foam]\ncell = 2\nbeam = 0.2\nbeam_min = 0.15\nbeam_max = 0.4\n";
+    const StructureReport light =
+        *built(block + foam +
+               "[optimize]\nresult = \"beam\"\nelements = 24\nkind = \"lightness\"\ncompliance = 20\n")
+             .optimized->report;
+    CHECK(light.compliance == Approx(20 * light.full_compliance).epsilon(0.01));
+    CHECK(light.volume < 0.3);
+}
+
+TEST_CASE("a compliance that the largest volume does not reach is told", "[optimization]") {
+    const StructureReport report =
+        *built(plate + in_plane + "kind = \"lightness\"\ncompliance = 1.5\nvolume = 0.3\n").optimized->report;
+    CHECK(report.compliance > 1.5 * report.full_compliance);
+    CHECK(report.volume == Approx(0.3).epsilon(0.005));
+    REQUIRE(report.notes.size() == 1);
+    CHECK(mentions(report.notes.front(), "the compliance is above its bound"));
+}
+
 TEST_CASE("a bar that is analysed stretches as the textbook says", "[optimization]") {
     // F L / (E A) with a pull of 100 N on 20 x 4 mm over 40 mm, and C = F u.
     const std::string bar =
