@@ -86,12 +86,16 @@ bool Compliance<Dim>::is_heavy() const {
     return std::ranges::any_of(problem_.weight, [](double w) { return w != 0; });
 }
 
+/// Returns the forces of a case; `with_weight` is where they are made of loads and weight.
 template <std::size_t Dim>
-NodalVector<Dim, double> Compliance<Dim>::forces(std::size_t load_case,
-                                                 std::span<const double> density) const {
-    NodalVector<Dim, double> all = problem_.cases[load_case].forces;
-    if (is_heavy()) add_weight(density, all);
-    return all;
+const NodalVector<Dim, double>& Compliance<Dim>::forces(std::size_t load_case,
+                                                        std::span<const double> density,
+                                                        NodalVector<Dim, double>& with_weight) const {
+    const NodalVector<Dim, double>& loads = problem_.cases[load_case].forces;
+    if (!is_heavy()) return loads;
+    with_weight = loads;
+    add_weight(density, with_weight);
+    return with_weight;
 }
 
 /// Solves the cases of this process and takes those of others. Returns the most iterations of a case.
@@ -101,7 +105,8 @@ int Compliance<Dim>::solve_cases(std::span<const double> density) {
     for (std::size_t c = 0; c < problem_.cases.size(); ++c) {
         if (shared_ != nullptr && !shared_->is_solved_here(c)) continue;
         NodalVector<Dim, double>& u = displacements_[c];
-        const int iterations = solver_.solve(forces(c, density), u);
+        NodalVector<Dim, double> with_weight;
+        const int iterations = solver_.solve(forces(c, density, with_weight), u);
         most = std::max(most, iterations);
         if (shared_ != nullptr) shared_->give({moduli_hash_, iterations, {u.along.begin(), u.along.end()}});
     }
@@ -121,7 +126,8 @@ template <std::size_t Dim>
 void Compliance<Dim>::add_case(std::size_t load_case, std::span<const double> density, Result& result) const {
     const NodalVector<Dim, double>& u = displacements_[load_case];
     const double weight = problem_.cases[load_case].weight;
-    result.by_case.push_back(solver_.work(forces(load_case, density), u));
+    NodalVector<Dim, double> with_weight;
+    result.by_case.push_back(solver_.work(forces(load_case, density, with_weight), u));
     result.total += weight * result.by_case.back();
     const std::vector<double> energies = solver_.unit_energies(u);
     const auto corners = problem_.body.grid.corner_steps();

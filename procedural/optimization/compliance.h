@@ -34,7 +34,8 @@ class Compliance {
   private:
     bool is_heavy() const;
     void add_weight(std::span<const double> density, NodalVector<Dim, double>& forces) const;
-    NodalVector<Dim, double> forces(std::size_t load_case, std::span<const double> density) const;
+    const NodalVector<Dim, double>& forces(std::size_t load_case, std::span<const double> density,
+                                           NodalVector<Dim, double>& with_weight) const;
     int solve_cases(std::span<const double> density);
     void add_case(std::size_t load_case, std::span<const double> density, Result& result) const;
 

@@ -162,7 +162,8 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
         .x;
 }
 
-/// Compliance falls by about the square of the volume; half of the way there is stable with steps of designs.
+/// The square root meets the bound at once where compliance falls with the square of the volume, and
+/// approaches it where it falls less.
 template <std::size_t Dim>
 void TopologyOptimizer<Dim>::seek_volume(double compliance) {
     constexpr double most_change = 1.05;

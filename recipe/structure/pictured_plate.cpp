@@ -148,7 +148,7 @@ PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRe
     const OptimizeRecipe& optimize = *recipe.optimize;
     if (options.resume)
         throw InputError(
-            "--resume: a search for an appearance that was stopped is not kept; accepted: kind stiffness, "
+            "--resume: a search for an appearance that was stopped is not kept; accepted: another kind, "
             "or no --resume");
     const PlateProblems problems(recipe, body, regions, gradings, options.cancel);
     ElementDomain domain;
