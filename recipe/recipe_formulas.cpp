@@ -55,6 +55,25 @@ std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
     return numbers;
 }
 
+/// Returns all numbers of regions, foam, frame and skin that may be formulas.
+std::vector<const GradedNumber*> numbers_of(const Recipe& recipe) {
+    std::vector<const GradedNumber*> numbers;
+    for (const RegionRecipe& region : recipe.regions) {
+        for (const RegionNumber& given : numbers_of(region)) numbers.push_back(given.number);
+    }
+    if (recipe.foam) {
+        for (const GradedNumber* number : numbers_of(*recipe.foam)) numbers.push_back(number);
+    }
+    if (recipe.frame) numbers.push_back(&recipe.frame->beam);
+    if (recipe.skin) numbers.insert(numbers.end(), {&recipe.skin->thickness, &recipe.skin->strut});
+    return numbers;
+}
+
+bool uses_name(std::string_view formula, std::string_view name) {
+    const std::vector<std::string> names = names_beyond_place(formula);
+    return std::ranges::find(names, name) != names.end();
+}
+
 /// Members, windows and stretch factors may depend on the cell size, except where a modulus determines it.
 bool may_use_cell(const FoamRecipe& foam, const GradedNumber& number) {
     if (&number == &foam.cell || &number == &foam.modulus) return false;
@@ -149,7 +168,7 @@ class FormulaCheck {
         if (use.cell) known.emplace_back(cell_name);
         for (const GradingRecipe& grading : recipe_.gradings) known.push_back(grading.name);
         try {
-            if (!use.depth && reads(text, depth_name)) {
+            if (!use.depth && uses_name(text, depth_name)) {
                 return refuse(use.number->where,
                               "uses the depth `d` below the surface, but defines that surface itself",
                               "x, y, z and gradings");
@@ -158,11 +177,6 @@ class FormulaCheck {
         } catch (const InputError& error) {
             mistakes_.push_back(use.number->where + ": " + error.what());
         }
-    }
-
-    static bool reads(const std::string& formula, std::string_view name) {
-        const auto names = names_beyond_place(formula);
-        return std::find(names.begin(), names.end(), name) != names.end();
     }
 
     /// Returns the gradings and depths that a grading depends on.
@@ -263,36 +277,23 @@ std::vector<std::string> names_beyond_place(std::string_view formula) {
 }
 
 bool uses_depth(const Recipe& recipe) {
-    std::vector<const GradedNumber*> numbers;
+    std::vector<const GradedNumber*> numbers = numbers_of(recipe);
     for (const GradingRecipe& grading : recipe.gradings)
         numbers.insert(numbers.end(), {&grading.formula, &grading.along});
-    for (const RegionRecipe& region : recipe.regions) {
-        for (const RegionNumber& given : numbers_of(region)) numbers.push_back(given.number);
-    }
-    if (recipe.foam) {
-        for (const GradedNumber* number : numbers_of(*recipe.foam)) numbers.push_back(number);
-    }
-    if (recipe.frame) numbers.push_back(&recipe.frame->beam);
-    if (recipe.skin) numbers.insert(numbers.end(), {&recipe.skin->thickness, &recipe.skin->strut});
     return std::ranges::any_of(numbers, [](const GradedNumber* number) {
-        if (!number->is_formula()) return false;
-        const std::vector<std::string> names = names_beyond_place(number->formula());
-        return std::ranges::find(names, depth_name) != names.end();
+        return number->is_formula() && uses_name(number->formula(), depth_name);
     });
 }
 
 std::string unused_entries(const Recipe& recipe) {
     std::set<std::string> used;
-    std::vector<const GradedNumber*> open;
+    std::vector<const GradedNumber*> open = numbers_of(recipe);
     std::string unused;
     const auto add = [&](const char* section, const std::string& name) {
         unused += fmt::format("{}[[{}]] `{}`", unused.empty() ? "" : ", ", section, name);
     };
     std::set<std::string> solids{recipe.part.field};
-    for (const RegionRecipe& region : recipe.regions) {
-        solids.insert(region.field);
-        for (const RegionNumber& given : numbers_of(region)) open.push_back(given.number);
-    }
+    for (const RegionRecipe& region : recipe.regions) solids.insert(region.field);
     for (const LoadRecipe& load : recipe.loads) solids.insert(load.field);
     for (const AnchorRecipe& anchor : recipe.anchors) solids.insert(anchor.field);
     for (const FieldRecipe& field : recipe.fields) {
@@ -302,11 +303,6 @@ std::string unused_entries(const Recipe& recipe) {
             add("field", field.name);
         }
     }
-    if (recipe.foam) {
-        for (const GradedNumber* number : numbers_of(*recipe.foam)) open.push_back(number);
-    }
-    if (recipe.frame) open.push_back(&recipe.frame->beam);
-    if (recipe.skin) open.insert(open.end(), {&recipe.skin->thickness, &recipe.skin->strut});
     while (!open.empty()) {
         const GradedNumber* number = open.back();
         open.pop_back();

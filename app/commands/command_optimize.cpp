@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
@@ -84,6 +86,13 @@ Recipe optimized_recipe(const StructureCommand& command) {
     return recipe;
 }
 
+/// Returns the number of load cases; self-weight alone is one.
+std::size_t case_count(const Recipe& recipe) {
+    std::set<std::string> names;
+    for (const LoadRecipe& load : recipe.loads) names.insert(load.load_case);
+    return std::max<std::size_t>(names.size(), 1);
+}
+
 OptimizeOptions optimize_options(const StructureCommand& command, const CancelToken& cancel,
                                  SharedSolves* shared) {
     OptimizeOptions options;
@@ -102,7 +111,7 @@ void optimize(const StructureCommand& command, Ranks* ranks) {
     const InterruptGuard guard(cancel);
     const Recipe recipe = optimized_recipe(command);
     std::optional<DistributedCases> cases;
-    if (ranks != nullptr) cases.emplace(*ranks, &cancel);
+    if (ranks != nullptr) cases.emplace(*ranks, case_count(recipe), &cancel);
     OptimizeOptions options = optimize_options(command, cancel, cases ? &*cases : nullptr);
     IterationDisplay display(command.quiet);
     options.on_iteration = [&](const OptimizationStep& step, int steps) { display.show(step, steps); };
@@ -117,8 +126,9 @@ void optimize(const StructureCommand& command, Ranks* ranks) {
 void help_to_optimize(const StructureCommand& command, Ranks& ranks) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
-    DistributedCases cases(ranks, &cancel);
-    build_job(optimized_recipe(command), optimize_options(command, cancel, &cases));
+    const Recipe recipe = optimized_recipe(command);
+    DistributedCases cases(ranks, case_count(recipe), &cancel);
+    if (cases.is_needed()) build_job(recipe, optimize_options(command, cancel, &cases));
 }
 
 int analyze(const StructureCommand& command) {

@@ -25,7 +25,7 @@ struct CaseParcel {
 void DistributedCases::give(const SolvedCase& solved) {
     const std::string parcel =
         packed(CaseParcel{solved, static_cast<std::uint8_t>(solved.displacements.size())});
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
+    for (int rank = 0; rank < searching_; ++rank) {
         if (rank != ranks_.rank()) ranks_.send(rank, case_tag, parcel);
     }
 }

@@ -144,7 +144,7 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
             {"material_is_assumed", report.material_is_assumed},
             {"body_volume_mm3", report.body_volume},
             {"volume_bound", report.volume_bound},
-            {"compliance_bound", report.compliance_bound},
+            {"compliance_bound_of_full", report.compliance_bound},
             {"full_compliance_nmm", report.full_compliance},
             {"densities_compliance_nmm", report.densities_compliance},
             {"least_compliance_nmm", report.least_compliance},

@@ -10,7 +10,7 @@ namespace lamella {
 
 namespace {
 
-/// Samples on a rectilinear grid, with an empty layer all round.
+/// Samples at the centres of a grid's elements, and of some layers of elements beyond it.
 struct Samples {
     std::array<std::vector<double>, 3> along;  ///< coordinates, mm
     std::vector<double> density;
@@ -25,7 +25,7 @@ struct Samples {
     }
 };
 
-constexpr int more = 2;  ///< layers of samples beyond the box, of which the last is empty
+constexpr int more = 3;  ///< layers of samples beyond the box, of which the last is empty
 
 Samples sampled(const DensityGrid& grid, const Box& box) {
     Samples samples;
@@ -137,8 +137,7 @@ class Marcher {
 
 }  // namespace
 
-TriangleMesh density_surface(const DensityGrid& grid, const Box& box, double level) {
-    constexpr int parts = 2;
+TriangleMesh density_surface(const DensityGrid& grid, const Box& box, double level, int parts) {
     DensityGrid whole = grid;
     whole.use.assign(grid.density.size(), ElementUse::free);
     return Marcher(sampled(refined(whole, parts), box), level).run();

@@ -163,14 +163,17 @@ std::vector<double> TopologyOptimizer<Dim>::next_design(const typename Complianc
 }
 
 /// The square root meets the bound at once where compliance falls with the square of the volume, and
-/// approaches it where it falls less.
+/// approaches it where it falls less. Returns true if the volume stays: the compliance is near its bound, or
+/// no volume brings it nearer.
 template <std::size_t Dim>
-void TopologyOptimizer<Dim>::seek_volume(double compliance) {
-    constexpr double most_change = 1.05;
+bool TopologyOptimizer<Dim>::seek_volume(double compliance) {
+    constexpr double most_change = 1.05, near_bound = 0.01;
     const double factor = std::sqrt(compliance / settings_.compliance);
     const double least = least_volume_ + 1e-3 * (problem_.volume - least_volume_);
-    state_.volume *= std::clamp(factor, 1 / most_change, most_change);
-    state_.volume = std::clamp(state_.volume, least, problem_.volume);
+    const double former = state_.volume;
+    state_.volume =
+        std::clamp(former * std::clamp(factor, 1 / most_change, most_change), least, problem_.volume);
+    return state_.volume == former || std::abs(compliance / settings_.compliance - 1) < near_bound;
 }
 
 /// Counts the iteration, and goes on to the next sharpness when it is time.
@@ -224,7 +227,7 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
                                                  }) /
                       free;
 
-    if (settings_.compliance > 0) seek_volume(found.total);
+    const bool volume_stays = settings_.compliance == 0 || seek_volume(found.total);
     // With three fields, the dilated one is bounded such that the result meets the volume (Wang et al. 2011).
     const double present = mean_of(filling, elements_);
     const double bound = report.volume > 0 ? volume() * present / report.volume : volume();
@@ -234,10 +237,7 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
         report.change = std::max(report.change, std::abs(next[i] - state_.design[i]));
     state_.design = next;
     state_.displacements = compliance_.all_displacements();
-    constexpr double near_bound = 0.01;
-    const bool is_at_bound =
-        settings_.compliance == 0 || std::abs(found.total / settings_.compliance - 1) < near_bound;
-    advance(report.change < settings_.tolerance && is_at_bound);
+    advance(report.change < settings_.tolerance && volume_stays);
     state_.mma = mma_.state();
     report.index = state_.iteration;
     return report;

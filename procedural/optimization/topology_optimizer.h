@@ -84,7 +84,7 @@ class TopologyOptimizer {
 
   private:
     double volume() const { return settings_.compliance > 0 ? state_.volume : problem_.volume; }
-    void seek_volume(double compliance);
+    bool seek_volume(double compliance);
     double sharpness() const;
     double move() const;
     std::span<const double> density(DensityMap::Role role) const;

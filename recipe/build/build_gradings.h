@@ -52,12 +52,11 @@ class Gradings {
   public:
     explicit Gradings(const Recipe& recipe) : recipe_(recipe) {}
 
-    /// Sets the body from whose surface depths are measured.
+    /// Sets the body from whose surface depths are measured. Gradings that were made of former depths stay.
     void set_body(FieldPtr body);
 
     /// Sets the result of the recipe's search, which entries of kind `optimized` are.
     void set_result(SearchResult result) { result_ = std::move(result); }
-    bool has_result() const { return result_.has_value(); }
     /// Throws InputError before set_result().
     const SearchResult& result() const;
 

@@ -76,7 +76,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
     const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
     if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
     gradings.set_body(built.body);
-    built.regions = build_regions(recipe, job.bounds, gradings);
+    built.regions = build_regions(recipe, job.bounds, gradings, WhichRegions::before_search);
     std::optional<FoamRecipe> foam = recipe.foam;
     if (recipe.optimize) {
         built.optimized = optimize_part(recipe, built.body, built.regions, gradings, optimizing);

@@ -139,14 +139,14 @@ bool has(const BuiltRegions& regions, RegionMake make) {
 
 }  // namespace
 
-BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings) {
+BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings, WhichRegions which) {
     BuiltRegions built;
     RegionFields fields(gradings, part, built.warnings);
     const ResultDependents late(recipe);
     int number = 0;
     for (const RegionRecipe& region : recipe.regions) {
         ++number;
-        if (!gradings.has_result() && late.fields.contains(region.field)) continue;
+        if (which == WhichRegions::before_search && late.fields.contains(region.field)) continue;
         const FieldPtr field = fields.make(region);
         built.list.push_back(
             {fmt::format("region {} (`{}`)", number, region.field), region.make, region.blend, field});

@@ -1,6 +1,7 @@
 // Makes the recipe's [[region]] entries: solids, and numbers that hold inside them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,14 @@ struct BuiltRegions {
     std::vector<std::string> warnings;  ///< regions without effect; repairs of their meshes
 };
 
+/// All regions, or those that do not depend on the result of the recipe's search.
+enum class WhichRegions : std::uint8_t { all, before_search };
+
 /// Makes the regions of a part inside the box, and registers numbers of foam and skin regions as overrides
-/// with the gradings. Before the gradings have the result of the recipe's search, leaves out the regions that
-/// depend on it. Throws InputError when a field cannot be made.
-BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings);
+/// with the gradings. Throws InputError when a field cannot be made, such as one that depends on the result
+/// of the recipe's search while the gradings have none.
+BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings,
+                           WhichRegions which = WhichRegions::all);
 
 /// Returns the part with its solid and empty regions applied in order, clipped by the body. `filled`: the
 /// part is not solid throughout. Warns of regions that do not touch the body. Throws InputError when nothing

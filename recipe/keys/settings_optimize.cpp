@@ -85,7 +85,7 @@ void add_aims(std::vector<Setting>& t) {
     add_row<&O::compliance>(
         t, "compliance", "--optimize-compliance",
         {.limits = {1, 1000},
-         .fallback = format_value(O{}.compliance),
+         .fallback = format_value(O{}.compliance) + ", required by lightness",
          .help = "Largest compliance of the result: for lightness as a multiple of the full "
                  "part's, for appearance of the least one."});
 }

@@ -29,7 +29,7 @@ namespace {
 
 /// Returns the search's problem: the recipe without printer, layers and skin pattern, without what depends on
 /// the result, and without the skin and foam that fill a solid shape once it is found.
-Recipe relevant(const Recipe& recipe) {
+Recipe search_problem(const Recipe& recipe) {
     Recipe kept;
     const ResultDependents late(recipe);
     kept.part = recipe.part;
@@ -63,6 +63,15 @@ GradingPtr sizes_of_foam(const OptimizedFoam& foam, const DensityGrid& grid, con
     return make_volume_grading(Volume{sides(grid.size), std::move(sizes), 1.0, box}, box);
 }
 
+/// Whether distances from the shape are needed, which densities are not: by a skin, depths, blends of
+/// regions.
+bool needs_distances(const Recipe& recipe) {
+    const auto blends = [](const RegionRecipe& region) {
+        return region.blend > 0 && (region.make == RegionMake::solid || region.make == RegionMake::empty);
+    };
+    return recipe.skin || uses_depth(recipe) || std::ranges::any_of(recipe.regions, blends);
+}
+
 /// Makes grading and shape of the densities in single precision, as a plan keeps them.
 void make_fields(const Recipe& recipe, const FieldPtr& body, std::vector<float> density,
                  OptimizedPart& part) {
@@ -75,44 +84,48 @@ void make_fields(const Recipe& recipe, const FieldPtr& body, std::vector<float> 
                                     body->bounds());
     part.shape = body;
     if (recipe.optimize->result != OptimizeResult::solid) return;
-    // Skins and depths need distances, which densities are not.
-    const bool needs_distances = recipe.skin || uses_depth(recipe);
-    part.shape = make_intersection(
-        {body, needs_distances ? make_mesh_field(close_mesh(density_surface(part.grid, part.box, level),
-                                                            "the optimised shape"))
-                               : part.dense});
+    FieldPtr shape = part.dense;
+    if (needs_distances(recipe)) {
+        // Under the overhang limit elements are refined already.
+        const int parts = recipe.optimize->overhang ? 1 : 2;
+        shape = make_mesh_field(
+            close_mesh(density_surface(part.grid, part.box, level, parts), "the optimised shape"));
+    }
+    part.shape = make_intersection({body, std::move(shape)});
 }
 
 std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const Recipe& recipe,
                                        const FieldPtr& body) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return std::nullopt;
+    OptimizedPart part;
+    std::vector<float> samples;
     try {
         Volume volume = read_volume(file.string());
         if (!volume.box || !std::holds_alternative<std::vector<float>>(volume.samples)) return std::nullopt;
-        OptimizedPart part;
         part.box = *volume.box;
         part.grid.size = {static_cast<int>(volume.size[0]), static_cast<int>(volume.size[1]),
                           static_cast<int>(volume.size[2])};
-        auto samples = std::get<std::vector<float>>(std::move(volume.samples));
-        part.grid.density.resize(samples.size());
-        make_fields(recipe, body, std::move(samples), part);
-        return part;
+        samples = std::get<std::vector<float>>(std::move(volume.samples));
     } catch (const Error&) {
         return std::nullopt;  // a damaged plan is made anew
     }
+    part.grid.density.resize(samples.size());
+    make_fields(recipe, body, std::move(samples), part);
+    return part;
 }
 
 }  // namespace
 
-std::string optimize_hash(const Recipe& recipe) { return job_identity(relevant(recipe)); }
+std::string optimize_hash(const Recipe& recipe) { return job_identity(search_problem(recipe)); }
 
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options) {
     const OptimizeResult result = recipe.optimize->result;
+    const Recipe problem = search_problem(recipe);
     std::filesystem::path file, search;
     if (!options.plans.empty()) {
-        const std::string hash = optimize_hash(recipe);
+        const std::string hash = job_identity(problem);
         file = options.plans / (hash + ".nrrd");
         search = options.plans / (hash + ".search");
     }
@@ -124,12 +137,12 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
         }
     }
     ThreadArena arena(options.threads);
-    const Recipe problem = relevant(recipe);
     const PartDesign design = arena.execute([&] {
         return problem.optimize->kind == OptimizeKind::appearance
                    ? pictured_plate(problem, *body, regions, gradings, options)
                    : stiffest_part(problem, *body, regions, gradings, options, search);
     });
+    if (drives_foam(result)) note_bare_foam(recipe, *design.report);
     if (result == OptimizeResult::solid && (recipe.foam || recipe.skin))
         design.report->notes.emplace_back(
             "compliance is that of the solid shape; `lamella analyze` computes it as the shape is filled");

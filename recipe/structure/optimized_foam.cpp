@@ -60,12 +60,12 @@ OptimizedFoam::OptimizedFoam(const Recipe& recipe) {
     poisson_ = foam_->at(ratio_for(0.5 * (densities_.lo + densities_.hi))).poisson;
 }
 
-void OptimizedFoam::check_volume(double share) const {
-    if (share > densities_.lo && share < densities_.hi) return;
-    throw InputError(
-        fmt::format("optimize.volume / --optimize-volume: {:.4g} is not a mean density of this foam; "
-                    "accepted: above {:.4g} and below {:.4g}",
-                    share, densities_.lo, densities_.hi));
+void OptimizedFoam::check_volume(double share, Interval shares) const {
+    if (share > shares.lo && share < shares.hi) return;
+    throw InputError(fmt::format(
+        "optimize.volume / --optimize-volume: {:.4g} is not a mean density of this part and its foam; "
+        "accepted: above {:.4g} and below {:.4g}",
+        share, shares.lo, shares.hi));
 }
 
 double OptimizedFoam::ratio_for(double density) const {

@@ -19,8 +19,8 @@ class OptimizedFoam {
     Interval densities() const { return densities_; }
     /// Poisson's ratio of the foam in the middle of its range.
     double poisson() const { return poisson_; }
-    /// Throws InputError unless the mean density can be reached.
-    void check_volume(double share) const;
+    /// Throws InputError unless the mean density of the part lies within those that it can have.
+    void check_volume(double share, Interval shares) const;
     /// Returns the driven number (foam.cell or foam.beam, mm) for a density; outside densities() that of the
     /// nearest end.
     double number_for(double density) const;

@@ -50,10 +50,12 @@ class PartOptimizer {
             topology.law = foam_->law();
             topology.least_density = foam_->densities().lo;
             topology.greatest_density = foam_->densities().hi;
+            const double solid = share_of(ElementUse::solid), free = share_of(ElementUse::free);
+            const Interval volumes{solid + free * foam_->densities().lo,
+                                   solid + free * foam_->densities().hi};
             if (optimize.kind == OptimizeKind::lightness)
-                topology.volume =
-                    std::min(topology.volume, OptimizeRecipe::whole_part * foam_->densities().hi);
-            foam_->check_volume(topology.volume);
+                topology.volume = std::min(topology.volume, OptimizeRecipe::whole_part * volumes.hi);
+            foam_->check_volume(topology.volume, volumes);
         } else {
             topology.law = penalty_law<Dim>(optimize);
         }
@@ -62,6 +64,7 @@ class PartOptimizer {
     PartDesign optimize();
 
   private:
+    double share_of(ElementUse use) const;
     double full_compliance() const;
     DensityGrid cut(const DensityGrid& found, double volume, StructureReport& report) const;
     void cut_to_bound(const DensityGrid& found, PartDesign& design) const;
@@ -183,6 +186,13 @@ int refinement(glm::ivec3 size) {
     return std::clamp(static_cast<int>(std::cbrt(most_parts / elements)), 1, 6);
 }
 
+/// Returns the share of the body's elements with this use.
+template <std::size_t Dim>
+double PartOptimizer<Dim>::share_of(ElementUse use) const {
+    return static_cast<double>(std::ranges::count(domain_.use, use)) /
+           static_cast<double>(domain_.elements());
+}
+
 /// Returns the compliance with material everywhere, as the search measures it.
 template <std::size_t Dim>
 double PartOptimizer<Dim>::full_compliance() const {
@@ -210,23 +220,29 @@ DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& found, double volume, Str
 }
 
 /// Cuts the shape from the densities: it fills as much as they do. With a bounded compliance, the shape,
-/// which has no grey, may be lighter.
+/// which has no grey, may be lighter; but least sizes hold at the volume of the densities alone.
 template <std::size_t Dim>
 void PartOptimizer<Dim>::cut_to_bound(const DensityGrid& found, PartDesign& design) const {
     const StructureReport before = *design.report;
-    const double most = problem_->topology.volume, bound = before.compliance_bound;
+    const OptimizeRecipe& optimize = *recipe_.optimize;
+    const double least = share_of(ElementUse::solid), most = problem_->topology.volume;
     double volume = std::min(before.history.back().volume, most);
-    constexpr int most_rounds = 8;
+    const bool has_least_sizes = optimize.member > 0 || optimize.gap > 0;
+    const bool seeks_bound = before.compliance_bound > 0 && !has_least_sizes;
+    const int rounds = seeks_bound ? 8 : 1;
     constexpr double enough = 0.003;
-    for (int round = 1;; ++round) {
-        *design.report = before;
-        design.grid = cut(found, volume, *design.report);
-        const double excess =
-            bound > 0 ? design.report->compliance / (bound * design.report->full_compliance) : 1;
-        if (round == most_rounds || std::abs(excess - 1) < enough) break;
-        const double next = std::min(volume * std::sqrt(excess), most);
-        if (next == volume) break;
-        volume = next;
+    double nearest = infinity;
+    for (int round = 0; round < rounds && nearest > enough; ++round) {
+        StructureReport report = before;
+        DensityGrid grid = cut(found, volume, report);
+        const double ratio =
+            seeks_bound ? report.compliance / (before.compliance_bound * report.full_compliance) : 1;
+        if (const double miss = std::abs(std::log(ratio)); miss < nearest) {
+            nearest = miss;
+            *design.report = std::move(report);
+            design.grid = std::move(grid);
+        }
+        volume = std::clamp(volume * std::sqrt(ratio), least, most);
     }
 }
 
@@ -244,12 +260,12 @@ PartDesign PartOptimizer<Dim>::optimize() {
     if (recipe_.optimize->kind == OptimizeKind::lightness) {
         report.compliance_bound = recipe_.optimize->compliance;
         settings.compliance = report.compliance_bound * full_compliance();
+        report.full_compliance = problem_->displacement_unit * settings.compliance / report.compliance_bound;
     }
     TopologyOptimizer<Dim> optimizer(problem_->topology, settings);
     search(optimizer, settings.iterations, report);
     design.grid = densities(optimizer.densities());
     if (foam_) {
-        note_bare_foam(recipe_, report);
         extend_outside(design.grid, extended_layers);
         analyse(*problem_, domain_, problem_->topology.law, design.grid.density, true, nullptr, report);
     } else {

@@ -71,9 +71,9 @@ void note_bare_foam(const Recipe& recipe, StructureReport& report);
 /// Returns the densities of the body with material everywhere.
 std::vector<double> full_densities(std::span<const ElementUse> use);
 
-/// Analyses the body with material everywhere (full_compliance) and with these densities under a law, and
-/// adds compliance, volume, mass and the cases. Stresses are of elements that are at least half solid; none
-/// of a foam, whose struts the elements do not show.
+/// Analyses the body with material everywhere, unless the report has its full_compliance, and with these
+/// densities under a law, and adds compliance, volume, mass and the cases. Stresses are of elements that are
+/// at least half solid; none of a foam, whose struts the elements do not show.
 template <std::size_t Dim>
 void analyse(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
              const std::shared_ptr<const ModulusLaw>& law, std::span<const double> density, bool is_foam,

@@ -46,7 +46,7 @@ class MpiRanks : public Ranks {
 
     void send(int to, int tag, std::string bytes) override {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw FaultError("a layer has more than 2 GiB, the limit of an MPI message");
+            throw FaultError("a message has more than 2 GiB, the limit of an MPI message");
         const std::lock_guard lock(calling_);
         Message& message = on_the_way_.emplace_back();
         message.bytes = std::move(bytes);

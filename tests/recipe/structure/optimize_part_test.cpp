@@ -235,6 +235,36 @@ TEST_CASE("the lightest foam keeps its compliance", "[optimization]") {
     CHECK(light.volume < 0.3);
 }
 
+TEST_CASE("the lightest foam may lie in a skin, which counts as solid", "[optimization]") {
+    const std::string foam =
+        "[foam]\ncell = 2\nbeam = 0.2\nbeam_min = 0.15\nbeam_max = 0.4\n[skin]\nthickness = 1\n";
+    const StructureReport light =
+        *built(block + foam +
+               "[optimize]\nresult = \"beam\"\nelements = 24\nkind = \"lightness\"\ncompliance = 2.2\n")
+             .optimized->report;
+    CHECK(light.compliance == Approx(2.2 * light.full_compliance).epsilon(0.01));
+    CHECK(light.notes.empty());
+}
+
+TEST_CASE("the lightest part has the least sizes that are asked for, and keeps its compliance",
+          "[optimization]") {
+    const StructureReport light =
+        *built(plate +
+               "[optimize]\ndimensions = 2\nelements = 80\nkind = \"lightness\"\ncompliance = "
+               "2\nmember = 2\n")
+             .optimized->report;
+    CHECK(light.compliance < 2.02 * light.full_compliance);
+    CHECK(light.volume < 0.7);
+}
+
+TEST_CASE("foam that is graded in a frame is not called bare", "[optimization]") {
+    const std::string foam = "[foam]\ncell = 2\nbeam = 0.2\nbeam_min = 0.15\nbeam_max = 0.4\n",
+                      search =
+                          "[optimize]\nresult = \"beam\"\nelements = 24\nvolume = 0.15\niterations = 2\n";
+    CHECK(built(block + foam + search).optimized->report->notes.size() == 1);
+    CHECK(built(block + foam + "[frame]\nbeam = 0.3\n" + search).optimized->report->notes.empty());
+}
+
 TEST_CASE("a compliance that the largest volume does not reach is told", "[optimization]") {
     const StructureReport report =
         *built(plate + in_plane + "kind = \"lightness\"\ncompliance = 1.5\nvolume = 0.3\n").optimized->report;
