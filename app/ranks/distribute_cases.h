@@ -16,7 +16,7 @@ class DistributedCases : public SharedSolves {
     /// `ranks` must outlive this; `cancel` may be null.
     DistributedCases(Ranks& ranks, std::size_t cases, const CancelToken* cancel)
         : ranks_(ranks),
-          searching_(static_cast<int>(std::min<std::size_t>(ranks.size(), cases))),
+          searching_(static_cast<int>(std::min(static_cast<std::size_t>(ranks.size()), cases))),
           cancel_(cancel) {}
 
     /// Whether this process makes the search.
