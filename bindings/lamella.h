@@ -245,7 +245,7 @@ typedef struct lamella_structure {
     int32_t dimensions;          /* 2 for a plate, else 3 */
     int32_t iterations;          /* of the search that made the part; 0: it was only analysed */
     int32_t converged;           /* 1: the search ended by its tolerance */
-    double element;              /* edge of the finite elements, mm */
+    double element;              /* edge of the finite elements along x, mm */
     double full_compliance;      /* with material everywhere, N mm */
     double compliance;           /* of the part, N mm */
     double volume;               /* share of the body that is solid; 0: not known, of a foam by its law */

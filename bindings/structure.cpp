@@ -37,7 +37,7 @@ lamella_structure structure_of(const StructureReport& report) {
     structure.dimensions = report.dimensions;
     structure.iterations = static_cast<std::int32_t>(report.history.size());
     structure.converged = report.is_converged ? 1 : 0;
-    structure.element = report.element;
+    structure.element = report.element.x;
     structure.full_compliance = report.full_compliance;
     structure.compliance = report.compliance;
     structure.volume = report.volume;

@@ -23,7 +23,13 @@ std::string size_text(const StructureReport& report) {
     const std::string size = report.dimensions == 2
                                  ? fmt::format("{} x {}", report.size.x, report.size.y)
                                  : fmt::format("{} x {} x {}", report.size.x, report.size.y, report.size.z);
-    return fmt::format("{} in a grid of {}, {:.4g} mm each", report.elements, size, report.element);
+    const dvec3 edges = report.element;
+    const bool is_cube = edges.x == edges.y && (report.dimensions == 2 || edges.x == edges.z);
+    const std::string edge = is_cube ? fmt::format("{:.4g}", edges.x)
+                             : report.dimensions == 2
+                                 ? fmt::format("{:.4g} x {:.4g}", edges.x, edges.y)
+                                 : fmt::format("{:.4g} x {:.4g} x {:.4g}", edges.x, edges.y, edges.z);
+    return fmt::format("{} in a grid of {}, {} mm each", report.elements, size, edge);
 }
 
 /// Returns a compliance beside that of the full body.
@@ -138,7 +144,7 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
     return {{"dimensions", report.dimensions},
             {"grid", {report.size.x, report.size.y, report.size.z}},
             {"elements", report.elements},
-            {"element_mm", report.element},
+            {"element_mm", {report.element.x, report.element.y, report.element.z}},
             {"young_mpa", report.young},
             {"poisson", report.poisson},
             {"material_is_assumed", report.material_is_assumed},

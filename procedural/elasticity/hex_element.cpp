@@ -8,12 +8,13 @@ namespace {
 
 using StrainRows = std::array<std::array<double, hex_unknowns>, 6>;
 
-/// Returns the strain-displacement matrix B at a point of [0, 1]^3: strains from nodal displacements.
-StrainRows strain_rows(dvec3 p) {
+/// Returns the strain-displacement matrix B at a point, in shares of the edges: strains from nodal
+/// displacements.
+StrainRows strain_rows(dvec3 p, dvec3 edges) {
     StrainRows b{};
     for (std::size_t c = 0; c < hex_nodes; ++c) {
         const dvec3 side(c & 1, c >> 1 & 1, c >> 2 & 1), weight = side * p + (1.0 - side) * (1.0 - p),
-                                                         slope = 2.0 * side - 1.0;
+                                                         slope = (2.0 * side - 1.0) / edges;
         const dvec3 d(slope.x * weight.y * weight.z, weight.x * slope.y * weight.z,
                       weight.x * weight.y * slope.z);
         const std::size_t x = 3 * c, y = x + 1, z = x + 2;
@@ -32,11 +33,12 @@ StrainRows strain_rows(dvec3 p) {
 
 }  // namespace
 
-HexElement make_hex_element(const ElasticTensor& c) {
+HexElement make_hex_element(const ElasticTensor& c, dvec3 edges) {
     const std::array<double, 2> points{0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+    const double volume = edges.x * edges.y * edges.z;
     HexElement element;
     for (std::size_t g = 0; g < 8; ++g) {
-        const StrainRows b = strain_rows({points[g & 1], points[g >> 1 & 1], points[g >> 2 & 1]});
+        const StrainRows b = strain_rows({points[g & 1], points[g >> 1 & 1], points[g >> 2 & 1]}, edges);
         std::array<std::array<double, 6>, hex_unknowns> stress{};  // b^T c
         for (std::size_t u = 0; u < hex_unknowns; ++u) {
             for (std::size_t i = 0; i < 6; ++i) {
@@ -45,9 +47,9 @@ HexElement make_hex_element(const ElasticTensor& c) {
         }
         for (std::size_t u = 0; u < hex_unknowns; ++u) {
             for (std::size_t j = 0; j < 6; ++j) {
-                element.loads[u][j] += stress[u][j] / 8;
+                element.loads[u][j] += stress[u][j] / 8 * volume;
                 for (std::size_t v = 0; v < hex_unknowns; ++v)
-                    element.stiffness[u][v] += stress[u][j] * b[j][v] / 8;
+                    element.stiffness[u][v] += stress[u][j] * b[j][v] / 8 * volume;
             }
         }
     }

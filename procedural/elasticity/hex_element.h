@@ -1,8 +1,9 @@
-// HexElement: a trilinear finite element (hex8), a cube of edge 1 with a node at each corner.
+// HexElement: a trilinear finite element (hex8), a cuboid with a node at each corner.
 #pragma once
 
 #include <array>
 
+#include "engine/base/geometry.h"
 #include "procedural/elasticity/elastic_tensor.h"
 
 namespace lamella {
@@ -16,7 +17,8 @@ struct HexElement {
     std::array<std::array<double, 6>, hex_unknowns> loads{};
 };
 
-/// Makes an element of a material with this stiffness. Integration is exact (two Gauss points per direction).
-HexElement make_hex_element(const ElasticTensor& stiffness);
+/// Makes an element of a material with this stiffness, with edges along x, y and z. Integration is exact (two
+/// Gauss points per direction).
+HexElement make_hex_element(const ElasticTensor& stiffness, dvec3 edges = dvec3(1));
 
 }  // namespace lamella

@@ -9,18 +9,20 @@ namespace lamella {
 
 namespace {
 
-/// Returns the gradient of the displacements at an element's centre: entry (i, j) is du_i/dx_j.
+/// Returns the gradient of the displacements at the centre of an element with these edges: entry (i, j) is
+/// du_i/dx_j.
 template <std::size_t Dim>
 std::array<std::array<double, Dim>, Dim> gradient_at(
     const std::array<std::ptrdiff_t, (std::size_t{1} << Dim)>& corners,
-    const NodalVector<Dim, double>& displacements, std::size_t element) {
+    const NodalVector<Dim, double>& displacements, dvec3 edges, std::size_t element) {
     std::array<std::array<double, Dim>, Dim> gradient{};
     constexpr double share = 2.0 / static_cast<double>(std::size_t{1} << Dim);
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const auto node = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(element) + corners[c]);
         for (std::size_t i = 0; i < Dim; ++i) {
             for (std::size_t j = 0; j < Dim; ++j)
-                gradient[i][j] += ((c >> j & 1) != 0 ? share : -share) * displacements.along[i][node];
+                gradient[i][j] += ((c >> j & 1) != 0 ? share : -share) / edges[static_cast<int>(j)] *
+                                  displacements.along[i][node];
         }
     }
     return gradient;
@@ -54,7 +56,8 @@ std::vector<double> von_mises(const ElasticBody<Dim>& body, double poisson,
         const std::size_t first = body.grid.number(0, row % n.y, row / n.y);
         for (std::size_t e = first; e < first + static_cast<std::size_t>(n.x); ++e) {
             if (body.present[e] != 0)
-                stress[e] = stress_of(gradient_at<Dim>(corners, displacements, e), poisson);
+                stress[e] =
+                    stress_of(gradient_at<Dim>(corners, displacements, body.element.edges, e), poisson);
         }
     });
     return stress;

@@ -8,9 +8,10 @@
 namespace lamella {
 
 /// Returns the von Mises stress at the centre of each element of a body, by element number, for displacements
-/// of its nodes and a solid of modulus 1 in elements of edge 1: in the plane under plane stress. Times the
-/// modulus over the edge it is a stress. Voxels round off notches and roughen slopes: peaks are no better
-/// than a factor of two near a staircase, and right where stress varies little across an element.
+/// of its nodes and a solid of modulus 1, in the unit of the elements' edges: in the plane under plane
+/// stress. Times the modulus over that unit it is a stress. Voxels round off notches and roughen slopes:
+/// peaks are no better than a factor of two near a staircase, and right where stress varies little across an
+/// element.
 template <std::size_t Dim>
 std::vector<double> von_mises(const ElasticBody<Dim>& body, double poisson,
                               const NodalVector<Dim, double>& displacements);

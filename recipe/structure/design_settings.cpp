@@ -17,11 +17,11 @@ constexpr double least_radius = 1.5;  // elements; below, checkerboards
 
 DensitySettings density_settings(const OptimizeRecipe& optimize, const ElementDomain& domain) {
     DensitySettings settings;
-    settings.radius = std::max(least_radius, optimize.radius / domain.edge);
+    settings.radius = std::max(least_radius, optimize.radius / domain.shortest_edge());
     if (optimize.member > 0 || optimize.gap > 0) {
         settings.length_scale = length_scale_for({.member = optimize.member,
                                                   .gap = optimize.gap,
-                                                  .element = domain.edge,
+                                                  .element = domain.shortest_edge(),
                                                   .dimensions = domain.dimensions});
     }
     for (const char axis : optimize.symmetry) settings.mirrored[static_cast<std::size_t>(axis - 'x')] = true;

@@ -72,6 +72,12 @@ void prescribe_skin(const Recipe& recipe, const Field& body, ElementDomain& doma
     });
 }
 
+/// Returns the box of a grid with this middle.
+Box around(dvec3 middle, dvec3 edges, glm::ivec3 size) {
+    const dvec3 half = 0.5 * edges * dvec3(size);
+    return {middle - half, middle + half};
+}
+
 /// Says which elements of the grid belong to the body, and which of them are prescribed.
 void classify(const Recipe& recipe, const Field& body, const BuiltRegions& regions, const CancelToken* cancel,
               ElementDomain& domain) {
@@ -81,7 +87,7 @@ void classify(const Recipe& recipe, const Field& body, const BuiltRegions& regio
         throw InputError(
             fmt::format("optimize: no element of {:.4g} mm has its centre in the part; accepted: smaller "
                         "elements, by optimize.element",
-                        domain.edge));
+                        domain.longest_edge()));
     prescribe_skin(recipe, body, domain);
     for (const BuiltRegion& region : regions.list) {
         if (region.make != RegionMake::solid && region.make != RegionMake::empty) continue;
@@ -97,20 +103,24 @@ std::size_t ElementDomain::elements() const {
         std::ranges::count_if(use, [](ElementUse u) { return u != ElementUse::outside; }));
 }
 
+double ElementDomain::shortest_edge() const {
+    const double least = std::min(edges.x, edges.y);
+    return dimensions == 2 ? least : std::min(least, edges.z);
+}
+
+double ElementDomain::longest_edge() const {
+    const double most = std::max(edges.x, edges.y);
+    return dimensions == 2 ? most : std::max(most, edges.z);
+}
+
 dvec3 ElementDomain::node(glm::ivec3 at) const {
-    const dvec3 p = box.lo + dvec3(at) * edge;
+    const dvec3 p = box.lo + dvec3(at) * edges;
     return dimensions == 2 ? dvec3(p.x, p.y, 0.5 * (box.lo.z + box.hi.z)) : p;
 }
 
 std::vector<std::uint8_t> elements_inside(const Field& field, const ElementDomain& domain,
                                           const CancelToken* cancel) {
-    Box box = domain.box;
-    if (domain.dimensions == 2) {  // one layer of cubes about half the height
-        const double middle = 0.5 * (box.lo.z + box.hi.z);
-        box.lo.z = middle - 0.5 * domain.edge;
-        box.hi.z = middle + 0.5 * domain.edge;
-    }
-    return sample_field(field, box, domain.size.x, cancel).present;
+    return sample_field(field, domain.box, domain.size, cancel).present;
 }
 
 ElementDomain element_domain(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
@@ -119,22 +129,20 @@ ElementDomain element_domain(const Recipe& recipe, const Field& body, const Buil
     const Box bounds = body.bounds();
     ElementDomain domain;
     domain.dimensions = optimize.dimensions;
-    domain.edge = edge_of(optimize, bounds.size());
-    // The nearest whole number: the grid may end up to a quarter of an element inside the body on either
-    // side.
+    const double edge = edge_of(optimize, bounds.size());
     const auto along = [&](int axis) {
-        return std::max(1, static_cast<int>(std::round(std::min(bounds.size()[axis] / domain.edge, 1e9))));
+        return std::max(1, static_cast<int>(std::round(std::min(bounds.size()[axis] / edge, 1e9))));
     };
     domain.size = {along(0), along(1), optimize.dimensions == 2 ? 1 : along(2)};
-    check_size(optimize, domain.size, std::max<std::size_t>(recipe.loads.size(), 1), domain.edge);
-    const dvec3 middle = 0.5 * (bounds.lo + bounds.hi), half = 0.5 * domain.edge * dvec3(domain.size);
-    domain.box = Box{middle - half, middle + half};
-    domain.thickness = domain.edge;
-    if (domain.dimensions == 2) {
-        domain.box.lo.z = bounds.lo.z;
-        domain.box.hi.z = bounds.hi.z;
-        domain.thickness = bounds.size().z;
+    check_size(optimize, domain.size, std::max<std::size_t>(recipe.loads.size(), 1), edge);
+    domain.edges = dvec3(edge);
+    for (int axis = 0; axis < optimize.dimensions && !optimize.overhang; ++axis) {
+        const double fitting = bounds.size()[axis] / domain.size[axis];
+        constexpr double rounding = 1e-9;  // cubes that fit stay cubes
+        if (std::abs(fitting - edge) > rounding * edge) domain.edges[axis] = fitting;
     }
+    if (domain.dimensions == 2) domain.edges.z = bounds.size().z;
+    domain.box = around(0.5 * (bounds.lo + bounds.hi), domain.edges, domain.size);
     classify(recipe, body, regions, cancel, domain);
     return domain;
 }
@@ -142,18 +150,10 @@ ElementDomain element_domain(const Recipe& recipe, const Field& body, const Buil
 ElementDomain element_domain_of(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                                 const ElementDomain& domain, glm::ivec3 size, double ratio,
                                 const CancelToken* cancel) {
-    ElementDomain other{.dimensions = domain.dimensions,
-                        .size = size,
-                        .edge = ratio * domain.edge,
-                        .thickness = 0,
-                        .box = domain.box,
-                        .use = {}};
-    other.thickness = domain.dimensions == 2 ? domain.thickness : other.edge;
-    for (int axis = 0; axis < domain.dimensions; ++axis) {
-        const double middle = 0.5 * (domain.box.lo[axis] + domain.box.hi[axis]);
-        other.box.lo[axis] = middle - 0.5 * other.edge * size[axis];
-        other.box.hi[axis] = middle + 0.5 * other.edge * size[axis];
-    }
+    ElementDomain other{
+        .dimensions = domain.dimensions, .size = size, .edges = ratio * domain.edges, .box = {}, .use = {}};
+    if (domain.dimensions == 2) other.edges.z = domain.edges.z;
+    other.box = around(0.5 * (domain.box.lo + domain.box.hi), other.edges, size);
     classify(recipe, body, regions, cancel, other);
     return other;
 }

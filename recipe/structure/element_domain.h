@@ -9,31 +9,35 @@
 
 namespace lamella {
 
-/// A grid of cubic elements around the body. In two dimensions it is one layer of squares in the xy plane,
-/// each as high as the body.
+/// A grid of elements that fits the body's sides; cubes, nearly. In two dimensions it is one layer of
+/// elements in the xy plane, each as high as the body.
 struct ElementDomain {
     int dimensions = 3;
     glm::ivec3 size{0};
-    double edge = 0;       ///< of an element in the plane, mm
-    double thickness = 0;  ///< of an element along z, mm
-    Box box;               ///< of the whole grid, mm
+    dvec3 edges{0};  ///< of an element, mm
+    Box box;         ///< of the whole grid, mm
     std::vector<ElementUse> use;
 
     /// Number of elements that are not outside the body.
     std::size_t elements() const;
-    double element_volume() const { return edge * edge * thickness; }  ///< mm^3
+    double element_volume() const { return edges.x * edges.y * edges.z; }  ///< mm^3
+    /// Return the shortest and longest edge among the dimensions, mm.
+    double shortest_edge() const;
+    double longest_edge() const;
     /// Returns the position of a node, mm; in two dimensions at half the body's height.
     dvec3 node(glm::ivec3 at) const;
 };
 
-/// Divides the body into elements as [optimize] says: an element belongs to it if its centre does. Regions
-/// that are solid or empty, and a skin, prescribe elements. Throws InputError when the body has no element or
-/// the elements need more memory than the machine has, Interrupted when cancelled.
+/// Divides the body into elements as [optimize] says: an element belongs to it if its centre does. Under an
+/// overhang limit, which goes by steps of elements, they are cubes, and the grid may miss the body's sides by
+/// up to a quarter of an element. Regions that are solid or empty, and a skin, prescribe elements. Throws
+/// InputError when the body has no element or the elements need more memory than the machine has, Interrupted
+/// when cancelled.
 ElementDomain element_domain(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                              const CancelToken* cancel);
 
 /// Returns the same body on another grid with the same middle, of elements `ratio` times as wide; in the
-/// plane as thick.
+/// plane as high.
 ElementDomain element_domain_of(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                                 const ElementDomain& domain, glm::ivec3 size, double ratio,
                                 const CancelToken* cancel);

@@ -72,7 +72,8 @@ class DomainNodes {
 class Place {
   public:
     Place(const PlaceRecipe& place, const ElementDomain& domain, Gradings& gradings)
-        : place_(place), reach_(0.5 * domain.edge * (1 + 1e-9)) {
+        : place_(place), reach_(0.5 * (1 + 1e-9) * domain.edges) {
+        if (domain.dimensions == 2) reach_.z = std::max(reach_.x, reach_.y);
         if (place.field.empty()) return;
         for (const FieldRecipe& field : gradings.recipe().fields) {
             if (field.name != place.field) continue;
@@ -87,17 +88,18 @@ class Place {
     int face_axis() const { return place_.face[1] - 'x'; }
     bool face_is_upper() const { return place_.face[0] == '+'; }
     bool contains(dvec3 p) const {
-        if (field_) return field_->value(p) <= reach_;
+        if (field_) return field_->value(p) <= std::max({reach_.x, reach_.y, reach_.z});
         if (!place_.box.empty()) {
-            const Box box = grown(box_of(place_.box), reach_);
-            return glm::clamp(p, box.lo, box.hi) == p;
+            const Box box = box_of(place_.box);
+            return glm::clamp(p, box.lo - reach_, box.hi + reach_) == p;
         }
-        return glm::dot(glm::normalize(place_.normal), p - place_.at) >= -reach_;
+        const dvec3 normal = glm::normalize(place_.normal);
+        return glm::dot(normal, p - place_.at) >= -glm::length(normal * reach_);
     }
 
   private:
     const PlaceRecipe& place_;
-    double reach_;  // mm
+    dvec3 reach_;  // half an element, mm
     FieldPtr field_;
 };
 
@@ -127,7 +129,7 @@ std::vector<glm::ivec3> nodes_in(const Place& place, const DomainNodes<Dim>& nod
         throw InputError(
             fmt::format("{}: its place holds nothing of the part; accepted: a place within half an "
                         "element ({:.3g} mm) of the part",
-                        where, 0.5 * domain.edge));
+                        where, 0.5 * domain.longest_edge()));
     return found;
 }
 
@@ -150,7 +152,6 @@ void add_pressure(const std::vector<glm::ivec3>& places, const DomainNodes<Dim>&
                   NodalVector<Dim, double>& forces) {
     std::vector<std::uint8_t> in_place(nodes.grid().size());
     for (const glm::ivec3 node : places) in_place[nodes.number(node)] = 1;
-    const double area = domain.edge * (Dim == 2 ? domain.thickness : domain.edge);
     std::size_t faces = 0;
     for (int z = 0; z < domain.size.z; ++z) {
         for (int y = 0; y < domain.size.y; ++y) {
@@ -173,7 +174,8 @@ void add_pressure(const std::vector<glm::ivec3>& places, const DomainNodes<Dim>&
                         ++faces;
                         for (const std::size_t corner : corners) {
                             forces.along[static_cast<std::size_t>(axis)][corner] -=
-                                side * pressure * area / static_cast<double>(corners.size());
+                                side * pressure * domain.element_volume() / domain.edges[axis] /
+                                static_cast<double>(corners.size());
                         }
                     }
                 }
@@ -292,11 +294,13 @@ std::vector<std::uint8_t> elements_touching(const DomainNodes<Dim>& nodes, const
     return flags;
 }
 
-GridElement<2> element_of(const IsotropicMaterial& material, std::integral_constant<std::size_t, 2>) {
-    return make_plane_stress_element(material);
+GridElement<2> element_of(const IsotropicMaterial& material, dvec3 edges,
+                          std::integral_constant<std::size_t, 2>) {
+    return make_plane_stress_element(material, edges);
 }
-GridElement<3> element_of(const IsotropicMaterial& material, std::integral_constant<std::size_t, 3>) {
-    return make_solid_element(material);
+GridElement<3> element_of(const IsotropicMaterial& material, dvec3 edges,
+                          std::integral_constant<std::size_t, 3>) {
+    return make_solid_element(material, edges);
 }
 
 }  // namespace
@@ -312,11 +316,11 @@ StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& d
     const double poisson = element_poisson != material_poisson ? element_poisson : material.elastic.poisson;
     const NodeGrid<Dim> grid(domain.size);
     StructuralProblem<Dim> problem{
-        .topology = {.body = ElasticBody<Dim>(
-                         grid, element_of({1, poisson}, std::integral_constant<std::size_t, Dim>()))}};
+        .topology = {.body = ElasticBody<Dim>(grid, element_of({1, poisson}, domain.edges / domain.edges.x,
+                                                               std::integral_constant<std::size_t, Dim>()))}};
     problem.material = material;
     problem.material_is_assumed = !known;
-    problem.displacement_unit = 1 / (material.elastic.young * (Dim == 2 ? domain.thickness : domain.edge));
+    problem.displacement_unit = 1 / (material.elastic.young * (Dim == 2 ? domain.edges.z : domain.edges.x));
 
     const DomainNodes<Dim> nodes(domain);
     TopologyProblem<Dim>& topology = problem.topology;

@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// A part under its loads. The solid's modulus is 1 and elements have edge 1: `displacement_unit` turns
-/// displacements into mm, and, with forces in N, compliances into N mm.
+/// A part under its loads. The solid's modulus is 1 and elements have edge 1 along x: `displacement_unit`
+/// turns displacements into mm, and, with forces in N, compliances into N mm.
 template <std::size_t Dim>
 struct StructuralProblem {
     TopologyProblem<Dim> topology;

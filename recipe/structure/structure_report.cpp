@@ -19,8 +19,8 @@ CaseReport case_report(const StructuralProblem<Dim>& problem, const ElementDomai
     for (std::size_t e = 0; e < numbers.size(); ++e)
         body.present[numbers[e]] = problem.topology.use[e] != ElementUse::outside;
     const std::vector<double> stress = von_mises(body, problem.material.elastic.poisson, u);
-    // Displacements of unit elements times the unit are mm; strains are those over the edge.
-    const double stress_unit = problem.material.elastic.young * problem.displacement_unit / domain.edge;
+    // Displacements of elements of edge 1 along x times the unit are mm; strains are those over that edge.
+    const double stress_unit = problem.material.elastic.young * problem.displacement_unit / domain.edges.x;
     const DensityGrid places{domain.size, {}, {}};
     CaseReport result;
     for (std::size_t e = 0; e < density.size(); ++e) {
@@ -74,7 +74,7 @@ void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain
     report.dimensions = static_cast<int>(Dim);
     report.size = domain.size;
     report.elements = domain.elements();
-    report.element = domain.edge;
+    report.element = domain.edges;
     report.young = problem.material.elastic.young;
     report.poisson = problem.material.elastic.poisson;
     report.material_is_assumed = problem.material_is_assumed;

@@ -36,7 +36,7 @@ struct StructureReport {
     int dimensions = 3;
     glm::ivec3 size{0};        ///< of the grid, elements
     std::size_t elements = 0;  ///< of the body
-    double element = 0;        ///< edge, mm
+    dvec3 element{0};          ///< edges, mm
     double young = 0;          ///< of the solid, MPa
     double poisson = 0;
     bool material_is_assumed = false;

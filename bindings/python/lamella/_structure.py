@@ -16,7 +16,7 @@ class Structure:
     dimensions: int  # 2 for a plate, else 3
     iterations: int  # of the search that made the part; 0: it was only analysed
     converged: bool  # the search ended by its tolerance
-    element: float  # edge of the finite elements, mm
+    element: float  # edge of the finite elements along x, mm
     full_compliance: float  # with material everywhere, N mm
     compliance: float  # of the part, N mm
     volume: float  # share of the body that is solid; 0: not known, of a foam by its law

@@ -38,6 +38,26 @@ FoamSettings repeating(std::uint64_t seed, SeedPattern pattern = SeedPattern::ji
 
 }  // namespace
 
+TEST_CASE("cuboid elements divide a box whose sides no cube divides", "[elasticity]") {
+    const Box box{{-1, 2, 3}, {2, 4.1, 4}};
+    const FieldPtr ball = make_sphere({0.5, 3, 3.5}, 0.93);
+    const glm::ivec3 size(24, 16, 7);
+    const ElementMask sample = sample_field(*ball, box, size);
+    int differ = 0, solid = 0;
+    for (int z = 0; z < size.z; ++z) {
+        for (int y = 0; y < size.y; ++y) {
+            for (int x = 0; x < size.x; ++x) {
+                const dvec3 middle = box.lo + (dvec3(x, y, z) + 0.5) * box.size() / dvec3(size);
+                if (std::abs(ball->value(middle)) <= 0.001) continue;
+                differ += sample.at(x, y, z) != (ball->value(middle) < 0);
+                solid += sample.at(x, y, z);
+            }
+        }
+    }
+    CHECK(differ == 0);
+    CHECK(solid > 1000);
+}
+
 TEST_CASE("an element is there where its middle is solid", "[elasticity]") {
     const Box box{{-1, 2, 3}, {2, 4, 4}};
     const FieldPtr ball = make_sphere({0.5, 3, 3.5}, 0.93);
@@ -54,7 +74,9 @@ TEST_CASE("an element is there where its middle is solid", "[elasticity]") {
         }
     }
     CHECK(differ == 0);
+    CHECK(sample_field(*ball, box, glm::ivec3(24, 16, 8)).present == sample.present);
     CHECK_THROWS_AS(sample_field(*ball, {}, 8), InputError);
+    CHECK_THROWS_AS(sample_field(*ball, box, glm::ivec3(24, 0, 8)), InputError);
     CHECK_THROWS_AS(sample_field(*ball, box, 0), InputError);
     CHECK_THROWS_AS(sample_field(*ball, box, 5000), InputError);
 }

@@ -111,6 +111,34 @@ TEST_CASE("element matrices equal exact integrals, number for number", "[elastic
     }
 }
 
+TEST_CASE("a cuboid of any edges has the energy of a uniform strain times its volume", "[elasticity]") {
+    const double nu = 0.3, mu = 1 / (2 * (1 + nu)), lambda = nu / ((1 + nu) * (1 - 2 * nu));
+    const dvec3 edges(1, 0.7, 1.6);
+    const GridElement<3> solid = make_solid_element({1, nu}, edges);
+    const GridElement<2> plane = make_plane_stress_element({1, nu}, edges);
+    CHECK(solid.edges == edges);
+    Eigen::Matrix3d gradient;
+    gradient << 0.3, -0.2, 0.5, 0.1, 0.4, 0.7, -0.6, 0.2, -0.1;
+    Eigen::VectorXd moved(24), moved_in_plane(8);
+    for (unsigned c = 0; c < 8; ++c) {
+        const Eigen::Vector3d at((c & 1) * edges.x, (c >> 1 & 1) * edges.y, (c >> 2) * edges.z);
+        moved.segment<3>(3 * c) = gradient * at;
+        if (c < 4) moved_in_plane.segment<2>(2 * c) = gradient.topLeftCorner<2, 2>() * at.head<2>();
+    }
+    const auto energy = [&](const Eigen::MatrixXd& strain, double first) {
+        return first * strain.trace() * strain.trace() + 2 * mu * strain.squaredNorm();
+    };
+    const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
+    CHECK(moved.dot(matrix_of(solid) * moved) ==
+          Approx(edges.x * edges.y * edges.z * energy(strain, lambda)).epsilon(1e-12));
+    CHECK(
+        moved_in_plane.dot(matrix_of(plane) * moved_in_plane) ==
+        Approx(edges.x * edges.y * energy(strain.topLeftCorner<2, 2>(), nu / (1 - nu * nu))).epsilon(1e-12));
+    // Lengths in another unit scale the stiffness.
+    CHECK(matrix_of(make_solid_element({1, nu}, 2.5 * edges)).isApprox(2.5 * matrix_of(solid), 1e-12));
+    CHECK(matrix_of(make_plane_stress_element({1, nu}, 2.5 * edges)).isApprox(matrix_of(plane), 1e-12));
+}
+
 TEST_CASE("rigid motions of an element cost nothing, and nothing else is free", "[elasticity]") {
     const Eigen::MatrixXd plane = matrix_of(make_plane_stress_element({1, 0.3}));
     const Eigen::MatrixXd solid = matrix_of(make_solid_element({1, 0.3}));

@@ -1,6 +1,7 @@
 // Parts that [optimize] makes: volumes, symmetry, prescribed regions, foams, plans, and what cannot be
 // solved.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -293,6 +294,56 @@ TEST_CASE("a bar that is analysed stretches as the textbook says", "[optimizatio
         CHECK(report.compliance == Approx(100 * stretch).epsilon(1e-4));
         CHECK(report.cases[0].peak_stress == Approx(100.0 / (20 * 4)).epsilon(1e-3));
     }
+}
+
+TEST_CASE("a bar whose height no cube divides bends as the textbook says", "[optimization]") {
+    // Timoshenko: F L^3 / (3 E I) + F L / (k G A). The bar is 6.4 elements of the longest side high.
+    const double length = 64, width = 5.3, height = 6.4, young = 2000, force = 3;
+    const std::string bar =
+        "[part]\nshape = \"box\"\nsize = [64, 5.3, 6.4]\n[material]\nyoung = 2000\npoisson = 0\n"
+        "[[load]]\nface = \"+x\"\nforce = [0, 0, -3]\n[[anchor]]\nface = \"-x\"\n";
+    const double inertia = width * std::pow(height, 3) / 12;
+    const double sunk = force * std::pow(length, 3) / (3 * young * inertia) +
+                        force * length / (5.0 / 6 * young / 2 * width * height);
+    AnalysisOptions options;
+    options.elements = 64;
+    const Recipe recipe = recipe_of(bar);
+    const StructureReport report = analyse_part(recipe, build_job(recipe), options);
+    CHECK(report.size == glm::ivec3(64, 5, 6));
+    CHECK(report.element.z == Approx(6.4 / 6));
+    CHECK(report.body_volume == Approx(length * width * height));
+    CHECK(report.compliance == Approx(force * sunk).epsilon(0.02));
+    // The stress of the outermost elements' middles, half an element from the wall.
+    const double arm = height / 2 * 5 / 6;
+    CHECK(report.cases[0].peak_stress == Approx(force * (length - 0.5) * arm / inertia).epsilon(0.02));
+    // Turned, the same bar bends the same way.
+    std::string turned = bar;
+    turned.replace(turned.find("[64, 5.3, 6.4]"), 14, "[5.3, 6.4, 64]");
+    turned.replace(turned.find("+x"), 2, "+z");
+    turned.replace(turned.find("[0, 0, -3]"), 10, "[0, -3, 0]");
+    turned.replace(turned.find("-x"), 2, "-z");
+    const Recipe other = recipe_of(turned);
+    CHECK(analyse_part(other, build_job(other), options).compliance ==
+          Approx(report.compliance).epsilon(1e-4));
+}
+
+TEST_CASE("a load on a whole face acts on material everywhere", "[optimization]") {
+    const Recipe recipe = recipe_of(block + in_space + "volume = 0.3\n");
+    const BuiltJob job = build_job(recipe);
+    const StructureReport& report = *job.optimized->report;
+    // Grey is softer than what it becomes. Void under a part of the load would make the shape many times
+    // softer.
+    CHECK(report.compliance < 1.05 * report.densities_compliance);
+    CHECK(report.compliance > 0.6 * report.densities_compliance);
+    CHECK(report.volume == Approx(0.3).epsilon(0.01));
+    int voids = 0;
+    for (double y = -5.5; y < 6; ++y) {
+        for (double z = -5.5; z < 6; ++z) voids += job.optimized->shape->value({11.5, y, z}) > 0;
+    }
+    CHECK(voids == 0);
+    const std::string thin = "volume = 0.04\n";
+    CHECK(mentions(complaint_about(block + in_space + thin),
+                   "the elements under loads fill 0.0417 of the part"));
 }
 
 TEST_CASE("an analysis takes other elements than the search, of the part as it was made", "[optimization]") {
