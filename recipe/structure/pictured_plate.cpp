@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "procedural/appearance/appearance_optimizer.h"
 #include "recipe/structure/design_settings.h"
+#include "recipe/structure/loaded_elements.h"
 #include "recipe/structure/structural_problem.h"
 
 namespace lamella {
@@ -111,11 +112,7 @@ class PlateProblems {
         const OptimizeRecipe& optimize = *recipe_.optimize;
         made.topology.law = penalty_law<2>(optimize);
         made.topology.volume = volume_bound(optimize, domain, made.material);
-        // Loads need material to act on: a deck of one element could be lost when the shape is cut.
-        for (std::size_t i = 0; i < domain.use.size(); ++i) {
-            if (made.loaded[i] != 0 && domain.use[i] == ElementUse::free)
-                domain.use[i] = made.topology.use[i] = ElementUse::solid;
-        }
+        make_loads_solid(0, domain, made);
         return made;
     }
 
@@ -168,7 +165,7 @@ PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRe
         report.history.push_back(step_of(found, static_cast<int>(report.history.size()) + 1));
         if (options.on_iteration) options.on_iteration(report.history.back(), step_count(settings));
     };
-    const int width = std::max(1, static_cast<int>(std::lround(optimize.image_size / domain.edge)));
+    const int width = std::max(1, static_cast<int>(std::lround(optimize.image_size / domain.edges.x)));
     const GreyImage exemplar = exemplar_of(optimize, width);
     check_room(optimize, domain, exemplar, width);
     note_unsuited(exemplar, width, settings.levels, settings.volume, report.notes);

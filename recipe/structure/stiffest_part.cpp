@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "procedural/optimization/overhang_shape.h"
 #include "recipe/structure/design_settings.h"
+#include "recipe/structure/loaded_elements.h"
 #include "recipe/structure/optimized_foam.h"
 #include "recipe/structure/stopped_search.h"
 #include "recipe/structure/structural_problem.h"
@@ -58,6 +59,10 @@ class PartOptimizer {
             foam_->check_volume(topology.volume, volumes);
         } else {
             topology.law = penalty_law<Dim>(optimize);
+            // As thick as the thinnest member may be. Under an overhang limit they would hang in the air.
+            if (!optimize.overhang)
+                make_loads_solid(optimize.member / domain_.shortest_edge() - 1, domain_, *problem_);
+            check_solid_share();
         }
     }
 
@@ -65,6 +70,7 @@ class PartOptimizer {
 
   private:
     double share_of(ElementUse use) const;
+    void check_solid_share() const;
     double full_compliance() const;
     DensityGrid cut(const DensityGrid& found, double volume, StructureReport& report) const;
     void cut_to_bound(const DensityGrid& found, PartDesign& design) const;
@@ -148,23 +154,11 @@ DensityGrid PartOptimizer<Dim>::densities(const DensityMap& found) const {
 /// or loads it, and a member ends at the border without becoming thin.
 template <std::size_t Dim>
 std::vector<std::uint8_t> PartOptimizer<Dim>::far_from_holds(double radius) const {
-    std::vector<std::uint8_t> far(domain_.use.size(), 1);
-    const DensityGrid grid{domain_.size, {}, {}};
-    const int reach = static_cast<int>(std::ceil(radius));
-    for (std::size_t i = 0; i < far.size(); ++i) {
-        if (problem_->anchored[i] == 0 && problem_->loaded[i] == 0) continue;
-        const glm::ivec3 middle = grid.element(i), lo = glm::max(middle - reach, glm::ivec3(0)),
-                         hi = glm::min(middle + reach, domain_.size - 1);
-        for (int z = lo.z; z <= hi.z; ++z) {
-            for (int y = lo.y; y <= hi.y; ++y) {
-                for (int x = lo.x; x <= hi.x; ++x) {
-                    const dvec3 from(glm::ivec3(x, y, z) - middle);
-                    if (glm::dot(from, from) <= radius * radius) far[grid.place({x, y, z})] = 0;
-                }
-            }
-        }
-    }
-    return far;
+    std::vector<std::uint8_t> flags = problem_->anchored;
+    for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] != 0 || problem_->loaded[i] != 0;
+    flags = elements_near(domain_.size, flags, radius);
+    for (std::uint8_t& flag : flags) flag = flag == 0;
+    return flags;
 }
 
 /// Returns flags of elements for the parts of a refined grid.
@@ -191,6 +185,17 @@ template <std::size_t Dim>
 double PartOptimizer<Dim>::share_of(ElementUse use) const {
     return static_cast<double>(std::ranges::count(domain_.use, use)) /
            static_cast<double>(domain_.elements());
+}
+
+template <std::size_t Dim>
+void PartOptimizer<Dim>::check_solid_share() const {
+    const double solid = share_of(ElementUse::solid), most = problem_->topology.volume;
+    if (solid < most) return;
+    throw InputError(fmt::format(
+        "optimize.volume / --optimize-volume: solid regions and the elements under loads fill "
+        "{:.3g} of the part, its material may fill {:.3g}; accepted: more volume, smaller elements, "
+        "or loads on less of the part",
+        solid, most));
 }
 
 /// Returns the compliance with material everywhere, as the search measures it.
