@@ -92,39 +92,59 @@ namespace {
 /// How many parts an element has along each axis.
 glm::ivec3 parts_along(glm::ivec3 size, int factor) { return {factor, factor, size.z == 1 ? 1 : factor}; }
 
+/// The weights of four centres in a row.
+struct Taps {
+    int first = 0;
+    std::array<double, 4> weights{};
+};
+
+/// Returns the taps at `at`, elements from the first centre.
+Taps taps_at(double at, Interpolation method) {
+    const double floor = std::floor(at), t = at - floor;
+    Taps taps{static_cast<int>(floor) - 1, {0, 1 - t, t, 0}};
+    if (method == Interpolation::cubic) {
+        taps.weights = {0.5 * t * (t * (2 - t) - 1), 0.5 * (t * t * (3 * t - 5) + 2),
+                        0.5 * t * (t * (4 - 3 * t) + 1), 0.5 * t * t * (t - 1)};
+    }
+    return taps;
+}
+
+/// Returns the weighted sum of the densities at 4 x 4 x 4 centres; beyond the grid they are those at its
+/// border.
+double tapped(const DensityGrid& grid, const std::array<Taps, 3>& along) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                const double share = along[0].weights[i] * along[1].weights[j] * along[2].weights[k];
+                if (share == 0) continue;
+                const glm::ivec3 tap(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+                const glm::ivec3 centre(along[0].first, along[1].first, along[2].first);
+                sum +=
+                    share * grid.density[grid.place(glm::clamp(centre + tap, glm::ivec3(0), grid.size - 1))];
+            }
+        }
+    }
+    return sum;
+}
+
 }  // namespace
 
-DensityGrid refined(const DensityGrid& grid, int factor) {
+DensityGrid refined(const DensityGrid& grid, int factor, Interpolation method) {
     const glm::ivec3 parts = parts_along(grid.size, factor);
     DensityGrid fine{grid.size * parts, {}, {}};
     const std::size_t count = fine.place({0, 0, fine.size.z});
     fine.use.resize(count);
     fine.density.resize(count);
-    // The centre before a part's, and the share of the way to the next.
-    const auto between = [&](int part, int axis) {
-        const double at = (part + 0.5) / parts[axis] - 0.5;
-        const int first = static_cast<int>(std::floor(at));
-        return std::pair{first, at - first};
-    };
     parallel_for(fine.size.y * fine.size.z, [&](int row) {
         for (int x = 0; x < fine.size.x; ++x) {
             const glm::ivec3 at(x, row % fine.size.y, row / fine.size.y);
-            std::array<std::pair<int, double>, 3> along;
+            std::array<Taps, 3> along;
             for (int axis = 0; axis < 3; ++axis)
-                along[static_cast<std::size_t>(axis)] = between(at[axis], axis);
-            double sum = 0;
-            for (int corner = 0; corner < 8; ++corner) {
-                glm::ivec3 centre(0);
-                double share = 1;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const auto& [first, way] = along[static_cast<std::size_t>(axis)];
-                    const int up = corner >> axis & 1;
-                    centre[axis] = std::clamp(first + up, 0, grid.size[axis] - 1);
-                    share *= up == 1 ? way : 1 - way;
-                }
-                if (share > 0) sum += share * grid.density[grid.place(centre)];
-            }
-            fine.density[fine.place(at)] = sum;
+                along[static_cast<std::size_t>(axis)] = taps_at((at[axis] + 0.5) / parts[axis] - 0.5, method);
+            const double density = tapped(grid, along);
+            fine.density[fine.place(at)] =
+                method == Interpolation::cubic ? std::clamp(density, 0.0, 1.0) : density;
             fine.use[fine.place(at)] = grid.use[grid.place(at / parts)];
         }
     });

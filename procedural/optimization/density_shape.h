@@ -38,9 +38,13 @@ struct DensityGrid {
 /// it, so that the shape does not recede from the surface of the body, by which it is cut off.
 void extend_outside(DensityGrid& grid, int layers);
 
+/// How densities between the centres of elements follow from those at them: trilinear, or by the cubics of
+/// Catmull and Rom (1974), whose contours have no ridges at the centres.
+enum class Interpolation : std::uint8_t { linear, cubic };
+
 /// Returns the grid with each element cut into factor^3 (in the plane factor^2) of the same use, their
-/// densities trilinear between the elements' centres.
-DensityGrid refined(const DensityGrid& grid, int factor);
+/// densities interpolated between the elements' centres; cubics are clamped to 0 to 1.
+DensityGrid refined(const DensityGrid& grid, int factor, Interpolation method = Interpolation::linear);
 
 /// Returns the means over the elements of a grid from which `values` was refined().
 std::vector<double> coarsened(std::span<const double> values, glm::ivec3 size, int factor);

@@ -86,8 +86,8 @@ void make_fields(const Recipe& recipe, const FieldPtr& body, std::vector<float> 
     if (recipe.optimize->result != OptimizeResult::solid) return;
     FieldPtr shape = part.dense;
     if (needs_distances(recipe)) {
-        // Under the overhang limit elements are refined already.
-        const int parts = recipe.optimize->overhang ? 1 : 2;
+        // The stiffest part's elements are refined already.
+        const int parts = recipe.optimize->kind == OptimizeKind::appearance ? 2 : 1;
         shape = make_mesh_field(
             close_mesh(density_surface(part.grid, part.box, level, parts), "the optimised shape"));
     }

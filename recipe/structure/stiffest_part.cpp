@@ -172,12 +172,13 @@ std::vector<std::uint8_t> PartOptimizer<Dim>::of_parts(const std::vector<std::ui
     return parts;
 }
 
-/// Returns into how many parts elements are cut along each axis for a shape without overhangs: six, as long
-/// as the parts are few.
-int refinement(glm::ivec3 size) {
-    constexpr double most_parts = 16e6;
+/// Returns into how many parts elements are cut along each axis: six for a shape without overhangs, else
+/// three, as long as the parts are few.
+int refinement(glm::ivec3 size, bool overhang) {
+    const double most_parts = overhang ? 16e6 : 4e6;
     const double elements = static_cast<double>(size.x) * size.y * size.z;
-    return std::clamp(static_cast<int>(std::cbrt(most_parts / elements)), 1, 6);
+    const double parts = most_parts / elements, along = size.z == 1 ? std::sqrt(parts) : std::cbrt(parts);
+    return std::clamp(static_cast<int>(along), 1, overhang ? 6 : 3);
 }
 
 /// Returns the share of the body's elements with this use.
@@ -211,11 +212,10 @@ double PartOptimizer<Dim>::full_compliance() const {
 template <std::size_t Dim>
 DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& found, double volume, StructureReport& report) const {
     DensityGrid grid = found;
-    const int factor = recipe_.optimize->overhang ? refinement(domain_.size) : 1;
-    if (recipe_.optimize->overhang) {
-        extend_outside(grid, extended_layers);
-        grid = with_limited_overhang(grid, volume, factor);
-    }
+    const int factor = refinement(domain_.size, recipe_.optimize->overhang);
+    extend_outside(grid, extended_layers);
+    grid = recipe_.optimize->overhang ? with_limited_overhang(grid, volume, factor)
+                                      : refined(grid, factor, Interpolation::cubic);
     report.stray_pieces = cut_shape(grid, {volume, volume}, of_parts(problem_->anchored, factor),
                                     of_parts(problem_->loaded, factor));
     // A cut element counts by its solid share.

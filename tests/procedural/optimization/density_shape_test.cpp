@@ -1,6 +1,7 @@
 // Shapes of densities: levels, volumes, refined grids and pieces, against closed forms.
 #include "procedural/optimization/density_shape.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -45,6 +46,28 @@ TEST_CASE("a refined grid has the trilinear densities, and coarsens to its means
     }
     const DensityGrid flat = refined(grid_of({4, 3, 1}, plane), 3);
     CHECK(flat.size == glm::ivec3(12, 9, 1));
+}
+
+TEST_CASE("cubics refine quadratic densities exactly, and stay from 0 to 1", "[optimization]") {
+    const auto quadratic = [](dvec3 p) {
+        return 0.3 + 0.01 * p.x * p.x - 0.02 * p.y * p.y + 0.015 * p.x * p.z + 0.02 * p.z;
+    };
+    const DensityGrid grid = grid_of({7, 6, 5}, quadratic);
+    const DensityGrid fine = refined(grid, 3, Interpolation::cubic);
+    REQUIRE(fine.size == 3 * grid.size);
+    int inner = 0;
+    for (std::size_t i = 0; i < fine.density.size(); ++i) {
+        const dvec3 p = (dvec3(fine.element(i)) + 0.5) / 3.0;
+        if (glm::clamp(p, dvec3(1.5), dvec3(grid.size) - 1.5) != p) continue;
+        ++inner;
+        CHECK(fine.density[i] == Approx(quadratic(p)).epsilon(1e-12));
+    }
+    CHECK(inner == 13 * 10 * 7);
+    // Cubics shoot beyond a step.
+    const DensityGrid step =
+        refined(grid_of({8, 4, 1}, [](dvec3 p) { return p.x > 4; }), 4, Interpolation::cubic);
+    CHECK(*std::ranges::max_element(step.density) == 1);
+    CHECK(*std::ranges::min_element(step.density) == 0);
 }
 
 TEST_CASE("parts of an element have its use", "[optimization]") {
