@@ -16,6 +16,8 @@ ElasticBody<Dim> body_in_use(const TopologyProblem<Dim>& problem, const std::vec
     if (problem.use.size() != numbers.size())
         throw InputError("a topology problem names the use of " + std::to_string(problem.use.size()) +
                          " elements; its grid has " + std::to_string(numbers.size()));
+    const bool one_each = problem.laws.empty() || problem.law_of.size() == numbers.size();
+    if (!one_each) throw InputError("a topology problem of several laws names one of them by element");
     if (problem.cases.empty()) throw InputError("a topology problem has no load case");
     ElasticBody<Dim> body = problem.body;
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -135,7 +137,7 @@ void Compliance<Dim>::add_case(std::size_t load_case, std::span<const double> de
     for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (problem_.use[i] == ElementUse::outside) continue;
-            double slope = -problem_.law->slope(density[i]) * energies[numbers_[i]];
+            double slope = -problem_.law_at(i).slope(density[i]) * energies[numbers_[i]];
             if (heavy) {
                 for (const std::ptrdiff_t corner : corners) {
                     const auto node =
@@ -156,7 +158,7 @@ auto Compliance<Dim>::evaluate(std::span<const double> density) -> Result {
     for_each_variable_block(density.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (problem_.use[i] != ElementUse::outside)
-                moduli[numbers_[i]] = problem_.law->modulus(density[i]);
+                moduli[numbers_[i]] = problem_.law_at(i).modulus(density[i]);
         }
     });
     if (shared_ != nullptr) moduli_hash_ = hash_of(moduli);

@@ -5,7 +5,7 @@
 
 namespace lamella {
 
-/// What an element is, whatever the design variables say.
-enum class ElementUse : std::uint8_t { outside, free, solid, empty };
+/// What an element is, whatever the design variables say; `kept` has a density between empty and solid.
+enum class ElementUse : std::uint8_t { outside, free, solid, empty, kept };
 
 }  // namespace lamella

@@ -22,6 +22,12 @@ int phases_of(const TopologySettings& settings) {
     return phases;
 }
 
+template <std::size_t Dim>
+DensitySettings with_limits(DensitySettings density, const TopologyProblem<Dim>& problem) {
+    density.limits = problem.limits;
+    return density;
+}
+
 double mean_of(std::span<const double> density, double elements) {
     return sum_over_variables<double>(density.size(),
                                       [&](std::size_t i, double& sum) { sum += density[i]; }) /
@@ -35,35 +41,58 @@ TopologyOptimizer<Dim>::TopologyOptimizer(const TopologyProblem<Dim>& problem,
                                           const TopologySettings& settings)
     : problem_(problem),
       settings_(settings),
-      map_(problem.body.grid.elements(), problem.use, settings.density),
+      map_(problem.body.grid.elements(), problem.use, with_limits(settings.density, problem)),
       compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel},
                   settings.shared),
       mma_(problem.use.size(), 1, {.move = settings.move}),
       bounds_(design_bounds(problem)),
       phases_(phases_of(settings)) {
-    double free = 0, solid = 0;
-    for (const ElementUse use : problem.use) {
-        const bool is_free = use == ElementUse::free;
-        free += is_free ? 1 : 0;
-        solid += use == ElementUse::solid ? 1 : 0;
+    double free = 0, prescribed = 0, least = 0;
+    for (std::size_t i = 0; i < problem.use.size(); ++i) {
+        const ElementUse use = problem.use[i];
+        if (use == ElementUse::free) {
+            free += 1;
+            least += problem.limits_at(i).lo;
+        }
+        if (use == ElementUse::solid) prescribed += 1;
+        if (use == ElementUse::kept) prescribed += problem.limits_at(i).lo;
         elements_ += use != ElementUse::outside ? 1 : 0;
     }
     if (free == 0) throw InputError("a topology problem has no free element");
     const DensitySettings& density = settings.density;
     const bool mirrored = std::ranges::any_of(density.mirrored, [](bool m) { return m; });
-    if (settings.sensitivity_filter &&
-        (density.length_scale || density.overhang || mirrored || settings.sharpness > 0))
-        throw InputError("the sensitivity filter knows no length scale, overhang, symmetry or projection");
-    least_volume_ = (solid + free * problem.least_density) / elements_;
+    if (settings.sensitivity_filter && (density.length_scale || density.overhang || mirrored ||
+                                        settings.sharpness > 0 || !problem.limits.empty()))
+        throw InputError(
+            "the sensitivity filter knows no length scale, overhang, symmetry, projection or limits by "
+            "element");
+    // Not summed where all limits are alike: results keep their bits.
+    least_volume_ =
+        (prescribed + (problem.limits.empty() ? free * problem.least_density : least)) / elements_;
     if (settings.compliance > 0) state_.volume = 0.5 * (least_volume_ + problem.volume);
-    const double start = (volume() * elements_ - solid) / free;
-    if (!(start > problem.least_density))
-        throw InputError("what is kept solid fills " + std::to_string(100 * solid / elements_) +
-                         " % of the body; the volume may be " + std::to_string(100 * problem.volume) + " %");
-    for (std::size_t i = 0; i < bounds_.lower.size(); ++i)
-        state_.design.push_back(std::clamp(start, bounds_.lower[i], bounds_.upper[i]));
+    state_.design = start_design(prescribed, free);
     // Thresholds of a length scale mean nothing without a projection.
     if (map_.has_three_fields() && phases_ > 0) state_.phase = 1;
+}
+
+/// Returns the design of even density; where limits differ, of densities at the same share of their ranges.
+template <std::size_t Dim>
+std::vector<double> TopologyOptimizer<Dim>::start_design(double prescribed, double free) const {
+    const double even = (volume() * elements_ - prescribed) / free;
+    if (!(problem_.limits.empty() ? even > problem_.least_density : volume() > least_volume_))
+        throw InputError("what is kept solid, or at its density, fills " +
+                         std::to_string(100 * prescribed / elements_) + " % of the body; the volume may be " +
+                         std::to_string(100 * problem_.volume) + " %");
+    double range = 0;
+    for (std::size_t i = 0; i < bounds_.lower.size(); ++i) range += bounds_.upper[i] - bounds_.lower[i];
+    const double share = range > 0 ? (volume() - least_volume_) * elements_ / range : 0;
+    std::vector<double> design;
+    for (std::size_t i = 0; i < bounds_.lower.size(); ++i) {
+        const double lower = bounds_.lower[i], upper = bounds_.upper[i];
+        const double start = problem_.limits.empty() ? even : lower + share * (upper - lower);
+        design.push_back(std::clamp(start, lower, upper));
+    }
+    return design;
 }
 
 template <std::size_t Dim>

@@ -61,8 +61,8 @@ template <std::size_t Dim>
 class TopologyOptimizer {
   public:
     /// Keeps a reference to the problem. Throws InputError for a problem without loads, supports or free
-    /// elements, when the prescribed solid elements alone exceed the volume, and for the sensitivity filter
-    /// along with what only the density filter can do.
+    /// elements, when prescribed elements and the least densities alone exceed the volume, and for the
+    /// sensitivity filter along with what only the density filter can do.
     TopologyOptimizer(const TopologyProblem<Dim>& problem, const TopologySettings& settings);
 
     /// Analyses the present design and improves it. Throws Interrupted once cancelled; then the state is that
@@ -84,6 +84,7 @@ class TopologyOptimizer {
 
   private:
     double volume() const { return settings_.compliance > 0 ? state_.volume : problem_.volume; }
+    std::vector<double> start_design(double prescribed, double free) const;
     bool seek_volume(double compliance);
     double sharpness() const;
     double move() const;

@@ -47,6 +47,18 @@ TEST_CASE("a bar that hangs stretches under its own weight", "[optimization]") {
     CHECK(compliance_of(hanging_column<3>(10, 1), 0.5) == Approx(332.5 * 0.25 * 8).epsilon(1e-7));
 }
 
+TEST_CASE("elements of two laws are springs in a row", "[optimization]") {
+    // A column of unit squares that is pulled by 1: each stretches by 1 over its modulus.
+    TopologyProblem<2> problem = hanging_column<2>(10, 0);
+    for (int x = 0; x < 2; ++x) problem.cases[0].forces.along[1][problem.body.grid.number(x, 0, 0)] = -0.5;
+    problem.laws = {make_penalty_law({.exponent = 3, .least = 0}),
+                    make_penalty_law({.exponent = 1, .least = 0})};
+    problem.law_of = {0, 1, 1, 0, 0, 0, 0, 0, 1, 1};
+    CHECK(compliance_of(problem, 0.5) == Approx(6 * 8 + 4 * 2).epsilon(1e-9));
+    problem.law_of.pop_back();
+    CHECK_THROWS_WITH(compliance_of(problem, 0.5), Catch::Contains("several laws"));
+}
+
 TEST_CASE("weight and loads act together, case by case", "[optimization]") {
     TopologyProblem<2> problem = hanging_column<2>(10, 1);
     const NodeGrid<2>& grid = problem.body.grid;

@@ -63,6 +63,7 @@ void check_chain(const TopologyProblem<Dim>& problem, const DensitySettings& set
     std::uniform_real_distribution<double> share(0.2, 0.9);
     std::vector<double> x(problem.use.size());
     for (double& v : x) v = share(random);
+    REQUIRE(settings.limits.size() == problem.limits.size());
     DensityMap map(problem.body.grid.elements(), problem.use, settings);
     Compliance<Dim> compliance(problem, {.tolerance = 1e-13});
     std::vector<double> counted(x.size());
@@ -108,6 +109,21 @@ void prescribe_some(TopologyProblem<Dim>& problem) {
     problem.use[n / 2 + 1] = ElementUse::empty;
     problem.use[n - 1] = ElementUse::outside;
     problem.use[3] = ElementUse::solid;
+}
+
+/// Elements have their own limits, around the designs that are tried, and one of two laws; two are kept.
+template <std::size_t Dim>
+void limit_each(TopologyProblem<Dim>& problem) {
+    problem.laws = {problem.law, make_penalty_law({.exponent = 1.5, .least = 1e-3})};
+    for (std::size_t i = 0; i < problem.use.size(); ++i) {
+        problem.limits.push_back(
+            {0.015 * static_cast<double>(7 * i % 10), 1 - 0.015 * static_cast<double>(3 * i % 5)});
+        problem.law_of.push_back(i % 3 == 1);
+    }
+    for (const std::size_t kept : {std::size_t{5}, problem.use.size() / 2 + 2}) {
+        problem.use[kept] = ElementUse::kept;
+        problem.limits[kept] = {0.37, 0.37};
+    }
 }
 
 template <std::size_t Dim>
@@ -181,6 +197,18 @@ void check_all() {
         TopologyProblem<Dim> problem = plain;
         add_second_case(problem);
         check_chain(problem, filter, 0, 14);
+    }
+    SECTION("limits and laws by element") {
+        TopologyProblem<Dim> problem = plain;
+        prescribe_some(problem);
+        limit_each(problem);
+        DensitySettings limited{.radius = 1.8, .limits = problem.limits};
+        check_chain(problem, limited, 0, 16);
+        check_chain(problem, limited, 3, 17);
+        limited.mirrored = {false, true, false};
+        limited.overhang = OverhangSettings{.axis = up};
+        check_chain(problem, limited, 0, 18);
+        check_chain(problem, {.length_scale = LengthScale{.radius = 2.2}, .limits = problem.limits}, 3, 19);
     }
     SECTION("the law of a foam") {
         TopologyProblem<Dim> problem = plain;

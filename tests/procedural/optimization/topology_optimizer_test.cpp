@@ -156,6 +156,51 @@ TEST_CASE("prescribed elements stay, and the volume counts them", "[optimization
     }
 }
 
+TEST_CASE("elements keep to their own limits, and kept ones to their density", "[optimization]") {
+    TopologyProblem<2> problem = plane_cantilever(24, 12, 0.3, 6);
+    for (int y = 0; y < 12; ++y) {
+        for (int x = 0; x < 24; ++x) {
+            problem.limits.push_back(x < 12 ? Interval{0.3, 0.6} : Interval{0.05, 0.2});
+            if (x < 6 || y > 3) continue;
+            problem.use.at(problem.limits.size() - 1) = ElementUse::kept;
+            problem.limits.back() = {0.45, 0.45};
+        }
+    }
+    for (int variant = 0; variant < 3; ++variant) {
+        CAPTURE(variant);
+        TopologySettings settings = some_loops(30);
+        settings.density.radius = 2.5;
+        if (variant == 1) settings.method = TopologyMethod::mma;
+        if (variant == 2) settings.density.mirrored = {true, true, false};
+        TopologyOptimizer<2> optimizer(problem, settings);
+        const TopologyIteration first = optimizer.iterate();
+        CHECK(first.volume == Approx(0.3).epsilon(1e-9));
+        const std::vector<double> found = result_of(optimizer);
+        CHECK(mean_of(found) == Approx(0.3).epsilon(0.005));
+        CHECK(optimizer.analyse().total < 0.97 * first.compliance);
+        bool reaches_least = false, reaches_greatest = false;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const Interval& limits = problem.limits[i];
+            CHECK(limits.contains(found[i]));
+            if (problem.use[i] == ElementUse::kept) CHECK(found[i] == 0.45);
+            reaches_least = reaches_least || found[i] < limits.lo + 1e-6;
+            reaches_greatest = reaches_greatest || found[i] > limits.hi - 1e-6;
+        }
+        CHECK((reaches_least && reaches_greatest));
+    }
+}
+
+TEST_CASE("limits by element that are all alike are those of the problem", "[optimization]") {
+    TopologyProblem<2> problem = half_mbb_beam(24, 8, 0.5);
+    problem.least_density = 0.2;
+    problem.greatest_density = 0.8;
+    TopologySettings settings = some_loops(15);
+    settings.density.radius = 2;
+    const std::vector<double> of_all = result_of(problem, settings);
+    problem.limits.assign(problem.use.size(), {0.2, 0.8});
+    CHECK(most_difference(result_of(problem, settings), of_all) < 1e-4);
+}
+
 TEST_CASE("what touches a solid element can become solid", "[optimization]") {
     // A bar in tension, solid at its upper side: the best place of more material is anywhere along it.
     TopologyProblem<2> problem = plane_cantilever(30, 6, 0.9, 3);
@@ -330,6 +375,13 @@ TEST_CASE("problems that cannot be solved are refused", "[optimization]") {
     const TopologyProblem<2> good = half_mbb_beam(12, 6, 0.5);
     CHECK_NOTHROW(TopologyOptimizer<2>(good, {}));
     TopologyProblem<2> bad = good;
+    bad.use[7] = ElementUse::kept;
+    CHECK_THROWS_WITH(TopologyOptimizer<2>(bad, {}), Catch::Contains("kept elements need a density"));
+    bad.limits.assign(bad.use.size() - 1, {0.2, 0.4});
+    CHECK_THROWS_AS(TopologyOptimizer<2>(bad, {}), InputError);
+    bad.limits.assign(bad.use.size(), {0.5, 0.8});
+    CHECK_THROWS_WITH(TopologyOptimizer<2>(bad, {}), Catch::Contains("the volume may be"));
+    bad = good;
     std::ranges::fill(bad.use, ElementUse::solid);
     CHECK_THROWS_WITH(TopologyOptimizer<2>(bad, {}), Catch::Contains("no free element"));
     bad.use[0] = ElementUse::free;
