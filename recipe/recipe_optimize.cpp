@@ -11,6 +11,7 @@
 #include "recipe/build/build_foam.h"
 #include "recipe/keys/settings_rows.h"
 #include "recipe/recipe_draft.h"
+#include "recipe/recipe_formulas.h"
 #include "recipe/recipe_regions.h"
 #include "recipe/result_dependents.h"
 
@@ -31,6 +32,51 @@ bool names_axes(std::string_view text) {
 bool has_key(const Kind& kind, const std::string& key) {
     return std::ranges::find(kind.needs, key) != kind.needs.end() ||
            std::ranges::find(kind.takes, key) != kind.takes.end();
+}
+
+/// Returns the first of these names that a formula uses; empty when it uses none.
+std::string used_name(const GradedNumber& number, const std::set<std::string>& names) {
+    if (!number.is_formula()) return "";
+    for (const std::string& name : names_beyond_place(number.formula())) {
+        if (names.contains(name)) return name;
+    }
+    return "";
+}
+
+/// Returns a message for each foam region that a search for the foam's numbers cannot take into account.
+/// Formulas must be free of syntax errors.
+std::vector<std::string> driven_region_mistakes(const Recipe& recipe) {
+    std::vector<std::string> mistakes;
+    const ResultDependents late(recipe);
+    const bool is_closed = builder_of(*recipe.foam).traits.is_closed;
+    const bool drives_cells = recipe.optimize->result == OptimizeResult::cell;
+    for (const RegionRecipe& region : recipe.regions) {
+        if (region.make != RegionMake::foam) continue;
+        const auto depends = [&](const std::string& where, const std::string& name) {
+            mistakes.push_back(fmt::format(
+                "{}: `{}` depends on the result of the search, which has to know the foam of this "
+                "region; accepted: what does not, or optimize.result = \"field\"",
+                where, name));
+        };
+        if (late.fields.contains(region.field)) depends(region.where + ".field", region.field);
+        for (const RegionNumber& given : numbers_of(region)) {
+            const std::string& where = given.number->where;
+            if (const std::string name = used_name(*given.number, late.gradings); !name.empty())
+                depends(where, name);
+            if (drives_cells && !used_name(*given.number, {std::string(cell_name)}).empty())
+                mistakes.push_back(
+                    fmt::format("{}: `{}` is what the search drives; accepted: a formula without it, or a "
+                                "number",
+                                where, cell_name));
+            const bool shapes = is_closed && given.key != "foam.cell";
+            if (shapes && (given.number->is_formula() || region.blend > 0))
+                mistakes.push_back(
+                    fmt::format("{}: the law of closed cells is that of one proportion of beams, walls and "
+                                "windows; accepted: a number, in a region without blend",
+                                where));
+        }
+    }
+    return mistakes;
 }
 
 }  // namespace
@@ -299,6 +345,9 @@ void RecipeDraft::check_driven_foam(const Recipe& recipe) {
         (key != "cell" || foam.beam.is_formula() || foam.wall.is_formula() || foam.window.is_formula())) {
         return refuse_result("the law of closed cells requires uniform beams, walls and windows",
                              "cell with numbers for them");
+    }
+    if (mistakes_.empty()) {
+        for (std::string& wrong : driven_region_mistakes(recipe)) refuse(0, std::move(wrong));
     }
     try {
         if (known_law(foam)) return;

@@ -28,7 +28,8 @@ namespace lamella {
 namespace {
 
 /// Returns the search's problem: the recipe without printer, layers and skin pattern, without what depends on
-/// the result, and without the skin and foam that fill a solid shape once it is found.
+/// the result, and without the skin and foam that fill a solid shape once it is found. Foam regions belong to
+/// the problem of a driven foam.
 Recipe search_problem(const Recipe& recipe) {
     Recipe kept;
     const ResultDependents late(recipe);
@@ -39,7 +40,8 @@ Recipe search_problem(const Recipe& recipe) {
                          [&](const GradingRecipe& grading) { return !late.gradings.contains(grading.name); });
     for (const RegionRecipe& region : recipe.regions) {
         const bool prescribes = region.make == RegionMake::solid || region.make == RegionMake::empty;
-        if (prescribes && !late.fields.contains(region.field)) kept.regions.push_back(region);
+        const bool rules_foam = region.make == RegionMake::foam && drives_foam(recipe.optimize->result);
+        if ((prescribes || rules_foam) && !late.fields.contains(region.field)) kept.regions.push_back(region);
     }
     if (drives_foam(recipe.optimize->result)) kept.foam = recipe.foam;
     kept.material = recipe.material;
@@ -55,12 +57,23 @@ std::array<std::size_t, 3> sides(glm::ivec3 size) {
             static_cast<std::size_t>(size.z)};
 }
 
-/// Returns the sizes of cells or members (mm) that give densities, as a grading.
-GradingPtr sizes_of_foam(const OptimizedFoam& foam, const DensityGrid& grid, const Box& box) {
-    std::vector<float> sizes;
-    sizes.reserve(grid.density.size());
-    for (const double density : grid.density) sizes.push_back(static_cast<float>(foam.number_for(density)));
-    return make_volume_grading(Volume{sides(grid.size), std::move(sizes), 1.0, box}, box);
+/// Returns the sizes of cells or members (mm) that give densities, as a grading. Regions that set them do so
+/// in the build of the foam; their elements go on with the sizes beside them, between which samples lie.
+GradingPtr sizes_of_foam(const Recipe& recipe, Gradings& gradings, const DensityGrid& grid, const Box& box) {
+    OptimizedFoam foam(recipe, gradings);
+    const std::vector<FoamRange> ranges =
+        foam.has_regions() ? foam.ranges_at(element_centres(grid.size, box)) : std::vector<FoamRange>();
+    DensityGrid sizes{grid.size, std::vector(grid.density.size(), ElementUse::free),
+                      std::vector<double>(grid.density.size())};
+    parallel_for(grid.density.size(), [&](std::size_t i) {
+        const FoamRange& range = ranges.empty() ? foam.without_regions() : ranges[i];
+        if (range.is_kept) sizes.use[i] = ElementUse::outside;
+        sizes.density[i] = foam.number_for(grid.density[i], range);
+    });
+    extend_outside(sizes, extended_layers);
+    return make_volume_grading(
+        Volume{sides(grid.size), std::vector<float>(sizes.density.begin(), sizes.density.end()), 1.0, box},
+        box);
 }
 
 /// Whether distances from the shape are needed, which densities are not: by a skin, depths, blends of
@@ -132,7 +145,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     if (!file.empty() && !options.anew) {
         if (auto kept = kept_part(file, recipe, body)) {
             if (drives_foam(result))
-                kept->foam_sizes = sizes_of_foam(OptimizedFoam(recipe), kept->grid, kept->box);
+                kept->foam_sizes = sizes_of_foam(recipe, gradings, kept->grid, kept->box);
             return std::move(*kept);
         }
     }
@@ -151,7 +164,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     part.box = design.box;
     part.report = design.report;
     make_fields(recipe, body, {part.grid.density.begin(), part.grid.density.end()}, part);
-    if (drives_foam(result)) part.foam_sizes = sizes_of_foam(OptimizedFoam(recipe), part.grid, part.box);
+    if (drives_foam(result)) part.foam_sizes = sizes_of_foam(recipe, gradings, part.grid, part.box);
     const bool is_whole = options.cancel == nullptr || !options.cancel->cancelled();
     if (!file.empty() && is_whole) {
         std::error_code error;

@@ -41,7 +41,7 @@ class PartOptimizer {
     PartOptimizer(const Recipe& recipe, ElementDomain domain, Gradings& gradings,
                   const OptimizeOptions& options, const std::filesystem::path& file)
         : recipe_(recipe), options_(options), file_(file), domain_(std::move(domain)) {
-        if (drives_foam(recipe.optimize->result)) foam_.emplace(recipe);
+        if (drives_foam(recipe.optimize->result)) foam_.emplace(recipe, gradings);
         problem_.emplace(
             structural_problem<Dim>(recipe, domain_, gradings, foam_ ? foam_->poisson() : material_poisson));
         const OptimizeRecipe& optimize = *recipe.optimize;
@@ -51,9 +51,8 @@ class PartOptimizer {
             topology.law = foam_->law();
             topology.least_density = foam_->densities().lo;
             topology.greatest_density = foam_->densities().hi;
-            const double solid = share_of(ElementUse::solid), free = share_of(ElementUse::free);
-            const Interval volumes{solid + free * foam_->densities().lo,
-                                   solid + free * foam_->densities().hi};
+            if (foam_->has_regions()) limit_by_regions();
+            const Interval volumes = foam_volumes();
             if (optimize.kind == OptimizeKind::lightness)
                 topology.volume = std::min(topology.volume, OptimizeRecipe::whole_part * volumes.hi);
             foam_->check_volume(topology.volume, volumes);
@@ -69,6 +68,8 @@ class PartOptimizer {
     PartDesign optimize();
 
   private:
+    void limit_by_regions();
+    Interval foam_volumes() const;
     double share_of(ElementUse use) const;
     void check_solid_share() const;
     double full_compliance() const;
@@ -88,6 +89,46 @@ class PartOptimizer {
     std::optional<OptimizedFoam> foam_;
     std::optional<StructuralProblem<Dim>> problem_;
 };
+
+/// Gives each element the densities and the law that the foam has there.
+template <std::size_t Dim>
+void PartOptimizer<Dim>::limit_by_regions() {
+    TopologyProblem<Dim>& topology = problem_->topology;
+    const std::vector<dvec3> places = element_centres(domain_.size, domain_.box);
+    const std::vector<FoamRange> ranges = foam_->ranges_at(places);
+    topology.limits.assign(places.size(), Interval{0, 0});
+    topology.law_of.assign(places.size(), 0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (domain_.use[i] != ElementUse::free) continue;
+        foam_->check(ranges[i], places[i]);
+        topology.limits[i] = ranges[i].densities;
+        topology.law_of[i] = static_cast<std::uint32_t>(ranges[i].law);
+        if (ranges[i].is_kept) domain_.use[i] = topology.use[i] = ElementUse::kept;
+    }
+    topology.laws = foam_->laws();
+    if (std::ranges::count(domain_.use, ElementUse::free) == 0)
+        throw InputError(
+            "optimize.result: regions leave no foam to the search: they set its driven number everywhere, or "
+            "are solid or empty; accepted: regions of some of the part");
+}
+
+/// Returns the volumes of the part with the sparsest foam and with the densest.
+template <std::size_t Dim>
+Interval PartOptimizer<Dim>::foam_volumes() const {
+    const TopologyProblem<Dim>& topology = problem_->topology;
+    const double solid = share_of(ElementUse::solid);
+    if (topology.limits.empty()) {
+        const double free = share_of(ElementUse::free);
+        return {solid + free * foam_->densities().lo, solid + free * foam_->densities().hi};
+    }
+    double least = 0, greatest = 0;
+    for (const Interval& limits : topology.limits) {
+        least += limits.lo;
+        greatest += limits.hi;
+    }
+    const auto elements = static_cast<double>(domain_.elements());
+    return {solid + least / elements, solid + greatest / elements};
+}
 
 /// Iterates to the end, or until it is cancelled.
 template <std::size_t Dim>

@@ -96,7 +96,7 @@ void note_bare_foam(const Recipe& recipe, StructureReport& report) {
 std::vector<double> full_densities(std::span<const ElementUse> use) {
     std::vector<double> full;
     full.reserve(use.size());
-    for (const ElementUse u : use) full.push_back(u == ElementUse::free || u == ElementUse::solid ? 1 : 0);
+    for (const ElementUse u : use) full.push_back(u == ElementUse::outside || u == ElementUse::empty ? 0 : 1);
     return full;
 }
 
@@ -111,7 +111,8 @@ void analyse(const StructuralProblem<Dim>& problem, const ElementDomain& domain,
     double sum = 0;
     for (std::size_t i = 0; i < full.size(); ++i) {
         const ElementUse use = topology.use[i];
-        if (use != ElementUse::free) shape[i] = use == ElementUse::solid ? 1 : 0;
+        const bool is_given = use == ElementUse::free || use == ElementUse::kept;
+        if (!is_given) shape[i] = use == ElementUse::solid ? 1 : 0;
         sum += shape[i];
     }
     Compliance<Dim> compliance(topology, {.tolerance = 1e-6, .cancel = cancel});
