@@ -47,8 +47,7 @@ Appearance::Appearance(const GreyImage& exemplar, int width, int height, const M
 }
 
 void Appearance::match(std::span<const double> target) {
-    matches_.sweep(target, begun_ ? 1 : first_sweeps);
-    begun_ = true;
+    matches_.sweep(target, matches_.sweeps() > 0 ? 1 : first_sweeps);
 }
 
 Appearance::Cubic Appearance::sum_at(int x, int y, int cell, const std::vector<std::int32_t>& begins) const {

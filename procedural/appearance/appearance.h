@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "procedural/appearance/patch_match.h"
@@ -37,6 +38,8 @@ class Appearance {
     }
 
     const PatchMatch& matches() const { return matches_; }
+    /// Goes on with the matches of another object, see PatchMatch::set_state().
+    void set_matches(MatchState state) { matches_.set_state(std::move(state)); }
 
   private:
     using Cubic = std::array<double, 4>;
@@ -44,7 +47,6 @@ class Appearance {
     Cubic sum_at(int x, int y, int cell, const std::vector<std::int32_t>& begins) const;
 
     PatchMatch matches_;
-    bool begun_ = false;
     std::vector<Cubic> cubics_;  // of the term, by difference, from -1
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -146,6 +147,26 @@ void PatchMatch::begin_randomly() {
         matches_[i].y = static_cast<std::int16_t>(
             randomly_below(static_cast<std::uint32_t>(bits), static_cast<int>(rows())));
     }
+}
+
+void PatchMatch::set_state(MatchState state) {
+    if (state.matches.empty()) {
+        sweeps_ = 0;
+        use_.clear();
+        begin_randomly();
+        return;
+    }
+    const auto is_place = [&](ExemplarPlace m) {
+        return m.x >= 0 && m.x <= last_x() && m.y >= 0 && m.y <= last_y();
+    };
+    const std::size_t used = state.sweeps > 0 && spread_ > 0 ? columns() * rows() : 0;
+    bool fits = state.matches.size() == matches_.size() && state.use.size() == used;
+    for (std::size_t i = 0; fits && i < matches_.size(); ++i)
+        fits = matches_[i].x < 0 ? state.matches[i] == ExemplarPlace{} : is_place(state.matches[i]);
+    if (!fits) throw InputError("the state of matches does not fit the target and the exemplar");
+    sweeps_ = state.sweeps;
+    matches_ = std::move(state.matches);
+    use_ = std::move(state.use);
 }
 
 std::vector<std::int64_t> PatchMatch::occurrence() const {

@@ -25,6 +25,14 @@ struct ExemplarPlace {
     bool operator==(const ExemplarPlace&) const = default;
 };
 
+/// What sweeps need to go on: plain data.
+struct MatchState {
+    std::uint64_t sweeps = 0;  ///< made so far
+    std::vector<ExemplarPlace>
+        matches;              ///< of all windows, see PatchMatch::matches(); empty before the first
+    std::vector<double> use;  ///< by window of the exemplar: sum of Omega, its mean over sweeps
+};
+
 /// Matches of all windows of N x N pixels that lie inside the target, at every offset. Windows of passive
 /// pixels only have none. The search is PatchMatch (Barnes, Shechtman, Finkelstein, Goldman 2009, section 3)
 /// in Jacobi form: a sweep reads what the sweep before left, so it gives the same matches on any number of
@@ -53,6 +61,11 @@ class PatchMatch {
     /// Throws FaultError for a target of another size.
     void sweep(std::span<const double> target, int sweeps);
 
+    MatchState state() const { return {sweeps_, matches_, use_}; }
+    /// Goes on where another object was; without matches, begins anew. Throws InputError for a state that
+    /// does not fit.
+    void set_state(MatchState state);
+
     const MatchSettings& settings() const { return settings_; }
     int neighbourhood() const { return size_; }
     double spread() const { return spread_; }
@@ -62,6 +75,7 @@ class PatchMatch {
     std::span<const ExemplarPlace> matches() const { return matches_; }
     int windows_across() const { return width_ - size_ + 1; }
     int windows_high() const { return height_ - size_ + 1; }
+    std::uint64_t sweeps() const { return sweeps_; }        ///< made so far
     std::size_t active_windows() const { return active_; }  ///< those that have a match
 
     /// The exemplar in bytes, the lowest row first.

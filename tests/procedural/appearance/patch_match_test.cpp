@@ -1,6 +1,7 @@
 // PatchMatch against an exhaustive search, and what the uniformity term does to the use of the exemplar.
 #include "procedural/appearance/patch_match.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -270,6 +271,47 @@ TEST_CASE("windows of passive pixels only have no match and use nothing", "[opti
     std::int64_t uses = 0;
     for (const std::int64_t o : field.occurrence()) uses += o;
     CHECK(uses == static_cast<std::int64_t>(active) * 36);
+}
+
+TEST_CASE("a search for matches goes on from a state, and only from one that fits", "[optimization]") {
+    const GreyImage exemplar = waves(30, 26, 12), target = noise(32, 24, 13);
+    std::vector<std::uint8_t> passive(32 * 24, 0);
+    for (std::size_t i = 0; i < 32 * 6; ++i) passive[i] = 1;
+    const auto made = [&](double spread) {
+        return PatchMatch(exemplar, 32, 24, settings_of(6, spread), 0, passive);
+    };
+    for (const double spread : {0.0, 3.0}) {
+        PatchMatch whole = made(spread), begun = made(spread), rest = made(spread);
+        const MatchState random = begun.state();
+        whole.sweep(target.values, 5);
+        begun.sweep(target.values, 2);
+        rest.set_state(begun.state());
+        rest.sweep(target.values, 3);
+        CHECK(std::ranges::equal(rest.matches(), whole.matches()));
+        CHECK(rest.sweeps() == 5);
+        for (const MatchState& anew : {random, MatchState{}}) {
+            rest.set_state(anew);
+            rest.sweep(target.values, 5);
+            CHECK(std::ranges::equal(rest.matches(), whole.matches()));
+        }
+    }
+    PatchMatch field = made(3);
+    field.sweep(target.values, 1);
+    const MatchState right = field.state();
+    const auto refused = [&](const auto& change) {
+        MatchState state = right;
+        change(state);
+        CHECK_THROWS_AS(field.set_state(state), InputError);
+    };
+    refused([](MatchState& s) { s.matches.pop_back(); });
+    refused([](MatchState& s) { s.use.pop_back(); });
+    refused([](MatchState& s) { s.sweeps = 0; });
+    refused([](MatchState& s) { s.matches.back().x = 25; });
+    refused([](MatchState& s) { s.matches.back().y = 21; });
+    refused([](MatchState& s) { s.matches.back() = {}; });
+    refused([](MatchState& s) { s.matches.front() = {0, 0}; });  // of passive pixels
+    field.set_state(right);
+    CHECK(std::ranges::equal(field.matches(), right.matches));
 }
 
 TEST_CASE("exemplars and targets smaller than a window are refused with both sizes", "[optimization]") {
