@@ -32,6 +32,7 @@ std::string curve(const StructureReport& report, Interval range, const char* col
 }
 
 std::string chart(const StructureReport& report) {
+    if (report.history.empty()) return "";  // stopped before the first step
     const bool has_picture = report.appearance > 0;
     const auto aim = [&](const OptimizationStep& step) {
         return has_picture ? step.appearance : step.compliance;
