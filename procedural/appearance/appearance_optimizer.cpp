@@ -1,4 +1,4 @@
-// The loop over levels, and the steps of a level.
+// The way through the levels: stiffest design, steps without projection, and with ever sharper ones.
 #include "procedural/appearance/appearance_optimizer.h"
 
 #include <algorithm>
@@ -8,22 +8,12 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "procedural/appearance/appearance.h"
 #include "procedural/appearance/design_upsampling.h"
-#include "procedural/optimization/topology_optimizer.h"
-#include "procedural/optimization/variable_blocks.h"
 
 namespace lamella {
 namespace {
 
-constexpr double function_scale = 10;  // Svanberg asks for values of 1 to 100
 constexpr int most_levels = 8;
-constexpr double middle_threshold = 0.5, eroded_threshold = 0.58;  // of the projection
-// Steps that would leave compliance this much above its bound are shortened.
-constexpr double compliance_slack = 0.02;
-constexpr int most_halvings = 6;
-// What the constraints of the result may be off by; further steps mend what is more.
-constexpr double compliance_settled = 0.005, volume_settled = 0.0025;
 constexpr int most_settling_steps = 20;
 constexpr double settling_move = 0.25;  // of the usual one: approximations are true near by
 
@@ -44,263 +34,35 @@ void check(const AppearanceSettings& s, int exemplar_width) {
     require(exemplar_width >= 1, "exemplar_width", exemplar_width, "1 and more elements");
 }
 
-std::vector<std::uint8_t> prescribed(const std::vector<ElementUse>& use) {
-    std::vector<std::uint8_t> mask;
-    mask.reserve(use.size());
-    for (const ElementUse u : use) mask.push_back(u != ElementUse::free);
-    return mask;
-}
-
-DensitySettings density_settings(const AppearanceSettings& settings) {
-    DensitySettings density;
-    density.radius = settings.radius;
-    density.mirrored = settings.mirrored;
-    return density;
-}
-
-/// The loads are borne by a projection at a higher threshold: what is grey in the design is void there, so no
-/// member hangs on grey that the shape, cut from the design, would not have.
-DensitySettings eroded_settings(const AppearanceSettings& settings) {
-    DensitySettings density = density_settings(settings);
-    density.length_scale = LengthScale{settings.radius, eroded_threshold, middle_threshold, middle_threshold};
-    return density;
-}
-
-double sum_of(std::span<const double> values) {
-    return sum_over_variables<double>(values.size(), [&](std::size_t i, double& sum) { sum += values[i]; });
-}
-
-/// A design of one level and what its functions say.
-class LevelOptimizer {
-  public:
-    LevelOptimizer(const TopologyProblem<2>& problem, const GreyImage& exemplar,
-                   const AppearanceSettings& settings, int level, double least_compliance);
-
-    /// Takes steps at a sharpness of the projection, with asymptotes of their own.
-    void run(int steps, double sharpness, std::vector<AppearanceStep>& history);
-    /// Takes further steps until the constraints hold closely, but not many.
-    void settle(double sharpness, std::vector<AppearanceStep>& history);
-    void begin(std::vector<double> design);
-    const std::vector<double>& design() const { return design_; }
-    void write(AppearanceResult& result);
-
-  private:
-    struct Analysis {
-        Compliance<2>::Result structure;
-        double appearance = 0, volume = 0, greyness = 0;
-        std::vector<double> appearance_gradient;
-    };
-    Compliance<2>::Result analyse_structure(const std::vector<double>& design, double sharpness);
-    Analysis analyse(Compliance<2>::Result structure);
-    std::vector<double> wished_design(Mma& mma, const Analysis& found) const;
-    Analysis step_towards(const std::vector<double>& wish, double present, double sharpness);
-    bool is_feasible(const Analysis& found) const;
-    std::span<const double> density() const { return map_.density(DensityMap::Role::result); }
-    double most_compliance() const { return settings_.compliance * least_compliance_; }
-    double move(double sharpness) const;
-    Mma make_mma(double move) const;
-    void take_step(Mma& mma, double sharpness, std::vector<AppearanceStep>& history);
-
-    const TopologyProblem<2>& problem_;
-    const AppearanceSettings& settings_;
-    int level_;
-    double least_compliance_;
-    DensityMap map_;
-    Compliance<2> compliance_;
-    Appearance appearance_;
-    DesignBounds bounds_;
-    std::vector<double> free_;
-    double elements_ = 0;  ///< not outside
-    std::vector<double> design_;
-    Analysis found_;  ///< of the design
-    int steps_ = 0;
-    double first_appearance_ = 0;
-};
-
-LevelOptimizer::LevelOptimizer(const TopologyProblem<2>& problem, const GreyImage& exemplar,
-                               const AppearanceSettings& settings, int level, double least_compliance)
-    : problem_(problem),
-      settings_(settings),
-      level_(level),
-      least_compliance_(least_compliance),
-      map_(problem.body.grid.elements(), problem.use, eroded_settings(settings)),
-      compliance_(problem, {.tolerance = settings.solver_tolerance, .cancel = settings.cancel},
-                  settings.shared),
-      appearance_(exemplar, map_.size().x, map_.size().y, settings.match, level, prescribed(problem.use)),
-      bounds_(design_bounds(problem)) {
-    for (const ElementUse use : problem.use) {
-        const bool is_free = use == ElementUse::free;
-        free_.push_back(is_free ? 1.0 : 0.0);
-        elements_ += use != ElementUse::outside ? 1 : 0;
-    }
-}
-
-void LevelOptimizer::begin(std::vector<double> design) {
-    for (std::size_t i = 0; i < design.size(); ++i)
-        design[i] = std::clamp(design[i], bounds_.lower[i], bounds_.upper[i]);
-    design_ = std::move(design);
-}
-
-Compliance<2>::Result LevelOptimizer::analyse_structure(const std::vector<double>& design, double sharpness) {
-    stop_if_cancelled(settings_.cancel);
-    map_.forward(design, sharpness);
-    return compliance_.evaluate(map_.density(DensityMap::Role::stiffness));
-}
-
-LevelOptimizer::Analysis LevelOptimizer::analyse(Compliance<2>::Result structure) {
-    stop_if_cancelled(settings_.cancel);
-    Analysis found;
-    found.structure = std::move(structure);
-    appearance_.match(density());
-    found.appearance_gradient.resize(design_.size());
-    found.appearance = appearance_.energy(density(), found.appearance_gradient);
-    found.volume = sum_of(density()) / elements_;
-    const std::span<const double> rho = density();
-    const double grey = sum_over_variables<double>(
-        rho.size(), [&](std::size_t i, double& sum) { sum += free_[i] * 4 * rho[i] * (1 - rho[i]); });
-    found.greyness = grey / sum_of(free_);
-    return found;
-}
-
-std::vector<double> LevelOptimizer::wished_design(Mma& mma, const Analysis& found) const {
-    using Role = DensityMap::Role;
-    const auto gradient = [&](Role role, std::span<const double> by_density, double scale) {
-        std::vector<double> by_design = map_.backward(role, by_density);
-        for (double& g : by_design) g *= scale;
-        return by_design;
-    };
-    const double most = most_compliance(), n = elements_;
-    const auto objective =
-        gradient(Role::result, found.appearance_gradient, function_scale / first_appearance_);
-    std::vector<double> constraints{function_scale * (found.structure.total / most - 1),
-                                    function_scale * (found.volume / settings_.volume - 1)};
-    std::vector<std::vector<double>> gradients{
-        gradient(Role::stiffness, found.structure.gradient, function_scale / most),
-        gradient(Role::result, free_, function_scale / (settings_.volume * n))};
-    if (settings_.volume_min > 0) {
-        constraints.push_back(function_scale * (1 - found.volume / settings_.volume_min));
-        gradients.push_back(gradient(Role::result, free_, -function_scale / (settings_.volume_min * n)));
-    }
-    return mma
-        .update({.x = design_,
-                 .lower = bounds_.lower,
-                 .upper = bounds_.upper,
-                 .objective_gradient = objective,
-                 .constraints = constraints,
-                 .gradients = {gradients.begin(), gradients.end()}})
-        .x;
-}
-
-/// Goes towards a design, half as far as long as the structure would break: where a thin line of solid parts,
-/// compliance leaps, and no approximation foresees it.
-LevelOptimizer::Analysis LevelOptimizer::step_towards(const std::vector<double>& wish, double present,
-                                                      double sharpness) {
-    const double bound = std::max(present, (1 + compliance_slack) * most_compliance());
-    std::vector<double> next = wish;
-    for (int halvings = 0;; ++halvings) {
-        std::optional<Compliance<2>::Result> structure;
-        try {
-            structure = analyse_structure(next, sharpness);
-        } catch (const FaultError&) {  // so soft that the solver gives up
-            if (halvings == most_halvings) throw;
-        }
-        if (structure && (structure->total <= bound || halvings == most_halvings)) {
-            design_ = std::move(next);
-            return analyse(std::move(*structure));
-        }
-        for (std::size_t i = 0; i < next.size(); ++i) next[i] = 0.5 * (next[i] + design_[i]);
-    }
-}
-
-Mma LevelOptimizer::make_mma(double move) const {
-    return {design_.size(), settings_.volume_min > 0 ? std::size_t{3} : std::size_t{2}, {.move = move}};
-}
-
-/// A sharp projection turns a small change of the design into a large one of the densities.
-double LevelOptimizer::move(double sharpness) const {
-    return settings_.move / std::sqrt(std::max(1.0, sharpness));
-}
-
-void LevelOptimizer::take_step(Mma& mma, double sharpness, std::vector<AppearanceStep>& history) {
-    AppearanceStep step{.level = level_,
-                        .index = ++steps_,
-                        .appearance = found_.appearance,
-                        .compliance = found_.structure.total / least_compliance_,
-                        .volume = found_.volume,
-                        .greyness = found_.greyness,
-                        .sharpness = sharpness,
-                        .solver_iterations = found_.structure.iterations};
-    if (first_appearance_ == 0) first_appearance_ = found_.appearance;
-    const std::vector<double> former = design_;
-    found_ = step_towards(wished_design(mma, found_), found_.structure.total, sharpness);
-    for (std::size_t i = 0; i < former.size(); ++i)
-        step.change = std::max(step.change, std::abs(design_[i] - former[i]));
-    history.push_back(step);
-    if (settings_.report) settings_.report(step);
-}
-
-void LevelOptimizer::run(int steps, double sharpness, std::vector<AppearanceStep>& history) {
-    Mma mma = make_mma(move(sharpness));
-    found_ = analyse(analyse_structure(design_, sharpness));
-    for (int k = 0; k < steps; ++k) take_step(mma, sharpness, history);
-}
-
-bool LevelOptimizer::is_feasible(const Analysis& found) const {
-    return found.structure.total <= (1 + compliance_settled) * most_compliance() &&
-           found.volume <= (1 + volume_settled) * settings_.volume &&
-           found.volume >= (1 - volume_settled) * settings_.volume_min;
-}
-
-void LevelOptimizer::settle(double sharpness, std::vector<AppearanceStep>& history) {
-    Mma mma = make_mma(settling_move * move(sharpness));
-    for (int k = 0; k < most_settling_steps && !is_feasible(found_); ++k) take_step(mma, sharpness, history);
-}
-
-void LevelOptimizer::write(AppearanceResult& result) {
-    result.use = problem_.use;
-    result.density.assign(density().begin(), density().end());
-    map_.forward(design_, 0);
-    result.filtered.assign(density().begin(), density().end());
-    result.design = design_;
-    result.appearance = found_.appearance;
-    result.compliance = found_.structure.total;
-    result.volume = found_.volume;
-    result.greyness = found_.greyness;
-    result.least_compliance = least_compliance_;
-}
-
 TopologySettings topology_settings(const AppearanceSettings& settings, int steps) {
     TopologySettings stiff;
-    stiff.density = density_settings(settings);
+    stiff.density = plain_density_settings(settings);
     stiff.method = TopologyMethod::mma;
     stiff.move = settings.move;
     stiff.tolerance = 0;  // as many steps in any case
     stiff.iterations = steps;
     stiff.solver_tolerance = settings.solver_tolerance;
-    stiff.cancel = settings.cancel;
     stiff.shared = settings.shared;
     return stiff;
 }
 
-/// The designs that go from a level to the next, and where they lie.
-struct LevelDesigns {
-    glm::ivec3 size{0};
-    std::vector<ElementUse> use;
-    std::vector<double> stiffest, pictured;
-};
-
-/// Puts in the place of each design, but for prescribed elements, what the level before made of it.
-void refine(LevelDesigns& now, const LevelDesigns& former) {
-    const auto first_free =
-        static_cast<std::size_t>(std::ranges::find(now.use, ElementUse::free) - now.use.begin());
-    const double start = now.pictured.at(first_free);
-    for (const auto design : {&LevelDesigns::stiffest, &LevelDesigns::pictured}) {
-        const std::vector<double> finer =
-            upsampled_design({former.size, former.use, former.*design}, now.size, now.use, start);
-        for (std::size_t i = 0; i < finer.size(); ++i) {
-            if (now.use[i] == ElementUse::free) (now.*design)[i] = finer[i];
-        }
+/// Returns a design of a finer grid: `start`, with what the coarse one says of the elements that are free.
+std::vector<double> refined_design(const PlaneDesign& coarse, glm::ivec3 size,
+                                   const TopologyProblem<2>& problem, std::vector<double> start) {
+    const std::vector<ElementUse>& use = problem.use;
+    const auto first_free = static_cast<std::size_t>(std::ranges::find(use, ElementUse::free) - use.begin());
+    const std::vector<double> finer = upsampled_design(coarse, size, use, start.at(first_free));
+    for (std::size_t i = 0; i < finer.size(); ++i) {
+        if (use[i] == ElementUse::free) start[i] = finer[i];
     }
+    return start;
+}
+
+std::vector<double> within_bounds(std::vector<double> design, const TopologyProblem<2>& problem) {
+    const DesignBounds bounds = design_bounds(problem);
+    for (std::size_t i = 0; i < design.size(); ++i)
+        design[i] = std::clamp(design[i], bounds.lower[i], bounds.upper[i]);
+    return design;
 }
 
 int steps_at(const AppearanceSettings& settings, int level) { return ((settings.steps - 1) >> level) + 1; }
@@ -308,12 +70,34 @@ int steps_at(const AppearanceSettings& settings, int level) { return ((settings.
 /// Returns how sharp the projection is, one time after the other.
 std::vector<double> sharpnesses(const AppearanceSettings& settings) {
     std::vector<double> list;
-    for (double sharpness = 0.5; sharpness < settings.sharpness;)
-        list.push_back(sharpness = std::min(2 * sharpness, settings.sharpness));
+    if (settings.sharpness > 0) list.push_back(std::min(1.0, settings.sharpness));
+    while (!list.empty() && list.back() < settings.sharpness)
+        list.push_back(std::min(2 * list.back(), settings.sharpness));
     return list;
 }
 
+std::vector<double> densities_of(const TopologyProblem<2>& problem, const DensitySettings& settings,
+                                 const std::vector<double>& design, double sharpness) {
+    DensityMap map(problem.body.grid.elements(), problem.use, settings);
+    map.forward(design, sharpness);
+    const std::span<const double> density = map.density(DensityMap::Role::result);
+    return {density.begin(), density.end()};
+}
+
 }  // namespace
+
+/// A grid, and what finds designs on it.
+struct AppearanceOptimizer::Level {
+    Level(int its_number, glm::ivec3 its_size, TopologyProblem<2> its_problem, GreyImage scaled)
+        : number(its_number), size(its_size), problem(std::move(its_problem)), exemplar(std::move(scaled)) {}
+
+    int number;
+    glm::ivec3 size;
+    TopologyProblem<2> problem;
+    GreyImage exemplar;                            ///< a pixel an element
+    std::optional<TopologyOptimizer<2>> topology;  ///< until the stiffest design is found
+    std::optional<LevelOptimizer> optimizer;       ///< from then on
+};
 
 int step_count(const AppearanceSettings& settings) {
     int steps = static_cast<int>(sharpnesses(settings).size()) * settings.steps_a_sharpness;
@@ -321,55 +105,177 @@ int step_count(const AppearanceSettings& settings) {
     return steps;
 }
 
-AppearanceResult optimize_appearance(const PlaneProblemMaker& make_problem, glm::ivec3 size,
-                                     const GreyImage& exemplar, int exemplar_width,
-                                     const AppearanceSettings& settings) {
-    check(settings, exemplar_width);
-    std::vector<glm::ivec3> sizes{{size.x, size.y, 1}};
-    while (static_cast<int>(sizes.size()) < settings.levels)
-        sizes.insert(sizes.begin(), halved_size(sizes.front()));
+AppearanceOptimizer::AppearanceOptimizer(PlaneProblemMaker problem, glm::ivec3 size, GreyImage exemplar,
+                                         int exemplar_width, const AppearanceSettings& settings)
+    : make_problem_(std::move(problem)),
+      exemplar_(std::move(exemplar)),
+      exemplar_width_(exemplar_width),
+      settings_(settings),
+      sizes_{{size.x, size.y, 1}},
+      sharpnesses_(sharpnesses(settings)) {
+    check(settings_, exemplar_width);
+    while (static_cast<int>(sizes_.size()) < settings_.levels)
+        sizes_.insert(sizes_.begin(), halved_size(sizes_.front()));
+    level_ = make_level(0, settings_.cancel);
+    state_.pictured.design = level_->topology->state().design;
+}
 
-    AppearanceResult result;
-    std::optional<LevelDesigns> former;
-    for (int level = 0; level < settings.levels; ++level) {
-        const glm::ivec3 at = sizes[static_cast<std::size_t>(level)];
-        const int edge = 1 << (settings.levels - 1 - level);
-        const int steps = steps_at(settings, level);
-        TopologyProblem<2> problem = make_problem(at, edge);
-        if (problem.body.grid.elements() != at)
-            throw InputError("appearance: the problem's grid is not of the size that was asked for");
-        problem.volume = settings.volume;
+AppearanceOptimizer::~AppearanceOptimizer() = default;
 
-        TopologyOptimizer<2> topology(problem, topology_settings(settings, steps));
-        LevelDesigns now{at, problem.use, topology.state().design, topology.state().design};
-        if (former) {
-            refine(now, *former);
-            TopologyState state;
-            state.design = now.stiffest;
-            topology.set_state(std::move(state));
+std::unique_ptr<AppearanceOptimizer::Level> AppearanceOptimizer::make_level(int level,
+                                                                            const CancelToken* cancel) const {
+    const glm::ivec3 size = sizes_[static_cast<std::size_t>(level)];
+    const int edge = 1 << (settings_.levels - 1 - level);
+    GreyImage scaled = box_filtered(exemplar_, std::max(1, (exemplar_width_ + edge / 2) / edge));
+    auto made = std::make_unique<Level>(level, size, make_problem_(size, edge), std::move(scaled));
+    if (made->problem.body.grid.elements() != size)
+        throw InputError("appearance: the problem's grid is not of the size that was asked for");
+    made->problem.volume = settings_.volume;
+    TopologySettings settings = topology_settings(settings_, steps_at(settings_, level));
+    settings.cancel = cancel;
+    made->topology.emplace(made->problem, settings);
+    return made;
+}
+
+void AppearanceOptimizer::find_stiffest() {
+    TopologyOptimizer<2>& topology = *level_->topology;
+    while (!topology.is_finished()) topology.iterate();
+    topology.set_state(topology.state());  // an analysis that was broken off leaves no trace
+    const double least = topology.analyse().total;
+    level_->optimizer.emplace(level_->problem, level_->exemplar, settings_, level_->number, least);
+    state_.stiffest = {};
+    state_.stiffest.design = topology.state().design;
+    state_.least_compliance = least;
+    state_.has_stiffest = true;
+    level_->topology.reset();
+}
+
+void AppearanceOptimizer::go_to_next_level() {
+    std::unique_ptr<Level> next = make_level(state_.level + 1, settings_.cancel);
+    const std::vector<double> grey = next->topology->state().design;
+    const auto finer = [&](const std::vector<double>& design) {
+        return refined_design({level_->size, level_->problem.use, design}, next->size, next->problem, grey);
+    };
+    TopologyState stiffest;
+    stiffest.design = finer(state_.stiffest.design);
+    next->topology->set_state(std::move(stiffest));
+    LevelState pictured;
+    pictured.design = within_bounds(finer(state_.pictured.design), next->problem);
+    pictured.found = std::move(state_.pictured.found);
+    pictured.begin_stage();
+    state_ = {.level = next->number,
+              .stiffest = {},
+              .least_compliance = state_.least_compliance,
+              .pictured = std::move(pictured)};
+    level_ = std::move(next);
+}
+
+double AppearanceOptimizer::sharpness() const {
+    const std::size_t projections = sharpnesses_.size();
+    if (state_.stage == 0 || projections == 0) return 0;
+    return sharpnesses_[std::min(static_cast<std::size_t>(state_.stage), projections) - 1];
+}
+
+/// Returns the number of steps, in the last stage the largest one.
+int AppearanceOptimizer::steps_of(int level, int stage) const {
+    if (stage == 0) return steps_at(settings_, level);
+    return stage == settling_stage() ? most_settling_steps : settings_.steps_a_sharpness;
+}
+
+/// A sharp projection turns a small change of the design into a large one of the densities.
+LevelStage AppearanceOptimizer::stage() const {
+    const double move = settings_.move / std::sqrt(std::max(1.0, sharpness()));
+    return {sharpness(), state_.stage == settling_stage() ? settling_move * move : move};
+}
+
+/// Counts the step, and on the finest grid goes on to the next stage when it is time.
+void AppearanceOptimizer::advance() {
+    ++state_.stage_steps;
+    if (!is_last(state_.level)) return;
+    if (state_.stage != settling_stage() && stage_is_over()) {
+        ++state_.stage;
+        state_.stage_steps = 0;
+        // Settling goes on from what was found.
+        if (state_.stage == settling_stage()) {
+            state_.pictured.mma = {};
+        } else {
+            state_.pictured.begin_stage();
         }
-        while (!topology.is_finished()) topology.iterate();
-        now.stiffest = topology.state().design;
-        const double least_compliance = topology.analyse().total;
-
-        const GreyImage scaled = box_filtered(exemplar, std::max(1, (exemplar_width + edge / 2) / edge));
-        LevelOptimizer optimizer(problem, scaled, settings, level, least_compliance);
-        optimizer.begin(now.pictured);
-        optimizer.run(steps, 0, result.history);
-        now.pictured = optimizer.design();
-        former = std::move(now);
-        if (level + 1 < settings.levels) continue;
-
-        for (const double sharpness : sharpnesses(settings))
-            optimizer.run(settings.steps_a_sharpness, sharpness, result.history);
-        optimizer.settle(settings.sharpness, result.history);
-        optimizer.write(result);
-        const auto stiffest = topology.densities().density(DensityMap::Role::result);
-        result.stiffest.assign(stiffest.begin(), stiffest.end());
-        Appearance own(scaled, at.x, at.y, settings.match, level, prescribed(problem.use));
-        own.match(stiffest);
-        result.stiffest_appearance = own.energy(stiffest);
     }
+    if (state_.stage == settling_stage())
+        state_.finished = stage_is_over() || level_->optimizer->is_feasible(state_.pictured.found);
+}
+
+AppearanceStep AppearanceOptimizer::iterate() {
+    if (!is_last(state_.level) && stage_is_over()) go_to_next_level();
+    if (!state_.has_stiffest) find_stiffest();
+    const AppearanceStep step = level_->optimizer->step(state_.pictured, stage());
+    advance();
+    return step;
+}
+
+AppearanceState AppearanceOptimizer::state() const {
+    AppearanceState state = state_;
+    if (!state.has_stiffest) state.stiffest = level_->topology->state();
+    return state;
+}
+
+void AppearanceOptimizer::set_state(AppearanceState state) {
+    const auto require_fit = [](bool fits) {
+        if (!fits) throw InputError("the state of a search for an appearance does not fit the search");
+    };
+    require_fit(state.level >= 0 && state.level < settings_.levels && state.stage >= 0 &&
+                state.stage <= (is_last(state.level) ? settling_stage() : 0) && state.stage_steps >= 0 &&
+                state.stage_steps <= steps_of(state.level, state.stage) &&
+                std::isfinite(state.least_compliance));
+    std::unique_ptr<Level> level = make_level(state.level, settings_.cancel);
+    const std::size_t count = level->problem.use.size();
+    require_fit(state.pictured.design.size() == count && state.stiffest.design.size() == count);
+    if (state.has_stiffest) {
+        level->optimizer.emplace(level->problem, level->exemplar, settings_, level->number,
+                                 state.least_compliance);
+        level->optimizer->check(state.pictured);
+        level->topology.reset();
+    } else {
+        level->topology->set_state(std::exchange(state.stiffest, {}));
+    }
+    level_ = std::move(level);
+    state_ = std::move(state);
+}
+
+AppearanceResult AppearanceOptimizer::result() const {
+    if (!has_result()) throw FaultError("a search for an appearance has no result before its first design");
+    AppearanceResult result;
+    result.appearance = state_.pictured.found.appearance;
+    result.compliance = state_.pictured.found.compliance;
+    result.volume = state_.pictured.found.volume;
+    result.greyness = state_.pictured.found.greyness;
+    result.least_compliance = state_.least_compliance;
+
+    std::vector<double> stiffest = state().stiffest.design;
+    result.stiffest = densities_of(level_->problem, plain_density_settings(settings_), stiffest, 0);
+    Appearance own(level_->exemplar, level_->size.x, level_->size.y, settings_.match, level_->number,
+                   prescribed_elements(level_->problem.use));
+    own.match(result.stiffest);
+    result.stiffest_appearance = own.energy(result.stiffest);
+
+    result.design = state_.pictured.design;
+    std::unique_ptr<Level> finer;  // than that of the search
+    for (int number = state_.level; !is_last(number); ++number) {
+        const Level& coarse = finer ? *finer : *level_;
+        std::unique_ptr<Level> next = make_level(number + 1, nullptr);
+        const std::vector<double> grey = next->topology->state().design;
+        for (std::vector<double>* design : {&stiffest, &result.design})
+            *design =
+                refined_design({coarse.size, coarse.problem.use, *design}, next->size, next->problem, grey);
+        finer = std::move(next);
+    }
+    const TopologyProblem<2>& finest = finer ? finer->problem : level_->problem;
+    if (finer) result.stiffest = densities_of(finest, plain_density_settings(settings_), stiffest, 0);
+    const DensitySettings eroded = eroded_density_settings(settings_);
+    result.density = densities_of(finest, eroded, result.design, sharpness());
+    result.filtered = densities_of(finest, eroded, result.design, 0);
+    result.use = finest.use;
     return result;
 }
 

@@ -2,43 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
-#include "procedural/appearance/patch_match.h"
-#include "procedural/optimization/shared_solves.h"
-#include "procedural/optimization/topology_problem.h"
+#include "procedural/appearance/level_optimizer.h"
 
 namespace lamella {
-
-/// What a step found, before it changed the design.
-struct AppearanceStep {
-    int level = 0;          ///< 0 is the coarsest
-    int index = 0;          ///< in the level, from 1
-    double appearance = 0;  ///< A, with the matches of this step
-    double compliance = 0;  ///< C / C_opt of the level
-    double volume = 0;      ///< mean density
-    double greyness = 0;    ///< mean of 4 rho (1 - rho) over free elements
-    double change = 0;      ///< largest change of a variable that the step made
-    double sharpness = 0;   ///< of the projection
-    int solver_iterations = 0;
-};
-
-struct AppearanceSettings {
-    double compliance = 1.2;  ///< most, as a multiple of C_opt: 1 and more
-    double volume = 0.4;    ///< most of the mean density of elements that are not outside; above 0, at most 1
-    double volume_min = 0;  ///< least, from 0 to `volume`
-    MatchSettings match;
-    int levels = 3;                  ///< grids; each has elements twice as wide as the next. 1 to 8
-    int steps = 40;                  ///< at the coarsest level; each level has half as many as that before
-    double radius = 1.5;             ///< of the density filter, elements of each level
-    std::array<bool, 3> mirrored{};  ///< symmetry across the middle of the grid, by axis
-    double sharpness = 16;           ///< of the projection at the end; comes on at 1 and doubles. 0: none
-    int steps_a_sharpness = 10;
-    double move = 0.2;                                  ///< most change of a variable in a step
-    double solver_tolerance = 1e-5;                     ///< relative residual; at 1e-4 thin members break off
-    std::function<void(const AppearanceStep&)> report;  ///< called after each step; may be empty
-    const CancelToken* cancel = nullptr;                ///< may be null
-    SharedSolves* shared = nullptr;                     ///< see TopologySettings
-};
 
 /// Returns the number of steps on all grids and with all projections, without those that settle the
 /// constraints.
@@ -48,21 +16,34 @@ int step_count(const AppearanceSettings& settings);
 /// have the same middle; a coarse one may stand out by half an element. The problem's volume is not read.
 using PlaneProblemMaker = std::function<TopologyProblem<2>(glm::ivec3 size, int edge)>;
 
-/// Fields are those of the finest grid, x fastest.
+/// What is needed to go on: plain data.
+struct AppearanceState {
+    int level = 0;
+    bool has_stiffest = false;  ///< whether the stiffest design of the level is found
+    TopologyState stiffest;     ///< once it is found, its design alone
+    /// C_opt of the level; while its stiffest design is sought, that of the level before. 0: none yet.
+    double least_compliance = 0;
+    int stage = 0;        ///< 0: no projection; then one for each sharpness; at last, constraints settle
+    int stage_steps = 0;  ///< made in it
+    LevelState pictured;  ///< of the design that is to look like the exemplar
+    bool finished = false;
+};
+
+/// What the present design makes. Fields are on the finest grid, x fastest.
 struct AppearanceResult {
     std::vector<ElementUse> use;
     std::vector<double> density;   ///< projected
     std::vector<double> filtered;  ///< before projection, 0 and 1 where prescribed
     std::vector<double> design;
+    // As the last step found it, on the grid of its level; 0 before the first step.
     double appearance = 0;  ///< A of the densities
     double compliance = 0;  ///< C of the eroded densities, in the units of the problem
     double volume = 0;      ///< mean density
     double greyness = 0;
     /// The stiffest densities of the same volume, without projection.
     std::vector<double> stiffest;
-    double least_compliance = 0;     ///< C_opt of the finest grid
-    double stiffest_appearance = 0;  ///< A of the stiffest densities
-    std::vector<AppearanceStep> history;
+    double least_compliance = 0;     ///< C_opt, see AppearanceState
+    double stiffest_appearance = 0;  ///< A of the stiffest densities, on the grid of the level
 };
 
 /// Structure and appearance optimisation (Martinez, Dumas, Lefebvre, Wei 2015, Structure and appearance
@@ -83,11 +64,53 @@ struct AppearanceResult {
 /// Greys of the exemplar are copied as well, so it should be black_and_white() before it is scaled. Its lines
 /// should be two elements wide or more at the coarsest level, and its solid share near `volume`.
 ///
-/// A pure function of its arguments: the same bits on any number of threads. Throws InputError for settings
-/// out of range, an exemplar or a grid smaller than a window at the coarsest level, and a problem that
-/// TopologyOptimizer refuses; Interrupted once cancelled.
-AppearanceResult optimize_appearance(const PlaneProblemMaker& problem, glm::ivec3 size,
-                                     const GreyImage& exemplar, int exemplar_width,
-                                     const AppearanceSettings& settings);
+/// A pure function of its arguments: the same bits on any number of threads, and whether or not it goes on
+/// from a state.
+class AppearanceOptimizer {
+  public:
+    /// Throws InputError for settings out of range and for a problem that TopologyOptimizer refuses.
+    AppearanceOptimizer(PlaneProblemMaker problem, glm::ivec3 size, GreyImage exemplar, int exemplar_width,
+                        const AppearanceSettings& settings);
+    ~AppearanceOptimizer();
+    AppearanceOptimizer(const AppearanceOptimizer&) = delete;
+    AppearanceOptimizer& operator=(const AppearanceOptimizer&) = delete;
+
+    /// Takes a step, and before the first one on a grid looks for its stiffest design. Throws InputError for
+    /// an exemplar or a grid smaller than a window, and Interrupted once cancelled; state() has all that was
+    /// done before.
+    AppearanceStep iterate();
+    bool is_finished() const { return state_.finished; }
+    /// Whether result() has something to show: at least the stiffest design of the coarsest grid.
+    bool has_result() const { return state_.least_compliance > 0; }
+    /// Also before the end, and once cancelled: designs of coarse grids are interpolated. Throws FaultError
+    /// without a result.
+    AppearanceResult result() const;
+
+    AppearanceState state() const;
+    /// Goes on where another object was. Throws InputError for a state that does not fit.
+    void set_state(AppearanceState state);
+
+  private:
+    struct Level;
+    bool is_last(int level) const { return level + 1 == settings_.levels; }
+    std::unique_ptr<Level> make_level(int level, const CancelToken* cancel) const;
+    void find_stiffest();
+    void go_to_next_level();
+    void advance();
+    int settling_stage() const { return static_cast<int>(sharpnesses_.size()) + 1; }
+    int steps_of(int level, int stage) const;
+    bool stage_is_over() const { return state_.stage_steps == steps_of(state_.level, state_.stage); }
+    double sharpness() const;
+    LevelStage stage() const;
+
+    PlaneProblemMaker make_problem_;
+    GreyImage exemplar_;
+    int exemplar_width_;
+    AppearanceSettings settings_;
+    std::vector<glm::ivec3> sizes_;    ///< of the grids, from coarse to fine
+    std::vector<double> sharpnesses_;  ///< of the projection, one time after the other
+    std::unique_ptr<Level> level_;
+    AppearanceState state_;
+};
 
 }  // namespace lamella

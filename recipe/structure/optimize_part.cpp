@@ -152,7 +152,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     ThreadArena arena(options.threads);
     const PartDesign design = arena.execute([&] {
         return problem.optimize->kind == OptimizeKind::appearance
-                   ? pictured_plate(problem, *body, regions, gradings, options)
+                   ? pictured_plate(problem, *body, regions, gradings, options, search)
                    : stiffest_part(problem, *body, regions, gradings, options, search);
     });
     if (drives_foam(result)) note_bare_foam(recipe, *design.report);
@@ -168,6 +168,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     const bool is_whole = options.cancel == nullptr || !options.cancel->cancelled();
     if (!file.empty() && is_whole) {
         std::error_code error;
+        std::filesystem::remove(search, error);
         std::filesystem::create_directories(options.plans, error);
         const std::vector<float> density(part.grid.density.begin(), part.grid.density.end());
         try {

@@ -26,8 +26,7 @@ struct OptimizeOptions {
     int threads = 0;  ///< 0: one per core
     /// Called after each iteration with the number of iterations at most; may be empty.
     std::function<void(const OptimizationStep&, int iterations)> on_iteration{};
-    /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null. The
-    /// search for an appearance has none before its end.
+    /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null.
     const CancelToken* cancel = nullptr;
     SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
 };
@@ -46,7 +45,8 @@ struct OptimizedPart {
 
 /// Optimises the body as the recipe says, or reads the result from the plan folder when the same problem was
 /// solved before. A pure function of the recipe. Throws InputError for a problem without a solution (see
-/// structural_problem), Interrupted when cancelled before the first iteration ends.
+/// structural_problem), Interrupted when cancelled before there is a design to show: before the first
+/// iteration ends, or, for an appearance, before the stiffest plate of the coarsest grid is found.
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options);
 

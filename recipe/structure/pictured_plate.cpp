@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "procedural/appearance/appearance_optimizer.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/loaded_elements.h"
+#include "recipe/structure/stopped_search.h"
 #include "recipe/structure/structural_problem.h"
 
 namespace lamella {
@@ -100,14 +100,14 @@ class PlateProblems {
           body_(body),
           regions_(regions),
           gradings_(gradings),
-          cancel_(cancel),
           finest_(element_domain(recipe, body, regions, cancel)) {}
 
     const ElementDomain& finest() const { return finest_; }
 
     /// Returns the problem of a grid, see PlaneProblemMaker; `domain` is what of the body it has.
-    StructuralProblem<2> problem(glm::ivec3 size, int edge, ElementDomain& domain) const {
-        domain = element_domain_of(recipe_, body_, regions_, finest_, size, edge, cancel_);
+    StructuralProblem<2> problem(glm::ivec3 size, int edge, const CancelToken* cancel,
+                                 ElementDomain& domain) const {
+        domain = element_domain_of(recipe_, body_, regions_, finest_, size, edge, cancel);
         StructuralProblem<2> made = structural_problem<2>(recipe_, domain, gradings_, material_poisson);
         const OptimizeRecipe& optimize = *recipe_.optimize;
         made.topology.law = penalty_law<2>(optimize);
@@ -121,72 +121,159 @@ class PlateProblems {
     const Field& body_;
     const BuiltRegions& regions_;
     Gradings& gradings_;
-    const CancelToken* cancel_;
     ElementDomain finest_;
 };
 
-OptimizationStep step_of(const AppearanceStep& found, int index) {
-    OptimizationStep step;
-    step.index = index;
-    step.compliance = found.compliance;
-    step.volume = found.volume;
-    step.greyness = found.greyness;
-    step.change = found.change;
-    step.sharpness = found.sharpness;
-    step.solver_iterations = found.solver_iterations;
-    step.appearance = found.appearance;
-    return step;
+double greyness(const DensityGrid& grid) {
+    double sum = 0, free = 0;
+    for (std::size_t i = 0; i < grid.use.size(); ++i) {
+        if (grid.use[i] != ElementUse::free) continue;
+        sum += 4 * grid.density[i] * (1 - grid.density[i]);
+        ++free;
+    }
+    return sum / free;
+}
+
+/// One search, and the plate that it ends with or has got to.
+class PlateSearch {
+  public:
+    PlateSearch(const Recipe& recipe, const PlateProblems& problems, const OptimizeOptions& options,
+                const std::filesystem::path& file)
+        : options_(options),
+          file_(file),
+          problems_(problems),
+          cancel_(options.cancel),
+          problem_(problems.problem(problems.finest().size, 1, options.cancel, domain_)),
+          settings_(appearance_settings(*recipe.optimize, density_settings(*recipe.optimize, domain_))) {
+        settings_.volume = problem_.topology.volume;
+        settings_.cancel = options.cancel;
+        settings_.shared = options.shared;
+    }
+
+    PartDesign optimize(const OptimizeRecipe& optimize);
+
+  private:
+    void search(AppearanceOptimizer& optimizer, StructureReport& report);
+    void keep(const AppearanceOptimizer& optimizer, StructureReport& report) const;
+    void show_picture(const AppearanceResult& found, PartDesign& design) const;
+    void show_stiffest(const AppearanceResult& found, PartDesign& design) const;
+    bool try_to_show_picture(const AppearanceResult& found, PartDesign& design) const;
+    void cut(std::vector<double> density, double volume, PartDesign& design) const;
+    bool is_cancelled() const { return options_.cancel != nullptr && options_.cancel->cancelled(); }
+
+    const OptimizeOptions& options_;
+    const std::filesystem::path& file_;  ///< of a search that is stopped
+    const PlateProblems& problems_;
+    const CancelToken* cancel_;  ///< of making grids; null once it was obeyed
+    ElementDomain domain_;
+    StructuralProblem<2> problem_;  ///< of the finest grid
+    AppearanceSettings settings_;
+};
+
+/// Steps to the end, or until it is cancelled.
+void PlateSearch::search(AppearanceOptimizer& optimizer, StructureReport& report) {
+    if (options_.resume) optimizer.set_state(kept_search<AppearanceState>(file_, report));
+    while (!optimizer.is_finished()) {
+        try {
+            const AppearanceStep found = optimizer.iterate();
+            OptimizationStep& step = report.history.emplace_back(OptimizationStep{found});
+            step.index = static_cast<int>(report.history.size());
+            step.appearance = found.appearance;
+        } catch (const Interrupted&) {
+            if (!optimizer.has_result()) throw;
+            keep(optimizer, report);
+            cancel_ = nullptr;
+            return;
+        }
+        if (options_.on_iteration) options_.on_iteration(report.history.back(), step_count(settings_));
+    }
+}
+
+void PlateSearch::keep(const AppearanceOptimizer& optimizer, StructureReport& report) const {
+    const bool is_kept = keep_search(file_, optimizer.state(), report);
+    report.notes.push_back(fmt::format("the search was stopped after {} of about {} steps{}",
+                                       report.history.size(), step_count(settings_),
+                                       is_kept ? "; --resume goes on with it" : ""));
+}
+
+/// Cuts the shape that fills a share of the plate, and analyses it.
+void PlateSearch::cut(std::vector<double> density, double volume, PartDesign& design) const {
+    design.grid = {domain_.size, domain_.use, std::move(density)};
+    design.report->stray_pieces = cut_shape(design.grid, {std::min(settings_.volume_min, volume), volume},
+                                            problem_.anchored, problem_.loaded);
+    analyse(problem_, domain_, make_penalty_law({1, void_modulus_of<2>, 0}), solid_shares(design.grid, 0.5),
+            false, nullptr, *design.report);
+}
+
+void PlateSearch::show_picture(const AppearanceResult& found, PartDesign& design) const {
+    design.report->densities_compliance = problem_.displacement_unit * found.compliance;
+    design.report->greyness = found.greyness;
+    design.report->appearance = found.appearance;
+    cut(found.filtered, std::min(found.volume, settings_.volume), design);
+}
+
+void PlateSearch::show_stiffest(const AppearanceResult& found, PartDesign& design) const {
+    design.report->densities_compliance = design.report->least_compliance;
+    design.report->greyness = greyness({domain_.size, domain_.use, found.stiffest});
+    design.report->appearance = found.stiffest_appearance;
+    cut(found.stiffest, settings_.volume, design);
+}
+
+/// Before the projection has parted solid from void, the shape may lack members. Returns whether it bears the
+/// loads, if not as stiff as at the end.
+bool PlateSearch::try_to_show_picture(const AppearanceResult& found, PartDesign& design) const {
+    if (design.report->history.empty()) return false;
+    constexpr double far_too_soft = 2;  // times what is allowed
+    try {
+        show_picture(found, design);
+    } catch (const FaultError&) {  // so soft that the solver gives up
+        return false;
+    }
+    const StructureReport& report = *design.report;
+    return report.compliance <= far_too_soft * settings_.compliance * report.least_compliance;
+}
+
+PartDesign PlateSearch::optimize(const OptimizeRecipe& optimize) {
+    PartDesign design;
+    design.box = domain_.box;
+    design.report = std::make_shared<StructureReport>();
+    StructureReport& report = *design.report;
+    describe(problem_, domain_, report);
+    const int width = std::max(1, static_cast<int>(std::lround(optimize.image_size / domain_.edges.x)));
+    const GreyImage exemplar = exemplar_of(optimize, width);
+    check_room(optimize, domain_, exemplar, width);
+    note_unsuited(exemplar, width, settings_.levels, settings_.volume, report.notes);
+    const PlaneProblemMaker make_problem = [this](glm::ivec3 size, int edge) {
+        ElementDomain at_level;
+        return problems_.problem(size, edge, cancel_, at_level).topology;
+    };
+    AppearanceOptimizer optimizer(make_problem, domain_.size, exemplar, width, settings_);
+    search(optimizer, report);
+
+    const AppearanceResult found = optimizer.result();
+    report.least_compliance = problem_.displacement_unit * found.least_compliance;
+    report.stiffest_appearance = found.stiffest_appearance;
+    if (optimizer.is_finished()) {
+        show_picture(found, design);
+        if (is_cancelled()) keep(optimizer, report);
+        return design;
+    }
+    const StructureReport before = report;
+    if (try_to_show_picture(found, design)) return design;
+    report = before;
+    report.notes.emplace_back(
+        "nothing like the picture is stiff enough yet; this is the stiffest plate so far");
+    show_stiffest(found, design);
+    return design;
 }
 
 }  // namespace
 
 PartDesign pictured_plate(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
-                          Gradings& gradings, const OptimizeOptions& options) {
-    const OptimizeRecipe& optimize = *recipe.optimize;
-    if (options.resume)
-        throw InputError(
-            "--resume: a search for an appearance that was stopped is not kept; accepted: another kind, "
-            "or no --resume");
+                          Gradings& gradings, const OptimizeOptions& options,
+                          const std::filesystem::path& search) {
     const PlateProblems problems(recipe, body, regions, gradings, options.cancel);
-    ElementDomain domain;
-    const StructuralProblem<2> problem = problems.problem(problems.finest().size, 1, domain);
-
-    PartDesign design;
-    design.box = domain.box;
-    design.report = std::make_shared<StructureReport>();
-    StructureReport& report = *design.report;
-    describe(problem, domain, report);
-
-    AppearanceSettings settings = appearance_settings(optimize, density_settings(optimize, domain));
-    settings.volume = problem.topology.volume;
-    settings.cancel = options.cancel;
-    settings.shared = options.shared;
-    settings.report = [&](const AppearanceStep& found) {
-        report.history.push_back(step_of(found, static_cast<int>(report.history.size()) + 1));
-        if (options.on_iteration) options.on_iteration(report.history.back(), step_count(settings));
-    };
-    const int width = std::max(1, static_cast<int>(std::lround(optimize.image_size / domain.edges.x)));
-    const GreyImage exemplar = exemplar_of(optimize, width);
-    check_room(optimize, domain, exemplar, width);
-    note_unsuited(exemplar, width, settings.levels, settings.volume, report.notes);
-    const PlaneProblemMaker make_problem = [&](glm::ivec3 size, int edge) {
-        ElementDomain at_level;
-        return problems.problem(size, edge, at_level).topology;
-    };
-    AppearanceResult found = optimize_appearance(make_problem, domain.size, exemplar, width, settings);
-
-    report.densities_compliance = problem.displacement_unit * found.compliance;
-    report.least_compliance = problem.displacement_unit * found.least_compliance;
-    report.greyness = found.greyness;
-    report.appearance = found.appearance;
-    report.stiffest_appearance = found.stiffest_appearance;
-    design.grid = {domain.size, domain.use, std::move(found.filtered)};
-    const double volume = std::min(found.volume, settings.volume);
-    report.stray_pieces = cut_shape(design.grid, {std::min(settings.volume_min, volume), volume},
-                                    problem.anchored, problem.loaded);
-    analyse(problem, domain, make_penalty_law({1, void_modulus_of<2>, 0}), solid_shares(design.grid, 0.5),
-            false, options.cancel, report);
-    return design;
+    return PlateSearch(recipe, problems, options, search).optimize(*recipe.optimize);
 }
 
 }  // namespace lamella

@@ -75,8 +75,6 @@ class PartOptimizer {
     double full_compliance() const;
     DensityGrid cut(const DensityGrid& found, double volume, StructureReport& report) const;
     void cut_to_bound(const DensityGrid& found, PartDesign& design) const;
-    void go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
-    void keep(const TopologyOptimizer<Dim>& optimizer, StructureReport& report) const;
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
     std::vector<std::uint8_t> far_from_holds(double radius) const;
@@ -134,7 +132,7 @@ Interval PartOptimizer<Dim>::foam_volumes() const {
 template <std::size_t Dim>
 void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iterations,
                                 StructureReport& report) const {
-    if (options_.resume) go_on(optimizer, report);
+    if (options_.resume) optimizer.set_state(kept_search<TopologyState>(file_, report));
     while (!optimizer.is_finished()) {
         try {
             OptimizationStep step{optimizer.iterate()};
@@ -143,42 +141,16 @@ void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iteration
             report.history.push_back(step);
         } catch (const Interrupted&) {
             if (report.history.empty()) throw;
-            keep(optimizer, report);
+            keep_search(file_, optimizer.state(), report);
             break;
         }
         if (options_.on_iteration) options_.on_iteration(report.history.back(), iterations);
     }
-    std::error_code ignored;
-    if (optimizer.is_finished()) std::filesystem::remove(file_, ignored);
     optimizer.show_design();
     const OptimizationStep& last = report.history.back();
     report.is_converged = optimizer.is_finished() && last.change < recipe_.optimize->tolerance;
     report.densities_compliance = last.compliance;
     report.greyness = last.greyness;
-}
-
-template <std::size_t Dim>
-void PartOptimizer<Dim>::go_on(TopologyOptimizer<Dim>& optimizer, StructureReport& report) const {
-    std::optional<StoppedSearch> stopped = read_search(file_);
-    if (!stopped)
-        throw InputError(
-            fmt::format("--resume: {} keeps no search of this recipe that was stopped; accepted: the recipe "
-                        "and --plans of then, or no --resume",
-                        file_.empty() ? "no folder" : file_.parent_path().string()));
-    optimizer.set_state(std::move(stopped->state));
-    report.history = std::move(stopped->history);
-}
-
-template <std::size_t Dim>
-void PartOptimizer<Dim>::keep(const TopologyOptimizer<Dim>& optimizer, StructureReport& report) const {
-    if (file_.empty()) return;
-    std::error_code ignored;
-    std::filesystem::create_directories(file_.parent_path(), ignored);
-    try {
-        write_search(file_, {optimizer.state(), report.history});
-    } catch (const FaultError& error) {  // the report is what there is, then
-        report.notes.push_back(fmt::format("the search cannot be resumed: {}", error.what()));
-    }
 }
 
 /// The filtered field is smooth, and says where the projected one is solid. What the overhang filter leaves
@@ -317,6 +289,8 @@ PartDesign PartOptimizer<Dim>::optimize() {
     } else {
         cut_to_bound(DensityGrid(design.grid), design);
     }
+    if (optimizer.is_finished() && options_.cancel != nullptr && options_.cancel->cancelled())
+        keep_search(file_, optimizer.state(), *design.report);
     constexpr double bound_is_kept = 1.01;
     if (report.compliance_bound > 0 &&
         report.compliance > bound_is_kept * report.compliance_bound * report.full_compliance)

@@ -183,10 +183,11 @@ std::uint64_t hash_of_appearance() {
     settings.steps = 3;
     settings.sharpness = 1;
     settings.steps_a_sharpness = 2;
-    const AppearanceResult found =
-        optimize_appearance([](glm::ivec3 size, int) { return half_mbb_beam(size.x, size.y, 0.4); },
-                            {24, 12, 1}, stripes, 24, settings);
+    const auto beam = [](glm::ivec3 size, int) { return half_mbb_beam(size.x, size.y, 0.4); };
+    AppearanceOptimizer optimizer(beam, {24, 12, 1}, stripes, 24, settings);
+    while (!optimizer.is_finished()) optimizer.iterate();
     Hash hash;
+    const AppearanceResult found = optimizer.result();
     for (const double x : found.design) hash.add(x);
     return hash.value();
 }

@@ -1,8 +1,10 @@
 // Plates that look like a picture: bounds, one piece, likeness, threads, plans, and what cannot be shown.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "engine/base/error.h"
+#include "procedural/optimization/shared_solves.h"
 #include "recipe/build/build_job.h"
 #include "recipe/structure/structure_report.h"
 #include "tests/app/commands/folder.h"
@@ -46,6 +48,29 @@ OptimizedPart made(const std::string& text, int threads = 0) {
     OptimizeOptions options;
     options.threads = threads;
     return *build_job(recipe_of(text), options).optimized;
+}
+
+/// Cancels a search after a number of solves.
+class CancelAfter : public SharedSolves {
+  public:
+    explicit CancelAfter(int solves) : left_(solves) {}
+    bool is_solved_here(std::size_t) const override { return true; }
+    void give(const SolvedCase&) override {
+        if (left_-- == 0) token_.cancel();
+    }
+    SolvedCase take(std::size_t, std::uint64_t) override { throw FaultError("there is no other process"); }
+    const CancelToken& token() const { return token_; }
+
+  private:
+    int left_;
+    CancelToken token_;
+};
+
+std::size_t files_in(const Folder& folder, const std::string& ending) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        count += entry.path().extension() == ending ? 1 : 0;
+    return count;
 }
 
 std::string told(const std::string& text) {
@@ -136,6 +161,96 @@ TEST_CASE("a plate like a picture is kept as a plan", "[optimization]") {
     CHECK(first.optimized->report);
     CHECK_FALSE(second.optimized->report);
     CHECK(first.optimized->grid.density == second.optimized->grid.density);
+}
+
+TEST_CASE("a search for a plate like a picture that is stopped shows it, and goes on to the same result",
+          "[optimization]") {
+    std::string text = half_beam + like("spots", "volume = 0.5\nsharpness = 2\n");
+    text.replace(text.find("iterations = 20"), 15, "iterations = 8");
+    const Recipe recipe = recipe_of(text);
+    const OptimizedPart whole = made(text);
+    // Levels of 8 and 4 steps, each after as many for its stiffest plate and an analysis, then 2 times 10.
+    struct Stop {
+        int solves;
+        std::size_t least, most;  ///< steps until then
+    };
+    for (const Stop stop :
+         {Stop{9, 0, 0}, Stop{12, 1, 2}, Stop{17, 5, 8}, Stop{21, 8, 8}, Stop{26, 8, 11}, Stop{38, 13, 31}}) {
+        CAPTURE(stop.solves);
+        const Folder folder;
+        CancelAfter cancel(stop.solves);
+        OptimizeOptions options;
+        options.plans = folder.path();
+        options.shared = &cancel;
+        options.cancel = &cancel.token();
+        const OptimizedPart part = *build_job(recipe, options).optimized;
+        const StructureReport& report = *part.report;
+        CAPTURE(report.history.size(), report.notes);
+        CHECK(report.history.size() >= stop.least);
+        CHECK(report.history.size() <= stop.most);
+        CHECK(part.grid.density.size() == whole.grid.density.size());
+        CHECK(std::ranges::count_if(report.notes, [](const std::string& note) {
+                  return mentions(note, "the search was stopped after ") &&
+                         mentions(note, "; --resume goes on with it");
+              }) == 1);
+        CHECK(pieces(part.grid) == 1);
+        CHECK(report.compliance <= 2 * 1.3 * report.least_compliance);
+        CHECK(report.volume <= 0.5 * 1.005);
+        CHECK(report.volume > 0.45);
+        CHECK(report.least_compliance == Approx(whole.report->least_compliance).epsilon(0.2));
+        CHECK(report.stiffest_appearance == Approx(whole.report->stiffest_appearance).epsilon(0.3));
+        CHECK(report.appearance <= report.stiffest_appearance);
+        CHECK(report.densities_compliance >= report.least_compliance);
+        CHECK(report.greyness > 0);
+        CHECK(files_in(folder, ".search") == 1);
+        CHECK(files_in(folder, ".nrrd") == 0);
+
+        OptimizeOptions again;
+        again.plans = folder.path();
+        again.resume = again.anew = true;
+        const OptimizedPart resumed = *build_job(recipe, again).optimized;
+        CHECK(resumed.grid.density == whole.grid.density);
+        CHECK(resumed.report->history.size() == whole.report->history.size());
+        CHECK(resumed.report->compliance == whole.report->compliance);
+        CHECK(resumed.report->appearance == whole.report->appearance);
+        CHECK(resumed.report->notes == whole.report->notes);
+        CHECK(files_in(folder, ".search") == 0);
+        CHECK(files_in(folder, ".nrrd") == 1);
+        CHECK_THROWS_AS(build_job(recipe, again), InputError);
+    }
+}
+
+TEST_CASE("a search that is stopped before its first plate ends without one", "[optimization]") {
+    const Folder folder;
+    CancelAfter cancel(4);
+    OptimizeOptions options;
+    options.plans = folder.path();
+    options.shared = &cancel;
+    options.cancel = &cancel.token();
+    CHECK_THROWS_AS(build_job(recipe_of(half_beam + like("spots")), options), Interrupted);
+    CHECK(files_in(folder, ".search") == 0);
+}
+
+TEST_CASE("a search that is cancelled when it has just ended is kept", "[optimization]") {
+    std::string text = half_beam + like("spots", "volume = 0.5\nsharpness = 1\n");
+    text.replace(text.find("iterations = 20"), 15, "iterations = 4");
+    const OptimizedPart whole = made(text);
+    const Folder folder;
+    CancelToken cancel;
+    OptimizeOptions options;
+    options.plans = folder.path();
+    options.cancel = &cancel;
+    options.on_iteration = [&](const OptimizationStep& step, int) {
+        if (step.index == static_cast<int>(whole.report->history.size())) cancel.cancel();
+    };
+    const OptimizedPart part = *build_job(recipe_of(text), options).optimized;
+    CHECK(part.grid.density == whole.grid.density);
+    CHECK(part.report->compliance == whole.report->compliance);
+    CHECK(files_in(folder, ".search") == 1);
+    OptimizeOptions again;
+    again.plans = folder.path();
+    again.resume = again.anew = true;
+    CHECK(build_job(recipe_of(text), again).optimized->grid.density == whole.grid.density);
 }
 
 }  // namespace pictured_plate_test
