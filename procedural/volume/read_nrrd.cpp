@@ -1,6 +1,4 @@
 // Reads the samples of an NRRD file: raw, gzip or text.
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -11,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "procedural/volume/gzip_stream.h"
 #include "procedural/volume/nrrd_header.h"
 #include "procedural/volume/volume.h"
 
@@ -20,14 +19,6 @@ namespace {
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
     throw InputError(name + ": " + what);
 }
-
-/// A stream of bytes, read block by block.
-class ByteStream {
-  public:
-    virtual ~ByteStream() = default;
-    /// Reads up to `count` bytes into `out`; returns how many.
-    virtual std::size_t read(char* out, std::size_t count) = 0;
-};
 
 class PlainStream : public ByteStream {
   public:
@@ -39,52 +30,6 @@ class PlainStream : public ByteStream {
 
   private:
     std::istream& in_;
-};
-
-/// Decompresses one or more members of a gzip file.
-class GzipStream : public ByteStream {
-  public:
-    GzipStream(std::istream& in, const std::string& name)
-        : in_(in), name_(name), input_(std::size_t{1} << 16U) {
-        constexpr int largest_window = 15, gzip_or_zlib = 32;
-        if (inflateInit2(&zlib_, largest_window + gzip_or_zlib) != Z_OK)
-            throw FaultError("zlib cannot be started");
-    }
-    ~GzipStream() override { inflateEnd(&zlib_); }
-    GzipStream(const GzipStream&) = delete;
-    GzipStream& operator=(const GzipStream&) = delete;
-
-    std::size_t read(char* out, std::size_t count) override {
-        std::size_t got = 0;
-        while (got < count) {
-            if (zlib_.avail_in == 0) refill();
-            if (at_end_ && zlib_.avail_in == 0) break;
-            if (at_end_) inflateReset(&zlib_);  // another member follows
-            const std::size_t block = std::min(count - got, std::size_t{1} << 30U);
-            zlib_.next_out = reinterpret_cast<Bytef*>(out + got);
-            zlib_.avail_out = static_cast<uInt>(block);
-            const int status = inflate(&zlib_, Z_NO_FLUSH);
-            got += block - zlib_.avail_out;
-            if (status == Z_BUF_ERROR && got == 0) fail(name_, "the gzip data are cut off");
-            if (status == Z_BUF_ERROR) break;  // end of input
-            at_end_ = status == Z_STREAM_END;
-            if (!at_end_ && status != Z_OK) fail(name_, "the gzip data are damaged");
-        }
-        return got;
-    }
-
-  private:
-    void refill() {
-        in_.read(input_.data(), static_cast<std::streamsize>(input_.size()));
-        zlib_.next_in = reinterpret_cast<Bytef*>(input_.data());
-        zlib_.avail_in = static_cast<uInt>(in_.gcount());
-    }
-
-    std::istream& in_;
-    const std::string& name_;
-    std::vector<char> input_;
-    z_stream zlib_{};
-    bool at_end_ = false;
 };
 
 /// Splits text into tokens separated by white space or commas.
@@ -168,16 +113,6 @@ std::vector<T> read_binary(ByteStream& bytes, std::size_t count, bool big_endian
     return samples;
 }
 
-/// Returns the number of bytes from here to the end of the file.
-std::uint64_t bytes_left(std::istream& in, const std::string& name) {
-    const std::istream::pos_type here = in.tellg();
-    in.seekg(0, std::ios::end);
-    const std::istream::pos_type end = in.tellg();
-    in.seekg(here);
-    if (!in || here < 0 || end < here) fail(name, "it must be a plain file, whose size is known");
-    return static_cast<std::uint64_t>(end - here);
-}
-
 void skip(ByteStream& bytes, std::int64_t count, const std::string& name) {
     char block[4096];
     for (auto left = static_cast<std::uint64_t>(count); left > 0;) {
@@ -197,10 +132,9 @@ void skip_lines(std::istream& in, std::int64_t count, const std::string& name) {
 
 /// Rejects a file that is too short for its header, before memory is allocated for it.
 void check_length(std::istream& in, const NrrdHeader& header, std::size_t count, const std::string& name) {
-    constexpr std::uint64_t max_packing = 1032;  // maximum ratio of deflate
     const std::uint64_t left = bytes_left(in, name), size = count * sample_bytes(header.type);
     const bool possible = header.encoding == NrrdEncoding::raw    ? left >= size
-                          : header.encoding == NrrdEncoding::gzip ? left * max_packing >= size
+                          : header.encoding == NrrdEncoding::gzip ? left * GzipStream::max_packing >= size
                                                                   : left + 1 >= 2 * count;
     if (possible) return;
     if (header.encoding == NrrdEncoding::text) {
