@@ -9,34 +9,9 @@
 #include <vector>
 
 #include "engine/base/geometry.h"
+#include "procedural/volume/voxel_samples.h"
 
 namespace lamella {
-
-/// A position in a volume, or its size: along x, y and z.
-using VoxelIndex = std::array<std::size_t, 3>;
-
-/// A range of indices along each axis, both ends included.
-struct VoxelBox {
-    VoxelIndex lo, hi;
-
-    std::size_t longest() const { return std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}) + 1; }
-    bool encloses(const VoxelBox& other) const {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (other.lo[i] < lo[i] || hi[i] < other.hi[i]) return false;
-        }
-        return true;
-    }
-};
-
-/// Calls visit(i, j, k) for every voxel of a box, x fastest.
-template <class Visit>
-void for_each_voxel(const VoxelBox& box, const Visit& visit) {
-    for (std::size_t k = box.lo[2]; k <= box.hi[2]; ++k) {
-        for (std::size_t j = box.lo[1]; j <= box.hi[1]; ++j) {
-            for (std::size_t i = box.lo[0]; i <= box.hi[0]; ++i) visit(i, j, k);
-        }
-    }
-}
 
 /// Minimum and maximum of samples. NaN is tracked separately, because it has no order.
 template <class T>
@@ -73,12 +48,14 @@ void include_sample(SampleExtremes<T>& extremes, T sample) {
 }
 
 /// The extremes of the samples over blocks of 8 x 8 x 8, over 2 x 2 x 2 of these blocks, and so on up to a
-/// single block.
-template <class T>
+/// single block. Keeps a reference to the samples (see voxel_samples.h).
+template <class Samples>
 class BlockPyramid {
   public:
-    BlockPyramid(const VoxelIndex& size, const std::vector<T>& samples) : size_(size), samples_(samples) {
-        add_level(size, block_side, [this](const VoxelBox& inside) { return of_samples(inside); });
+    using T = typename Samples::Sample;
+
+    explicit BlockPyramid(const Samples& samples) : size_(samples.size()), samples_(samples) {
+        add_level(size_, voxel_block, [this](const VoxelBox& inside) { return of_samples(inside); });
         while (levels_.back().values.size() > 1) {
             const Level& below = levels_.back();
             add_level(below.size, 2, [&below](const VoxelBox& inside) {
@@ -97,13 +74,12 @@ class BlockPyramid {
         auto found = no_extremes<T>();
         const std::size_t top = levels_.size() - 1;
         std::size_t finest = 0;  // blocks of levels below this one are not opened
-        for (std::size_t side = block_side * coarse; side < box.longest(); side *= 2) ++finest;
+        for (std::size_t side = voxel_block * coarse; side < box.longest(); side *= 2) ++finest;
         visit(found, box, top, {0, 0, 0}, finest);
         return found;
     }
 
   private:
-    static constexpr std::size_t block_side = 8;
     /// Boxes of up to so many blocks per side are evaluated sample by sample at their border.
     static constexpr std::size_t coarse = 4;
 
@@ -116,11 +92,10 @@ class BlockPyramid {
         }
     };
 
+    /// Returns the extremes in a box that lies in one block.
     SampleExtremes<T> of_samples(const VoxelBox& inside) const {
         auto extremes = no_extremes<T>();
-        for_each_voxel(inside, [&](std::size_t i, std::size_t j, std::size_t k) {
-            include_sample(extremes, samples_[(k * size_[1] + j) * size_[0] + i]);
-        });
+        samples_.for_each_in_block(inside, [&](T sample) { include_sample(extremes, sample); });
         return extremes;
     }
 
@@ -137,7 +112,7 @@ class BlockPyramid {
     template <class Summary>
     void add_level(const VoxelIndex& below, std::size_t by, const Summary& summary) {
         Level level;
-        level.side = levels_.empty() ? block_side : levels_.back().side * 2;
+        level.side = levels_.empty() ? voxel_block : levels_.back().side * 2;
         for (std::size_t i = 0; i < 3; ++i) level.size[i] = (below[i] + by - 1) / by;
         level.values.reserve(level.size[0] * level.size[1] * level.size[2]);
         for_each_voxel({{0, 0, 0}, {level.size[0] - 1, level.size[1] - 1, level.size[2] - 1}},
@@ -172,7 +147,7 @@ class BlockPyramid {
     }
 
     VoxelIndex size_;
-    const std::vector<T>& samples_;
+    const Samples& samples_;
     std::vector<Level> levels_;
 };
 

@@ -96,13 +96,12 @@ class TiledVolume : public Grading {
   public:
     TiledVolume(const VoxelIndex& size, std::vector<T> samples, double full_scale, ImageFilter filter,
                 const std::array<TileStyle, 3>& tiles)
-        : size_(size),
-          samples_(std::move(samples)),
+        : samples_(size, std::move(samples)),
           full_scale_(full_scale),
           linear_(filter == ImageFilter::linear),
           axes_{TiledAxis(size[0], tiles[0], linear_, false), TiledAxis(size[1], tiles[1], linear_, true),
                 TiledAxis(size[2], tiles[2], linear_, false)},
-          pyramid_(size_, samples_) {}
+          pyramid_(samples_) {}
 
     double at(dvec3 p) const override {
         if (!std::isfinite(p.x + p.y + p.z)) return std::nan("");
@@ -135,15 +134,14 @@ class TiledVolume : public Grading {
 
   private:
     double sample(std::size_t x, std::size_t y, std::size_t z) const {
-        return static_cast<double>(samples_[(z * size_[1] + y) * size_[0] + x]);
+        return static_cast<double>(samples_.at(x, y, z));
     }
 
-    VoxelIndex size_;
-    std::vector<T> samples_;
+    DenseSamples<T> samples_;
     double full_scale_;
     bool linear_;
     std::array<TiledAxis, 3> axes_;
-    BlockPyramid<T> pyramid_;
+    BlockPyramid<DenseSamples<T>> pyramid_;
 };
 
 }  // namespace

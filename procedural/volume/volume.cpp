@@ -2,6 +2,7 @@
 #include "procedural/volume/volume.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <type_traits>
@@ -251,6 +252,16 @@ void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes
         reject_volume(path,
                       "the volume takes more than 4 GiB of memory; reduce its resolution or store its "
                       "samples in a smaller type");
+    }
+}
+
+void check_volume_box(const Box& box) {
+    for (int i = 0; i < 3; ++i) {
+        const bool finite = std::abs(box.lo[i]) <= 1e9 && std::abs(box.hi[i]) <= 1e9;
+        if (!finite || !(box.lo[i] < box.hi[i])) {
+            throw InputError(
+                "the box of a volume must have three positive sides, within 1e9 mm of the origin");
+        }
     }
 }
 

@@ -37,6 +37,9 @@ struct Volume {
 void check_volume_size(const std::array<std::size_t, 3>& size, std::size_t bytes_each,
                        const std::string& path);
 
+/// Throws InputError unless a box has three positive sides within 1e9 mm of the origin.
+void check_volume_box(const Box& box);
+
 /// Reads a volume. Throws InputError with the path.
 /// - A folder: all its files except hidden ones are pages, in natural order of names (2 before 10).
 /// - A pattern with * and ? in the last part of the path: the matching files, in the same order.

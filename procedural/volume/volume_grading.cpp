@@ -16,15 +16,15 @@ struct Between {
     double t;  ///< 0 at the lower one, 1 at the upper one
 };
 
-template <class T>
+template <class Samples>
 class VolumeGrading : public Grading {
   public:
-    VolumeGrading(const VoxelIndex& size, std::vector<T> samples, double full_scale, const Box& box)
-        : size_(size),
-          samples_(std::move(samples)),
+    VolumeGrading(std::shared_ptr<const Samples> samples, double full_scale, const Box& box)
+        : samples_(std::move(samples)),
+          size_(samples_->size()),
           full_scale_(full_scale),
           box_(box),
-          pyramid_(size_, samples_) {}
+          pyramid_(*samples_) {}
 
     double at(dvec3 p) const override {
         const dvec3 g = in_voxels(p);
@@ -41,7 +41,7 @@ class VolumeGrading : public Grading {
             touched.hi[i] = split(hi[axis], i).upper;
             is_small = is_small && touched.hi[i] - touched.lo[i] <= max_stops;
         }
-        const SampleExtremes<T> samples = pyramid_.over(touched);
+        const SampleExtremes<typename Samples::Sample> samples = pyramid_.over(touched);
         Interval range{static_cast<double>(samples.lo), static_cast<double>(samples.hi)};
         if (samples.undefined) return {range.lo / full_scale_, infinity};
         if (is_small) range = at_stops(lo, hi, range);
@@ -69,17 +69,11 @@ class VolumeGrading : public Grading {
         return {lower, std::min(lower + 1, size_[axis] - 1), g - static_cast<double>(lower)};
     }
 
-    double sample(std::size_t x, std::size_t y, std::size_t z) const {
-        return static_cast<double>(samples_[(z * size_[1] + y) * size_[0] + x]);
-    }
-
     double interpolated(const std::array<Between, 3>& at) const {
         const auto& [x, y, z] = at;
+        const auto samples = samples_->corners({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
         double corners[8];
-        for (std::size_t i = 0; i < 8; ++i) {
-            corners[i] = sample((i & 1U) != 0 ? x.upper : x.lower, (i & 2U) != 0 ? y.upper : y.lower,
-                                (i & 4U) != 0 ? z.upper : z.lower);
-        }
+        for (std::size_t i = 0; i < 8; ++i) corners[i] = static_cast<double>(samples[i]);
         const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
         const Interval limits{*least, *most};
         const auto mix = [](double a, double b, double t) { return a * (1 - t) + b * t; };
@@ -113,32 +107,32 @@ class VolumeGrading : public Grading {
         return {std::max(range.lo - rounding, samples.lo), std::min(range.hi + rounding, samples.hi)};
     }
 
+    std::shared_ptr<const Samples> samples_;
     VoxelIndex size_;
-    std::vector<T> samples_;
     double full_scale_;
     Box box_;
-    BlockPyramid<T> pyramid_;
+    BlockPyramid<Samples> pyramid_;
 };
 
 }  // namespace
 
 GradingPtr make_volume_grading(Volume volume, const Box& box) {
-    for (int i = 0; i < 3; ++i) {
-        const bool finite = std::abs(box.lo[i]) <= 1e9 && std::abs(box.hi[i]) <= 1e9;
-        if (!finite || !(box.lo[i] < box.hi[i])) {
-            throw InputError(
-                "the box of a volume must have three positive sides, within 1e9 mm of the origin");
-        }
-    }
+    check_volume_box(box);
     return std::visit(
         [&](auto& samples) -> GradingPtr {
             using Sample = typename std::decay_t<decltype(samples)>::value_type;
             const std::size_t voxels = volume.size[0] * volume.size[1] * volume.size[2];
             if (voxels == 0 || samples.size() != voxels) throw InputError("a volume needs a sample a voxel");
-            return std::make_shared<VolumeGrading<Sample>>(volume.size, std::move(samples), volume.full_scale,
-                                                           box);
+            auto dense = std::make_shared<const DenseSamples<Sample>>(volume.size, std::move(samples));
+            return std::make_shared<VolumeGrading<DenseSamples<Sample>>>(std::move(dense), volume.full_scale,
+                                                                         box);
         },
         volume.samples);
+}
+
+GradingPtr make_volume_grading(std::shared_ptr<const DensityBricks> bricks) {
+    const Box box = bricks->box();
+    return std::make_shared<VolumeGrading<DensityBricks>>(std::move(bricks), 1.0, box);
 }
 
 GradingPtr make_volume_grading(const VolumeSource& source) {

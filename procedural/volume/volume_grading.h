@@ -1,10 +1,12 @@
 // A grading from a voxel volume.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "engine/field/grading.h"
+#include "procedural/volume/density_bricks.h"
 #include "procedural/volume/volume.h"
 
 namespace lamella {
@@ -24,5 +26,9 @@ GradingPtr make_volume_grading(const VolumeSource& source);
 
 /// Makes the grading for a given volume. The box must have three positive, finite sides.
 GradingPtr make_volume_grading(Volume volume, const Box& box);
+
+/// Makes the grading of bricks: the same numbers and ranges, to the last bit, as that of the volume with all
+/// their samples.
+GradingPtr make_volume_grading(std::shared_ptr<const DensityBricks> bricks);
 
 }  // namespace lamella
