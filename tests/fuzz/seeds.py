@@ -188,6 +188,17 @@ def volumes():
     put("nrrd", "list.nrrd", head.format("int8", "raw", "data file: LIST\n"))
 
 
+def bricks():
+    """The first byte is that of tests/fuzz/bricks_fuzz.cpp: whether the rest is packed there."""
+    def payload(size, whole, samples, corners=(-1, 0, 1, 2, 4, 9)):
+        numbers = struct.pack(f"<{len(samples)}f", *samples)
+        return struct.pack("<3I6d", *size, *corners) + bytes(whole) + b"".join(numbers[i::4] for i in range(4))
+    for name, packed in (("one", payload((1, 1, 1), [0], [0.5])), ("mixed", payload((9, 3, 2), [0, 1], [1] + [0.25] * 6)),
+                         ("plate", payload((20, 9, 1), [0] * 5 + [1], [0, 0, 0, 1, 1, 0.5, 0.25, 0.125, float("nan")]))):
+        put("bricks", name, b"\1" + packed)
+        put("bricks", name + "_file", b"\0lamella bricks1\0" + zlib.compress(packed))
+
+
 def formulas():
     texts = ["x^2 + y*z - 3.5e-1", "min(x, y, max(z, 1)) < 2 ? sin(x) : cos(y)", "mod(x, 2) + atan2(y, x) - pow(z, 3)",
              "not (x < 1 and y >= 2) or z != 3", "clamp(x, -1, 1) * smoothstep(0, 1, y) / length(x, y, z)",
@@ -289,6 +300,6 @@ def requests():
     put("requests", "all", "\n".join(json.dumps(line) for line in lines))
 
 
-for write in (meshes, models, pictures, volumes, formulas, jobs, shards_and_journals, replies, recipes, tables,
+for write in (meshes, models, pictures, volumes, bricks, formulas, jobs, shards_and_journals, replies, recipes, tables,
               requests):
     write()

@@ -1,0 +1,166 @@
+// Samples are packed as planes of bytes, 64 KiB at a time.
+#include "procedural/volume/brick_file.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "engine/base/complete_file.h"
+#include "engine/base/error.h"
+#include "procedural/volume/gzip_stream.h"
+#include "procedural/volume/volume.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::array<char, 16> brick_magic{"lamella bricks1"};
+constexpr std::size_t block = std::size_t{1} << 16U;
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+/// What the packed part begins with.
+struct BrickHeader {
+    std::array<std::uint32_t, 3> size{};
+    std::array<double, 6> corners{};
+};
+
+/// Packs bytes into a stream.
+class ZlibWriter {
+  public:
+    explicit ZlibWriter(std::ostream& out) : out_(out), packed_(block) {
+        if (deflateInit(&zlib_, Z_DEFAULT_COMPRESSION) != Z_OK) throw FaultError("zlib cannot be started");
+    }
+    ~ZlibWriter() { deflateEnd(&zlib_); }
+    ZlibWriter(const ZlibWriter&) = delete;
+    ZlibWriter& operator=(const ZlibWriter&) = delete;
+
+    /// Writes at most 64 KiB.
+    void write(std::span<const std::uint8_t> bytes) { pack(bytes, Z_NO_FLUSH); }
+    void finish() { pack({}, Z_FINISH); }
+
+  private:
+    void pack(std::span<const std::uint8_t> bytes, int flush) {
+        zlib_.next_in = const_cast<Bytef*>(bytes.data());
+        zlib_.avail_in = static_cast<uInt>(bytes.size());
+        do {
+            zlib_.next_out = packed_.data();
+            zlib_.avail_out = static_cast<uInt>(packed_.size());
+            deflate(&zlib_, flush);
+            out_.write(reinterpret_cast<const char*>(packed_.data()),
+                       static_cast<std::streamsize>(packed_.size() - zlib_.avail_out));
+        } while (zlib_.avail_out == 0);
+    }
+
+    std::ostream& out_;
+    std::vector<Bytef> packed_;
+    z_stream zlib_{};
+};
+
+/// Calls visit(begin, end) for the samples of one block after the other.
+template <class Visit>
+void for_each_block(std::size_t count, const Visit& visit) {
+    for (std::size_t begin = 0; begin < count; begin += block) visit(begin, std::min(begin + block, count));
+}
+
+void write_samples(ZlibWriter& out, std::span<const float> samples) {
+    std::vector<std::uint8_t> bytes;
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        for_each_block(samples.size(), [&](std::size_t begin, std::size_t end) {
+            bytes.clear();
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto bits = std::bit_cast<std::uint32_t>(samples[i]);
+                bytes.push_back(static_cast<std::uint8_t>(bits >> shift & 255U));
+            }
+            out.write(bytes);
+        });
+    }
+}
+
+template <class Number>
+std::span<const std::uint8_t> bytes_of(const Number& number) {
+    return {reinterpret_cast<const std::uint8_t*>(&number), sizeof number};
+}
+
+void take(GzipStream& in, void* out, std::size_t bytes, const std::string& name) {
+    if (in.read(static_cast<char*>(out), bytes) < bytes)
+        throw InputError(name + ": fewer bricks are there than the header announces");
+}
+
+std::vector<float> read_samples(GzipStream& in, std::size_t count, const std::string& name) {
+    std::vector<float> samples(count);
+    std::vector<std::uint8_t> bytes(std::min(count, block));
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        for_each_block(count, [&](std::size_t begin, std::size_t end) {
+            take(in, bytes.data(), end - begin, name);
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto bits = std::bit_cast<std::uint32_t>(samples[i]);
+                samples[i] = std::bit_cast<float>(bits | std::uint32_t{bytes[i - begin]} << shift);
+            }
+        });
+    }
+    return samples;
+}
+
+}  // namespace
+
+void write_bricks(const std::filesystem::path& file, const DensityBricks& bricks) {
+    write_complete_file(file, [&](std::ostream& out) {
+        BrickHeader header;
+        for (int i = 0; i < 3; ++i) {
+            const auto axis = static_cast<std::size_t>(i);
+            header.size[axis] = static_cast<std::uint32_t>(bricks.size()[axis]);
+            header.corners[axis] = bricks.box().lo[i];
+            header.corners[axis + 3] = bricks.box().hi[i];
+        }
+        out.write(brick_magic.data(), brick_magic.size());
+        ZlibWriter packed(out);
+        packed.write(bytes_of(header.size));
+        packed.write(bytes_of(header.corners));
+        const std::vector<std::uint8_t> whole = bricks.whole();
+        for_each_block(whole.size(), [&](std::size_t begin, std::size_t end) {
+            packed.write(std::span(whole).subspan(begin, end - begin));
+        });
+        write_samples(packed, bricks.samples());
+        packed.finish();
+    });
+}
+
+DensityBricks read_bricks(std::istream& in, const std::string& name) {
+    std::array<char, brick_magic.size()> begins{};
+    if (!in.read(begins.data(), begins.size()) || begins != brick_magic)
+        throw InputError(name + ": this is no file of density bricks");
+    const std::uint64_t most = bytes_left(in, name) * GzipStream::max_packing;
+    GzipStream packed(in, name);
+    BrickHeader header;
+    take(packed, header.size.data(), sizeof header.size, name);
+    take(packed, header.corners.data(), sizeof header.corners, name);
+    const VoxelIndex size{header.size[0], header.size[1], header.size[2]};
+    if (std::ranges::count(size, 0U) > 0) throw InputError(name + ": a side of the volume has no voxels");
+    check_volume_size(size, sizeof(float), name);
+    const auto check_length = [&](std::uint64_t bytes) {
+        if (bytes > most) throw InputError(name + ": it is too short for the bricks that it announces");
+    };
+    const VoxelIndex counts = DensityBricks::brick_counts(size);
+    check_length(counts[0] * counts[1] * counts[2]);
+    std::vector<std::uint8_t> whole(counts[0] * counts[1] * counts[2]);
+    take(packed, whole.data(), whole.size(), name);
+    if (std::ranges::any_of(whole, [](std::uint8_t is_whole) { return is_whole > 1; }))
+        throw InputError(name + ": a brick has neither one sample nor all of them");
+    const std::size_t kept = DensityBricks::kept_samples(size, whole);
+    check_length(kept * sizeof(float));
+    std::vector<float> samples = read_samples(packed, kept, name);
+    char beyond = 0;
+    if (packed.read(&beyond, 1) > 0) throw InputError(name + ": more follows after the last brick");
+    const auto& c = header.corners;
+    const Box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
+    try {
+        return {size, box, whole, std::move(samples)};
+    } catch (const InputError& error) {
+        throw InputError(name + ": " + error.what());
+    }
+}
+
+}  // namespace lamella
