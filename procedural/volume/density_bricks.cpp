@@ -101,21 +101,21 @@ VoxelIndex DensityBricks::brick_counts(const VoxelIndex& size) {
     return {along(size[0]), along(size[1]), along(size[2])};
 }
 
-std::array<float, 8> DensityBricks::corners(const VoxelIndex& lower, const VoxelIndex& upper) const {
-    const Brick& brick = brick_of(lower[0], lower[1], lower[2]);
-    std::array<float, 8> found;
-    if (&brick != &brick_of(upper[0], upper[1], upper[2])) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            found[i] = at((i & 1U) != 0 ? upper[0] : lower[0], (i & 2U) != 0 ? upper[1] : lower[1],
-                          (i & 4U) != 0 ? upper[2] : lower[2]);
-        }
-        return found;
+std::array<float, 8> DensityBricks::corners_of_several(const VoxelIndex& lower,
+                                                       const VoxelIndex& upper) const {
+    // By axis, of the lower and the upper neighbour.
+    std::array<std::array<std::size_t, 2>, 3> brick, inside;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        brick[axis] = {lower[axis] / voxel_block, upper[axis] / voxel_block};
+        inside[axis] = {lower[axis] % voxel_block, upper[axis] % voxel_block};
     }
-    const float* const first = samples_.data() + place_in(brick, lower[0], lower[1], lower[2]);
-    const std::size_t x = (upper[0] - lower[0]) * brick.step[0], y = (upper[1] - lower[1]) * brick.step[1],
-                      z = (upper[2] - lower[2]) * brick.step[2];
-    for (std::size_t i = 0; i < 8; ++i)
-        found[i] = first[((i & 1U) != 0 ? x : 0) + ((i & 2U) != 0 ? y : 0) + ((i & 4U) != 0 ? z : 0)];
+    std::array<float, 8> found;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const std::size_t x = i & 1U, y = i >> 1U & 1U, z = i >> 2U;
+        const Brick& of = bricks_[(brick[2][z] * counts_[1] + brick[1][y]) * counts_[0] + brick[0][x]];
+        found[i] = samples_[of.first + inside[0][x] * of.step[0] + inside[1][y] * of.step[1] +
+                            inside[2][z] * of.step[2]];
+    }
     return found;
 }
 

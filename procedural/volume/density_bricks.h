@@ -37,7 +37,16 @@ class DensityBricks {
         return samples_[place_in(brick_of(x, y, z), x, y, z)];
     }
     /// As DenseSamples does.
-    std::array<float, 8> corners(const VoxelIndex& lower, const VoxelIndex& upper) const;
+    std::array<float, 8> corners(const VoxelIndex& lower, const VoxelIndex& upper) const {
+        const Brick& brick = brick_of(lower[0], lower[1], lower[2]);
+        if (&brick != &brick_of(upper[0], upper[1], upper[2])) return corners_of_several(lower, upper);
+        const float* const first = samples_.data() + place_in(brick, lower[0], lower[1], lower[2]);
+        const std::size_t x = (upper[0] - lower[0]) * brick.step[0],
+                          y = (upper[1] - lower[1]) * brick.step[1],
+                          z = (upper[2] - lower[2]) * brick.step[2];
+        return {first[0], first[x],     first[y],     first[x + y],
+                first[z], first[x + z], first[y + z], first[x + y + z]};
+    }
     template <class Visit>
     void for_each_in_block(const VoxelBox& box, const Visit& visit) const {
         const Brick& brick = brick_of(box.lo[0], box.lo[1], box.lo[2]);
@@ -65,6 +74,7 @@ class DensityBricks {
     };
 
     DensityBricks(const VoxelIndex& size, const Box& box);
+    std::array<float, 8> corners_of_several(const VoxelIndex& lower, const VoxelIndex& upper) const;
     /// Sets the places of bricks.
     void lay_out(std::span<const std::uint8_t> whole);
     const Brick& brick_of(std::size_t x, std::size_t y, std::size_t z) const {

@@ -16,6 +16,28 @@ struct Between {
     double t;  ///< 0 at the lower one, 1 at the upper one
 };
 
+/// The voxels round a place, x fastest.
+struct Cell {
+    VoxelIndex lower;
+    double corners[8];
+    Interval limits;  ///< of the corners, except NaN
+
+    bool holds(const std::array<Between, 3>& place) const {
+        return place[0].lower == lower[0] && place[1].lower == lower[1] && place[2].lower == lower[2];
+    }
+};
+
+/// Returns the trilinear mean at a place in a cell.
+double mixed(const Cell& cell, const std::array<Between, 3>& place) {
+    const auto& [x, y, z] = place;
+    const auto mix = [](double a, double b, double t) { return a * (1 - t) + b * t; };
+    double rows[4];
+    for (std::size_t i = 0; i < 4; ++i) rows[i] = mix(cell.corners[2 * i], cell.corners[2 * i + 1], x.t);
+    const double value = mix(mix(rows[0], rows[1], y.t), mix(rows[2], rows[3], y.t), z.t);
+    // A mean lies between its parts, even after rounding: equal voxels give their number exactly.
+    return value < cell.limits.lo ? cell.limits.lo : value > cell.limits.hi ? cell.limits.hi : value;
+}
+
 template <class Samples>
 class VolumeGrading : public Grading {
   public:
@@ -23,12 +45,25 @@ class VolumeGrading : public Grading {
         : samples_(std::move(samples)),
           size_(samples_->size()),
           full_scale_(full_scale),
-          box_(box),
+          lower_(box.lo),
+          extent_(box.hi - box.lo),
+          voxels_(size_[0], size_[1], size_[2]),
           pyramid_(*samples_) {}
 
     double at(dvec3 p) const override {
-        const dvec3 g = in_voxels(p);
-        return interpolated({split(g.x, 0), split(g.y, 1), split(g.z, 2)}) / full_scale_;
+        const auto place = split(in_voxels(p));
+        return mixed(cell_at(place), place) / full_scale_;
+    }
+
+    /// Points that follow each other lie between the same voxels more often than not.
+    void numbers(std::span<const dvec3> points, std::span<double> out) const override {
+        if (points.empty()) return;
+        Cell cell = cell_at(split(in_voxels(points[0])));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const auto place = split(in_voxels(points[i]));
+            if (!cell.holds(place)) cell = cell_at(place);
+            out[i] = mixed(cell, place) / full_scale_;
+        }
     }
 
     Interval range(const Box& box) const override {
@@ -44,7 +79,7 @@ class VolumeGrading : public Grading {
         const SampleExtremes<typename Samples::Sample> samples = pyramid_.over(touched);
         Interval range{static_cast<double>(samples.lo), static_cast<double>(samples.hi)};
         if (samples.undefined) return {range.lo / full_scale_, infinity};
-        if (is_small) range = at_stops(lo, hi, range);
+        if (is_small && range.lo < range.hi) range = at_stops(lo, hi, range);
         return {range.lo / full_scale_, range.hi / full_scale_};
     }
 
@@ -57,31 +92,33 @@ class VolumeGrading : public Grading {
     dvec3 in_voxels(dvec3 p) const {
         dvec3 g;
         for (int i = 0; i < 3; ++i) {
-            const double last = static_cast<double>(size_[static_cast<std::size_t>(i)] - 1);
-            const double place = (p[i] - box_.lo[i]) / (box_.hi[i] - box_.lo[i]) * (last + 1) - 0.5;
+            const double last = voxels_[i] - 1;
+            const double place = (p[i] - lower_[i]) / extent_[i] * voxels_[i] - 0.5;
             g[i] = place >= last ? last : place > 0 ? place : 0.0;  // NaN becomes 0
         }
         return g;
     }
 
+    std::array<Between, 3> split(dvec3 g) const { return {split(g.x, 0), split(g.y, 1), split(g.z, 2)}; }
+
     Between split(double g, std::size_t axis) const {
-        const auto lower = static_cast<std::size_t>(g);
-        return {lower, std::min(lower + 1, size_[axis] - 1), g - static_cast<double>(lower)};
+        const auto whole = static_cast<std::int64_t>(g);  // faster than unsigned
+        const auto lower = static_cast<std::size_t>(whole);
+        return {lower, std::min(lower + 1, size_[axis] - 1), g - static_cast<double>(whole)};
     }
 
-    double interpolated(const std::array<Between, 3>& at) const {
-        const auto& [x, y, z] = at;
-        const auto samples = samples_->corners({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
-        double corners[8];
-        for (std::size_t i = 0; i < 8; ++i) corners[i] = static_cast<double>(samples[i]);
-        const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
-        const Interval limits{*least, *most};
-        const auto mix = [](double a, double b, double t) { return a * (1 - t) + b * t; };
-        double rows[4];
-        for (std::size_t i = 0; i < 4; ++i) rows[i] = mix(corners[2 * i], corners[2 * i + 1], x.t);
-        const double value = mix(mix(rows[0], rows[1], y.t), mix(rows[2], rows[3], y.t), z.t);
-        // A mean lies between its parts, even after rounding: equal voxels give their number exactly.
-        return value < limits.lo ? limits.lo : value > limits.hi ? limits.hi : value;
+    Cell cell_at(const std::array<Between, 3>& place) const {
+        const auto& [x, y, z] = place;
+        Cell cell;
+        cell.lower = {x.lower, y.lower, z.lower};
+        const auto samples = samples_->corners(cell.lower, {x.upper, y.upper, z.upper});
+        for (std::size_t i = 0; i < 8; ++i) {
+            const auto corner = static_cast<double>(samples[i]);
+            cell.corners[i] = corner;
+            cell.limits.lo = corner < cell.limits.lo ? corner : cell.limits.lo;
+            cell.limits.hi = corner > cell.limits.hi ? corner : cell.limits.hi;
+        }
+        return cell;
     }
 
     /// Returns the range over a box of few voxels. Between the planes of the centres the number is linear
@@ -96,11 +133,14 @@ class VolumeGrading : public Grading {
                  ++centre) {
                 stops[i][++all.hi[i]] = split(static_cast<double>(centre), i);
             }
-            stops[i][++all.hi[i]] = split(hi[axis], i);
+            if (lo[axis] != hi[axis]) stops[i][++all.hi[i]] = split(hi[axis], i);
         }
         Interval range;
+        Cell cell = cell_at({stops[0][0], stops[1][0], stops[2][0]});
         for_each_voxel(all, [&](std::size_t i, std::size_t j, std::size_t k) {
-            const double number = interpolated({stops[0][i], stops[1][j], stops[2][k]});
+            const std::array<Between, 3> place{stops[0][i], stops[1][j], stops[2][k]};
+            if (!cell.holds(place)) cell = cell_at(place);
+            const double number = mixed(cell, place);
             range = {std::min(range.lo, number), std::max(range.hi, number)};
         });
         const double rounding = 1e-15 * 8 * std::max(std::abs(samples.lo), std::abs(samples.hi));
@@ -110,7 +150,8 @@ class VolumeGrading : public Grading {
     std::shared_ptr<const Samples> samples_;
     VoxelIndex size_;
     double full_scale_;
-    Box box_;
+    dvec3 lower_, extent_;  ///< of the box, mm
+    dvec3 voxels_;          ///< along each axis
     BlockPyramid<Samples> pyramid_;
 };
 
