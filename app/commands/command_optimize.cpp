@@ -63,17 +63,14 @@ void write_report(const StructureCommand& command, const StructureReport& report
 }
 
 void save_densities(const OptimizedPart& part, const std::string& path) {
-    const std::vector<float> density(part.grid.density.begin(), part.grid.density.end());
-    const glm::ivec3 n = part.grid.size;
-    write_nrrd(path,
-               {static_cast<std::size_t>(n.x), static_cast<std::size_t>(n.y), static_cast<std::size_t>(n.z)},
-               density, part.box);
+    const DensityBricks& densities = *part.densities;
+    write_nrrd(path, densities.size(), densities.dense(), densities.box());
 }
 
 void draw(const StructureCommand& command, const Recipe& recipe, const OptimizedPart& part) {
     const bool is_foam = drives_foam(recipe.optimize->result);
     TextOutput out(command.plot);
-    out.write(structure_svg(recipe.part.name, *part.report, part.grid, part.box, is_foam));
+    out.write(structure_svg(recipe.part.name, part, is_foam));
     out.close();
 }
 

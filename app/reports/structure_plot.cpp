@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/reports/svg_text.h"
+#include "recipe/structure/structure_report.h"
 
 namespace lamella {
 
@@ -90,33 +91,39 @@ struct View {
 /// How solid a column along the line of sight is, as a share of the most solid one possible.
 class Columns {
   public:
-    Columns(const DensityGrid& grid, bool is_foam) : grid_(grid), is_foam_(is_foam) {
-        if (is_foam) densest_ = std::max(1e-9, *std::max_element(grid.density.begin(), grid.density.end()));
+    Columns(const OptimizedPart& part, bool is_foam)
+        : densities_(*part.densities), use_(part.use), is_foam_(is_foam) {
+        if (is_foam) densest_ = std::max(1e-9, static_cast<double>(std::ranges::max(densities_.samples())));
     }
-    int rows() const { return is_plate() ? grid_.size.y : grid_.size.z; }
-    double share(int x, int row) const {
-        constexpr double solid = 0.5;
-        const int depth = is_plate() ? 1 : grid_.size.y;
+    int columns() const { return static_cast<int>(densities_.size()[0]); }
+    int rows() const { return static_cast<int>(densities_.size()[is_plate() ? 1 : 2]); }
+    double share(int column, int row) const {
+        const std::size_t depth = is_plate() ? 1 : densities_.size()[1];
+        const auto x = static_cast<std::size_t>(column), along = static_cast<std::size_t>(row);
         double sum = 0;
-        for (int k = 0; k < depth; ++k) {
-            const std::size_t at = grid_.place(is_plate() ? glm::ivec3(x, row, 0) : glm::ivec3(x, k, row));
-            if (grid_.use[at] == ElementUse::outside) continue;
-            sum += is_foam_ ? grid_.density[at] / densest_ : grid_.density[at] > solid ? 1 : 0;
-        }
-        return sum / depth;
+        for (std::size_t k = 0; k < depth; ++k)
+            sum += is_plate() ? solid_share(x, along, 0) : solid_share(x, k, along);
+        return sum / static_cast<double>(depth);
     }
 
   private:
-    bool is_plate() const { return grid_.size.z == 1; }
+    bool is_plate() const { return densities_.size()[2] == 1; }
+    double solid_share(std::size_t x, std::size_t y, std::size_t z) const {
+        const VoxelIndex& size = densities_.size();
+        if (use_[(z * size[1] + y) * size[0] + x] == ElementUse::outside) return 0;
+        constexpr double solid = 0.5;
+        const auto density = static_cast<double>(densities_.at(x, y, z));
+        return is_foam_ ? density / densest_ : density > solid ? 1 : 0;
+    }
 
-    const DensityGrid& grid_;
+    const DensityBricks& densities_;
+    const std::vector<ElementUse>& use_;
     bool is_foam_;
     double densest_ = 1;
 };
 
-std::string shape(const View& view, const DensityGrid& grid, bool is_foam) {
-    const Columns columns(grid, is_foam);
-    const double width = view.scale * view.box.size().x / grid.size.x,
+std::string shape(const View& view, const Columns& columns) {
+    const double width = view.scale * view.box.size().x / columns.columns(),
                  height = view.scale * view.box.size()[view.up] / columns.rows();
     constexpr int tones = 12;
     std::string text = "<g shape-rendering=\"crispEdges\">\n";
@@ -133,13 +140,13 @@ std::string shape(const View& view, const DensityGrid& grid, bool is_foam) {
             }
             from = x;
         };
-        for (int x = 0; x < grid.size.x; ++x) {
+        for (int x = 0; x < columns.columns(); ++x) {
             const int now = static_cast<int>(std::ceil(columns.share(x, row) * tones - 1e-9));
             if (now == tone) continue;
             end(x);
             tone = now;
         }
-        end(grid.size.x);
+        end(columns.columns());
     }
     return text + "</g>\n";
 }
@@ -176,8 +183,8 @@ std::string holds(const View& view, const StructureReport& report) {
 
 }  // namespace
 
-std::string structure_svg(const std::string& title, const StructureReport& report, const DensityGrid& grid,
-                          const Box& box, bool is_foam) {
+std::string structure_svg(const std::string& title, const OptimizedPart& part, bool is_foam) {
+    const StructureReport& report = *part.report;
     std::string text = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} "
         "{1:g}\">\n<style>text{{font:13px sans-serif}}.grid{{stroke:#ddd;fill:none}}.line{{fill:none;"
@@ -185,12 +192,12 @@ std::string structure_svg(const std::string& title, const StructureReport& repor
         2 * panel_width, panel_height);
     text += svg_label(chart_left, 26, svg_escaped(title), "style=\"font-weight:bold\"");
     text += chart(report);
-    const View view(box, report.dimensions);
+    const View view(part.densities->box(), report.dimensions);
     text +=
         svg_label(1.5 * panel_width, 26,
                   fmt::format("{:.4g} N mm, {:.1f} % of the part", report.compliance, 100 * report.volume),
                   "text-anchor=\"middle\"");
-    return text + shape(view, grid, is_foam) + holds(view, report) + "</svg>\n";
+    return text + shape(view, Columns(part, is_foam)) + holds(view, report) + "</svg>\n";
 }
 
 }  // namespace lamella

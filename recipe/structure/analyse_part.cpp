@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/optimization/density_shape.h"
 
 namespace lamella {
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 
 #include "engine/base/error.h"
@@ -13,8 +14,8 @@
 #include "engine/mesh/mesh_field.h"
 #include "engine/solids/csg.h"
 #include "procedural/optimization/density_surface.h"
+#include "procedural/volume/brick_file.h"
 #include "procedural/volume/volume_grading.h"
-#include "procedural/volume/write_nrrd.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/identity.h"
 #include "recipe/recipe_formulas.h"
@@ -52,28 +53,41 @@ Recipe search_problem(const Recipe& recipe) {
     return kept;
 }
 
-std::array<std::size_t, 3> sides(glm::ivec3 size) {
-    return {static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.y),
-            static_cast<std::size_t>(size.z)};
+DensityGrid grid_of(const DensityBricks& bricks) {
+    const std::vector<float> dense = bricks.dense();
+    const VoxelIndex& size = bricks.size();
+    return {{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])},
+            {},
+            {dense.begin(), dense.end()}};
+}
+
+DensityBricks bricks_of(const DensityGrid& grid, const Box& box) {
+    const VoxelIndex size{static_cast<std::size_t>(grid.size.x), static_cast<std::size_t>(grid.size.y),
+                          static_cast<std::size_t>(grid.size.z)};
+    return {size, box, grid.density};
 }
 
 /// Returns the sizes of cells or members (mm) that give densities, as a grading. Regions that set them do so
 /// in the build of the foam; their elements go on with the sizes beside them, between which samples lie.
-GradingPtr sizes_of_foam(const Recipe& recipe, Gradings& gradings, const DensityGrid& grid, const Box& box) {
+GradingPtr sizes_of_foam(const Recipe& recipe, Gradings& gradings, const DensityBricks& densities) {
     OptimizedFoam foam(recipe, gradings);
-    const std::vector<FoamRange> ranges =
-        foam.has_regions() ? foam.ranges_at(element_centres(grid.size, box)) : std::vector<FoamRange>();
-    DensityGrid sizes{grid.size, std::vector(grid.density.size(), ElementUse::free),
-                      std::vector<double>(grid.density.size())};
-    parallel_for(grid.density.size(), [&](std::size_t i) {
-        const FoamRange& range = ranges.empty() ? foam.without_regions() : ranges[i];
-        if (range.is_kept) sizes.use[i] = ElementUse::outside;
-        sizes.density[i] = foam.number_for(grid.density[i], range);
+    const auto graded = [](DensityBricks sizes) {
+        return make_volume_grading(std::make_shared<const DensityBricks>(std::move(sizes)));
+    };
+    if (!foam.has_regions()) {
+        return graded(densities.mapped([&](float density) {
+            return static_cast<float>(foam.number_for(static_cast<double>(density), foam.without_regions()));
+        }));
+    }
+    DensityGrid sizes = grid_of(densities);
+    const std::vector<FoamRange> ranges = foam.ranges_at(element_centres(sizes.size, densities.box()));
+    sizes.use.assign(sizes.density.size(), ElementUse::free);
+    parallel_for(sizes.density.size(), [&](std::size_t i) {
+        if (ranges[i].is_kept) sizes.use[i] = ElementUse::outside;
+        sizes.density[i] = foam.number_for(sizes.density[i], ranges[i]);
     });
     extend_outside(sizes, extended_layers);
-    return make_volume_grading(
-        Volume{sides(grid.size), std::vector<float>(sizes.density.begin(), sizes.density.end()), 1.0, box},
-        box);
+    return graded(bricks_of(sizes, densities.box()));
 }
 
 /// Whether distances from the shape are needed, which densities are not: by a skin, depths, blends of
@@ -85,47 +99,41 @@ bool needs_distances(const Recipe& recipe) {
     return recipe.skin || uses_depth(recipe) || std::ranges::any_of(recipe.regions, blends);
 }
 
-/// Makes grading and shape of the densities in single precision, as a plan keeps them.
-void make_fields(const Recipe& recipe, const FieldPtr& body, std::vector<float> density,
-                 OptimizedPart& part) {
-    for (std::size_t i = 0; i < density.size(); ++i) part.grid.density[i] = static_cast<double>(density[i]);
-    part.density =
-        make_volume_grading(Volume{sides(part.grid.size), std::move(density), 1.0, part.box}, part.box);
+/// Returns gradings and shape of the densities.
+OptimizedPart part_of(const Recipe& recipe, const FieldPtr& body, Gradings& gradings,
+                      DensityBricks densities) {
+    OptimizedPart part;
+    part.densities = std::make_shared<const DensityBricks>(std::move(densities));
+    part.density = make_volume_grading(part.densities);
     constexpr double level = 0.5;
     const std::vector<std::string> names{"x", "y", "z", "density"};
     part.dense = make_formula_field(parse_formula(fmt::format("{} - density", level), names), {part.density},
                                     body->bounds());
     part.shape = body;
-    if (recipe.optimize->result != OptimizeResult::solid) return;
+    if (drives_foam(recipe.optimize->result))
+        part.foam_sizes = sizes_of_foam(recipe, gradings, *part.densities);
+    if (recipe.optimize->result != OptimizeResult::solid) return part;
     FieldPtr shape = part.dense;
     if (needs_distances(recipe)) {
         // The stiffest part's elements are refined already.
         const int parts = recipe.optimize->kind == OptimizeKind::appearance ? 2 : 1;
         shape = make_mesh_field(
-            close_mesh(density_surface(part.grid, part.box, level, parts), "the optimised shape"));
+            close_mesh(density_surface(grid_of(*part.densities), part.densities->box(), level, parts),
+                       "the optimised shape"));
     }
     part.shape = make_intersection({body, std::move(shape)});
+    return part;
 }
 
-std::optional<OptimizedPart> kept_part(const std::filesystem::path& file, const Recipe& recipe,
-                                       const FieldPtr& body) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) return std::nullopt;
-    OptimizedPart part;
-    std::vector<float> samples;
+/// Returns what a file keeps; nothing if it is not there or damaged: then it is made anew.
+std::optional<DensityBricks> kept_densities(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in.is_open()) return std::nullopt;
     try {
-        Volume volume = read_volume(file.string());
-        if (!volume.box || !std::holds_alternative<std::vector<float>>(volume.samples)) return std::nullopt;
-        part.box = *volume.box;
-        part.grid.size = {static_cast<int>(volume.size[0]), static_cast<int>(volume.size[1]),
-                          static_cast<int>(volume.size[2])};
-        samples = std::get<std::vector<float>>(std::move(volume.samples));
-    } catch (const Error&) {
-        return std::nullopt;  // a damaged plan is made anew
+        return read_bricks(in, file.string());
+    } catch (const InputError&) {
+        return std::nullopt;
     }
-    part.grid.density.resize(samples.size());
-    make_fields(recipe, body, std::move(samples), part);
-    return part;
 }
 
 }  // namespace
@@ -139,18 +147,14 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     std::filesystem::path file, search;
     if (!options.plans.empty()) {
         const std::string hash = job_identity(problem);
-        file = options.plans / (hash + ".nrrd");
+        file = options.plans / (hash + ".bricks");
         search = options.plans / (hash + ".search");
     }
     if (!file.empty() && !options.anew) {
-        if (auto kept = kept_part(file, recipe, body)) {
-            if (drives_foam(result))
-                kept->foam_sizes = sizes_of_foam(recipe, gradings, kept->grid, kept->box);
-            return std::move(*kept);
-        }
+        if (auto kept = kept_densities(file)) return part_of(recipe, body, gradings, std::move(*kept));
     }
     ThreadArena arena(options.threads);
-    const PartDesign design = arena.execute([&] {
+    PartDesign design = arena.execute([&] {
         return problem.optimize->kind == OptimizeKind::appearance
                    ? pictured_plate(problem, *body, regions, gradings, options, search)
                    : stiffest_part(problem, *body, regions, gradings, options, search);
@@ -159,23 +163,21 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     if (result == OptimizeResult::solid && (recipe.foam || recipe.skin))
         design.report->notes.emplace_back(
             "compliance is that of the solid shape; `lamella analyze` computes it as the shape is filled");
-    OptimizedPart part;
-    part.grid = design.grid;
-    part.box = design.box;
-    part.report = design.report;
-    make_fields(recipe, body, {part.grid.density.begin(), part.grid.density.end()}, part);
-    if (drives_foam(result)) part.foam_sizes = sizes_of_foam(recipe, gradings, part.grid, part.box);
+    DensityBricks densities = bricks_of(design.grid, design.box);
+    design.grid.density = {};
     const bool is_whole = options.cancel == nullptr || !options.cancel->cancelled();
     if (!file.empty() && is_whole) {
         std::error_code error;
         std::filesystem::remove(search, error);
         std::filesystem::create_directories(options.plans, error);
-        const std::vector<float> density(part.grid.density.begin(), part.grid.density.end());
         try {
-            write_nrrd(file, sides(part.grid.size), density, part.box);
+            write_bricks(file, densities);
         } catch (const FaultError&) {  // as for supports: the next run makes it again
         }
     }
+    OptimizedPart part = part_of(recipe, body, gradings, std::move(densities));
+    part.use = std::move(design.grid.use);
+    part.report = design.report;
     return part;
 }
 

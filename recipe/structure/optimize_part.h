@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "engine/base/cancel_token.h"
-#include "procedural/optimization/density_shape.h"
+#include "procedural/optimization/element_use.h"
+#include "procedural/volume/density_bricks.h"
 #include "recipe/build/build_regions.h"
 
 namespace lamella {
@@ -33,10 +34,12 @@ struct OptimizeOptions {
 
 /// An optimised part.
 struct OptimizedPart {
-    /// Density: above 0.5 is solid; of a foam its solid volume fraction. Smooth beyond the body.
-    DensityGrid grid;
-    Box box;                ///< of the grid, mm
-    GradingPtr density;     ///< the same, as a grading
+    /// Densities of the search's elements or of parts of them: above 0.5 is solid; of a foam its solid volume
+    /// fraction. Smooth beyond the body.
+    std::shared_ptr<const DensityBricks> densities;
+    /// Of each density, x fastest, for pictures; empty when the result comes from a plan.
+    std::vector<ElementUse> use;
+    GradingPtr density;     ///< the densities as a grading
     GradingPtr foam_sizes;  ///< of the cells or members that are driven, mm; null without a foam
     FieldPtr dense;         ///< where the density is above 0.5, beyond the body, too
     FieldPtr shape;         ///< the body, cut to where it is solid; the body itself for other results

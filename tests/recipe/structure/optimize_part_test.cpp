@@ -81,14 +81,13 @@ TEST_CASE("symmetry and prescribed regions of an optimised part are kept", "[opt
         "[[region]]\nfield = \"pad\"\nmake = \"solid\"\n[[region]]\nfield = \"hole\"\nmake = \"empty\"\n";
     const BuiltJob job = built(plate + regions + in_plane + "volume = 0.4\nsymmetry = \"y\"\n");
     const OptimizedPart& part = *job.optimized;
-    const DensityGrid& grid = part.grid;
-    for (int y = 0; y < grid.size.y; ++y) {
-        for (int x = 0; x < grid.size.x; ++x) {
-            const std::size_t at = grid.place({x, y, 0});
-            const bool is_free = grid.use[at] == ElementUse::free &&
-                                 grid.use[grid.place({x, grid.size.y - 1 - y, 0})] == ElementUse::free;
-            if (is_free)
-                CHECK(grid.density[at] == Approx(grid.density[grid.place({x, grid.size.y - 1 - y, 0})]));
+    const VoxelIndex& size = part.densities->size();
+    for (std::size_t y = 0; y < size[1]; ++y) {
+        for (std::size_t x = 0; x < size[0]; ++x) {
+            const std::size_t mirrored = size[1] - 1 - y;
+            const bool is_free = part.use[y * size[0] + x] == ElementUse::free &&
+                                 part.use[mirrored * size[0] + x] == ElementUse::free;
+            if (is_free) CHECK(part.densities->at(x, y, 0) == Approx(part.densities->at(x, mirrored, 0)));
         }
     }
     CHECK(job.job.part->value({0, 7, 0}) < 0);
@@ -102,7 +101,7 @@ TEST_CASE("an optimised block is the same bytes on one thread and two", "[optimi
     one.threads = 1;
     two.threads = 2;
     const BuiltJob a = build_job(recipe, one), b = build_job(recipe, two);
-    CHECK(a.optimized->grid.density == b.optimized->grid.density);
+    CHECK(a.optimized->densities->dense() == b.optimized->densities->dense());
     CHECK(a.optimized->report->volume == Approx(0.3).epsilon(0.005));
 }
 
@@ -119,6 +118,9 @@ TEST_CASE("a kept result is the shape that was optimised", "[optimization]") {
     const BuiltJob second = build_job(recipe, options);
     CHECK(iterations == 0);
     CHECK(second.optimized->report == nullptr);
+    CHECK(second.optimized->densities->dense() == first.optimized->densities->dense());
+    CHECK(second.optimized->densities->box().lo == first.optimized->densities->box().lo);
+    CHECK(second.optimized->densities->box().hi == first.optimized->densities->box().hi);
     for (const double z : {-5.0, 0.0, 5.0})
         CHECK(area(*first.job.part, z, first.job.bounds) == area(*second.job.part, z, second.job.bounds));
     // A damaged file is no result.

@@ -48,9 +48,11 @@ StructureReport analysed(const std::string& text, const OptimizeOptions& options
 template <typename Visit>
 void visit_foam(const BuiltJob& job, const Visit& visit) {
     const OptimizedPart& part = *job.optimized;
-    const std::vector<dvec3> centres = element_centres(part.grid.size, part.box);
+    const VoxelIndex& size = part.densities->size();
+    const std::vector<dvec3> centres = element_centres({size[0], size[1], size[2]}, part.densities->box());
+    const std::vector<float> densities = part.densities->dense();
     for (std::size_t i = 0; i < centres.size(); ++i)
-        visit(centres[i], part.grid.density[i], part.grid.use[i], job.foam->cell.made->at(centres[i]),
+        visit(centres[i], static_cast<double>(densities[i]), part.use[i], job.foam->cell.made->at(centres[i]),
               job.foam->member.made->at(centres[i]));
 }
 
@@ -123,7 +125,7 @@ TEST_CASE("numbers of regions may be graded and blend", "[optimization]") {
         two.threads = 2;
         const BuiltJob job = build_job(recipe, one), other = build_job(recipe, two);
         CHECK(job.optimized->report->volume == Approx(0.15).epsilon(0.01));
-        CHECK(job.optimized->grid.density == other.optimized->grid.density);
+        CHECK(job.optimized->densities->dense() == other.optimized->densities->dense());
         check_sizes(job);
     }
 }

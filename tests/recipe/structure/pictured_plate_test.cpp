@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "procedural/optimization/density_shape.h"
 #include "procedural/optimization/shared_solves.h"
 #include "recipe/build/build_job.h"
 #include "recipe/structure/structure_report.h"
@@ -37,9 +38,11 @@ std::string like(const std::string& picture, const std::string& more = "") {
 }
 
 /// Number of pieces above 0.5, by faces.
-int pieces(const DensityGrid& grid) {
-    const auto numbers = pieces_by_faces(grid.size, [&](std::size_t e) {
-        return grid.use[e] != ElementUse::outside && grid.density[e] > 0.5;
+int pieces(const OptimizedPart& part) {
+    const std::vector<float> densities = part.densities->dense();
+    const VoxelIndex& size = part.densities->size();
+    const auto numbers = pieces_by_faces({size[0], size[1], size[2]}, [&](std::size_t e) {
+        return part.use[e] != ElementUse::outside && densities[e] > 0.5F;
     });
     return *std::max_element(numbers.begin(), numbers.end()) + 1;
 }
@@ -94,7 +97,7 @@ TEST_CASE("a plate like a picture is stiff enough, light enough, one piece, and 
             CHECK(report.densities_compliance <= 1.3 * 1.01 * report.least_compliance);
             CHECK(report.compliance <= 1.3 * 1.01 * report.least_compliance);
             CHECK(report.volume <= 0.55 * 1.005);
-            CHECK(pieces(part.grid) == 1);
+            CHECK(pieces(part) == 1);
             CHECK(report.appearance < 0.9 * report.stiffest_appearance);
             CHECK(report.appearance > 0);
             CHECK(report.stiffest_appearance > 0);
@@ -116,12 +119,12 @@ TEST_CASE("the more compliance is allowed, the more a plate is like its picture"
 TEST_CASE("a plate like a picture is the same on any number of threads", "[optimization]") {
     const std::string text = half_beam + like("spots", "volume = 0.5\nsymmetry = \"x\"\n");
     const OptimizedPart one = made(text, 1), two = made(text, 2);
-    CHECK(one.grid.density == two.grid.density);
-    const glm::ivec3 n = one.grid.size;
-    for (int y = 0; y < n.y; ++y) {
-        for (int x = 0; x < n.x / 2; ++x)
-            CHECK(one.grid.density[one.grid.place({x, y, 0})] ==
-                  Approx(one.grid.density[one.grid.place({n.x - 1 - x, y, 0})]).margin(1e-9));
+    const DensityBricks& densities = *one.densities;
+    CHECK(densities.dense() == two.densities->dense());
+    const VoxelIndex& size = densities.size();
+    for (std::size_t y = 0; y < size[1]; ++y) {
+        for (std::size_t x = 0; x < size[0] / 2; ++x)
+            CHECK(densities.at(x, y, 0) == Approx(densities.at(size[0] - 1 - x, y, 0)).margin(1e-9));
     }
 }
 
@@ -160,7 +163,7 @@ TEST_CASE("a plate like a picture is kept as a plan", "[optimization]") {
     const BuiltJob first = build_job(recipe, options), second = build_job(recipe, options);
     CHECK(first.optimized->report);
     CHECK_FALSE(second.optimized->report);
-    CHECK(first.optimized->grid.density == second.optimized->grid.density);
+    CHECK(first.optimized->densities->dense() == second.optimized->densities->dense());
 }
 
 TEST_CASE("a search for a plate like a picture that is stopped shows it, and goes on to the same result",
@@ -188,12 +191,12 @@ TEST_CASE("a search for a plate like a picture that is stopped shows it, and goe
         CAPTURE(report.history.size(), report.notes);
         CHECK(report.history.size() >= stop.least);
         CHECK(report.history.size() <= stop.most);
-        CHECK(part.grid.density.size() == whole.grid.density.size());
+        CHECK(part.densities->size() == whole.densities->size());
         CHECK(std::ranges::count_if(report.notes, [](const std::string& note) {
                   return mentions(note, "the search was stopped after ") &&
                          mentions(note, "; --resume goes on with it");
               }) == 1);
-        CHECK(pieces(part.grid) == 1);
+        CHECK(pieces(part) == 1);
         CHECK(report.compliance <= 2 * 1.3 * report.least_compliance);
         CHECK(report.volume <= 0.5 * 1.005);
         CHECK(report.volume > 0.45);
@@ -203,19 +206,19 @@ TEST_CASE("a search for a plate like a picture that is stopped shows it, and goe
         CHECK(report.densities_compliance >= report.least_compliance);
         CHECK(report.greyness > 0);
         CHECK(files_in(folder, ".search") == 1);
-        CHECK(files_in(folder, ".nrrd") == 0);
+        CHECK(files_in(folder, ".bricks") == 0);
 
         OptimizeOptions again;
         again.plans = folder.path();
         again.resume = again.anew = true;
         const OptimizedPart resumed = *build_job(recipe, again).optimized;
-        CHECK(resumed.grid.density == whole.grid.density);
+        CHECK(resumed.densities->dense() == whole.densities->dense());
         CHECK(resumed.report->history.size() == whole.report->history.size());
         CHECK(resumed.report->compliance == whole.report->compliance);
         CHECK(resumed.report->appearance == whole.report->appearance);
         CHECK(resumed.report->notes == whole.report->notes);
         CHECK(files_in(folder, ".search") == 0);
-        CHECK(files_in(folder, ".nrrd") == 1);
+        CHECK(files_in(folder, ".bricks") == 1);
         CHECK_THROWS_AS(build_job(recipe, again), InputError);
     }
 }
@@ -244,13 +247,13 @@ TEST_CASE("a search that is cancelled when it has just ended is kept", "[optimiz
         if (step.index == static_cast<int>(whole.report->history.size())) cancel.cancel();
     };
     const OptimizedPart part = *build_job(recipe_of(text), options).optimized;
-    CHECK(part.grid.density == whole.grid.density);
+    CHECK(part.densities->dense() == whole.densities->dense());
     CHECK(part.report->compliance == whole.report->compliance);
     CHECK(files_in(folder, ".search") == 1);
     OptimizeOptions again;
     again.plans = folder.path();
     again.resume = again.anew = true;
-    CHECK(build_job(recipe_of(text), again).optimized->grid.density == whole.grid.density);
+    CHECK(build_job(recipe_of(text), again).optimized->densities->dense() == whole.densities->dense());
 }
 
 }  // namespace pictured_plate_test
