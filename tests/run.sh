@@ -9,6 +9,7 @@ cmake --preset "$preset" >/dev/null
 build=(cmake --build "build/$preset")
 [ -t 1 ] || build+=(-- --quiet)  # a terminal shows in one line how far it is
 "${build[@]}"
-export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp}
+# Suppressions name what the earlier access was in: a long history keeps its stack on a busy machine, too.
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp:history_size=7}
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tests/lsan.supp:print_suppressions=0}
 ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"

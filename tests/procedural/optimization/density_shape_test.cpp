@@ -50,7 +50,7 @@ TEST_CASE("a refined grid has the trilinear densities, and coarsens to its means
 
 TEST_CASE("cubics refine quadratic densities exactly, and stay from 0 to 1", "[optimization]") {
     const auto quadratic = [](dvec3 p) {
-        return 0.3 + 0.01 * p.x * p.x - 0.02 * p.y * p.y + 0.015 * p.x * p.z + 0.02 * p.z;
+        return 0.45 + 0.005 * p.x * p.x - 0.01 * p.y * p.y + 0.0075 * p.x * p.z + 0.01 * p.z;
     };
     const DensityGrid grid = grid_of({7, 6, 5}, quadratic);
     const DensityGrid fine = refined(grid, 3, Interpolation::cubic);
