@@ -10,7 +10,7 @@ namespace lamella {
 /// Returns both as SVG, side by side: compliance (with a picture, appearance) and volume over the steps; the
 /// solid share along the line of sight, with an arrow in the direction of the force at loaded nodes and a dot
 /// at held ones, at most 12 and 60 of them. A plate is seen from above, a solid from the front (from -y).
-/// The part comes from a search, with one step or more, not from a plan.
+/// The part comes from a search, not from a plan.
 std::string structure_svg(const std::string& title, const OptimizedPart& part, bool is_foam);
 
 }  // namespace lamella
