@@ -25,6 +25,7 @@ const std::string in_plane = "[optimize]\ndimensions = 2\nelements = 40\niterati
 const std::string block = "[part]\nshape = \"box\"\nsize = [24, 12, 12]\n" + material +
                           "[[load]]\nface = \"+x\"\nforce = [0, 0, -10]\n[[anchor]]\nface = \"-x\"\n";
 const std::string in_space = "[optimize]\nelements = 24\niterations = 25\nsharpness = 4\n";
+const std::string in_black_and_white = "[optimize]\nelements = 24\niterations = 60\n";
 
 BuiltJob built(const std::string& text) { return build_job(recipe_of(text)); }
 
@@ -82,11 +83,11 @@ TEST_CASE("symmetry and prescribed regions of an optimised part are kept", "[opt
     const BuiltJob job = built(plate + regions + in_plane + "volume = 0.4\nsymmetry = \"y\"\n");
     const OptimizedPart& part = *job.optimized;
     const VoxelIndex& size = part.densities->size();
-    const double part_edge = 40.0 / static_cast<double>(size[0]);
-    for (std::size_t y = 0; y < size[1]; ++y) {
-        for (std::size_t x = 0; x < size[0]; ++x) {
-            // The pad is on one side only, and counts two elements of 1 mm around it.
-            if (std::abs((static_cast<double>(x) + 0.5) * part_edge - 20) < 5) continue;
+    REQUIRE(size == VoxelIndex{120, 60, 1});
+    // The middle of an element's three parts has its density; those beside it see the pad, which is on one
+    // side.
+    for (std::size_t y = 1; y < size[1]; y += 3) {
+        for (std::size_t x = 1; x < size[0]; x += 3) {
             const std::size_t mirrored = size[1] - 1 - y;
             const bool is_free = part.use[y * size[0] + x] == ElementUse::free &&
                                  part.use[mirrored * size[0] + x] == ElementUse::free;
@@ -218,7 +219,7 @@ TEST_CASE("the depth in an optimised shape is the distance to its surface", "[op
 TEST_CASE("the lightest part keeps its compliance, and is the stiffest of its volume", "[optimization]") {
     std::string arm = block;  // loaded along an edge
     arm.replace(arm.find("face = \"+x\""), 11, "box = [[12, -6, -6], [12, 6, -6]]");
-    for (const std::string& part : {plate + in_plane, arm + in_space}) {
+    for (const std::string& part : {plate + in_plane, arm + in_black_and_white}) {
         const StructureReport light =
             *built(part + "kind = \"lightness\"\ncompliance = 2\n").optimized->report;
         CHECK(light.compliance == Approx(2 * light.full_compliance).epsilon(0.01));
@@ -227,7 +228,7 @@ TEST_CASE("the lightest part keeps its compliance, and is the stiffest of its vo
         CHECK(light.notes.empty());
         const StructureReport stiff =
             *built(part + "volume = " + std::to_string(light.volume) + "\n").optimized->report;
-        CHECK(stiff.compliance == Approx(light.compliance).epsilon(0.05));
+        CHECK(stiff.compliance == Approx(light.compliance).epsilon(0.03));
     }
 }
 
@@ -333,13 +334,11 @@ TEST_CASE("a bar whose height no cube divides bends as the textbook says", "[opt
 }
 
 TEST_CASE("a load on a whole face acts on material everywhere", "[optimization]") {
-    const Recipe recipe = recipe_of(block + in_space + "volume = 0.3\n");
-    const BuiltJob job = build_job(recipe);
+    const BuiltJob job = built(block + in_black_and_white + "volume = 0.3\n");
     const StructureReport& report = *job.optimized->report;
-    // Grey is softer than what it becomes. Void under a part of the load would make the shape many times
-    // softer.
-    CHECK(report.compliance < 1.05 * report.densities_compliance);
-    CHECK(report.compliance > 0.6 * report.densities_compliance);
+    // Void under a part of the load would make the shape many times softer than its densities.
+    CHECK(report.greyness < 0.02);
+    CHECK(report.compliance == Approx(report.densities_compliance).epsilon(0.05));
     CHECK(report.volume == Approx(0.3).epsilon(0.01));
     int voids = 0;
     for (double y = -5.5; y < 6; ++y) {
