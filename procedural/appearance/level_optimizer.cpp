@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "procedural/optimization/greyness.h"
 #include "procedural/optimization/variable_blocks.h"
 
 namespace lamella {
@@ -97,10 +98,7 @@ LevelAnalysis LevelOptimizer::analyse(Compliance<2>::Result structure) {
     found.appearance_gradient.resize(free_.size());
     found.appearance = appearance_.energy(density(), found.appearance_gradient);
     found.volume = sum_of(density()) / elements_;
-    const std::span<const double> rho = density();
-    const double grey = sum_over_variables<double>(
-        rho.size(), [&](std::size_t i, double& sum) { sum += free_[i] * 4 * rho[i] * (1 - rho[i]); });
-    found.greyness = grey / sum_of(free_);
+    found.greyness = greyness(map_.use(), density());
     return found;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "procedural/optimization/greyness.h"
 #include "procedural/optimization/oc_update.h"
 #include "procedural/optimization/variable_blocks.h"
 
@@ -248,13 +249,7 @@ TopologyIteration TopologyOptimizer<Dim>::iterate() {
     report.volume = mean_of(result, elements_);
     report.sharpness = sharpness();
     report.solver_iterations = found.iterations;
-    double free = 0;
-    for (const double one : ones) free += one;
-    report.greyness = sum_over_variables<double>(result.size(),
-                                                 [&](std::size_t i, double& sum) {
-                                                     sum += ones[i] * 4 * result[i] * (1 - result[i]);
-                                                 }) /
-                      free;
+    report.greyness = greyness(problem_.use, result);
 
     const bool volume_stays = settings_.compliance == 0 || seek_volume(found.total);
     // With three fields, the dilated one is bounded such that the result meets the volume (Wang et al. 2011).

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "procedural/appearance/appearance_optimizer.h"
+#include "procedural/optimization/greyness.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/loaded_elements.h"
 #include "recipe/structure/stopped_search.h"
@@ -124,16 +125,6 @@ class PlateProblems {
     ElementDomain finest_;
 };
 
-double greyness(const DensityGrid& grid) {
-    double sum = 0, free = 0;
-    for (std::size_t i = 0; i < grid.use.size(); ++i) {
-        if (grid.use[i] != ElementUse::free) continue;
-        sum += 4 * grid.density[i] * (1 - grid.density[i]);
-        ++free;
-    }
-    return sum / free;
-}
-
 /// One search, and the plate that it ends with or has got to.
 class PlateSearch {
   public:
@@ -214,7 +205,7 @@ void PlateSearch::show_picture(const AppearanceResult& found, PartDesign& design
 
 void PlateSearch::show_stiffest(const AppearanceResult& found, PartDesign& design) const {
     design.report->densities_compliance = design.report->least_compliance;
-    design.report->greyness = greyness({domain_.size, domain_.use, found.stiffest});
+    design.report->greyness = greyness(domain_.use, found.stiffest);
     design.report->appearance = found.stiffest_appearance;
     cut(found.stiffest, settings_.volume, design);
 }
