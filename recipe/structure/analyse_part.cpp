@@ -32,8 +32,7 @@ std::vector<double> moduli_by_law(const ElementDomain& domain, const Grading& mo
     const DensityGrid places{domain.size, {}, {}};
     parallel_for(relative.size(), [&](std::size_t i) {
         if (domain.use[i] != ElementUse::free) return;
-        const glm::ivec3 element = places.element(i);
-        relative[i] = modulus.at(0.5 * (domain.node(element) + domain.node(element + 1))) / young;
+        relative[i] = modulus.at(domain.centre(places.element(i))) / young;
     });
     return relative;
 }

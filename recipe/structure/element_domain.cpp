@@ -66,8 +66,7 @@ void prescribe_skin(const Recipe& recipe, const Field& body, ElementDomain& doma
             const std::size_t place = static_cast<std::size_t>(x) +
                                       static_cast<std::size_t>(domain.size.x) * static_cast<std::size_t>(row);
             if (domain.use[place] != ElementUse::free) continue;
-            const dvec3 centre = 0.5 * (domain.node(at) + domain.node(at + 1));
-            if (body.value(centre) > -thickness) domain.use[place] = ElementUse::solid;
+            if (body.value(domain.centre(at)) > -thickness) domain.use[place] = ElementUse::solid;
         }
     });
 }

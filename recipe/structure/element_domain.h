@@ -26,6 +26,8 @@ struct ElementDomain {
     double longest_edge() const;
     /// Returns the position of a node, mm; in two dimensions at half the body's height.
     dvec3 node(glm::ivec3 at) const;
+    /// Returns the middle of an element, mm.
+    dvec3 centre(glm::ivec3 at) const { return 0.5 * (node(at) + node(at + 1)); }
 };
 
 /// Divides the body into elements as [optimize] says: an element belongs to it if its centre does. Under an

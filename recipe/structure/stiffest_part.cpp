@@ -73,8 +73,8 @@ class PartOptimizer {
     double share_of(ElementUse use) const;
     void check_solid_share() const;
     double full_compliance() const;
-    DensityGrid cut(const DensityGrid& found, double volume, StructureReport& report) const;
-    void cut_to_bound(const DensityGrid& found, PartDesign& design) const;
+    DensityGrid cut(const DensityGrid& extended, int factor, double volume, StructureReport& report) const;
+    void cut_to_bound(DensityGrid found, PartDesign& design) const;
     void search(TopologyOptimizer<Dim>& optimizer, int iterations, StructureReport& report) const;
     DensityGrid densities(const DensityMap& found) const;
     std::vector<std::uint8_t> far_from_holds(double radius) const;
@@ -221,14 +221,13 @@ double PartOptimizer<Dim>::full_compliance() const {
     return compliance.evaluate(full_densities(full.use)).total;
 }
 
-/// Returns the densities of the shape that fills this share of the body, and analyses it.
+/// Returns the densities of the shape that fills this share of the body, and analyses it. `extended` goes on
+/// beyond the body; under an overhang limit it is refined here, else it is already.
 template <std::size_t Dim>
-DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& found, double volume, StructureReport& report) const {
-    DensityGrid grid = found;
-    const int factor = refinement(domain_.size, recipe_.optimize->overhang);
-    extend_outside(grid, extended_layers);
-    grid = recipe_.optimize->overhang ? with_limited_overhang(grid, volume, factor)
-                                      : refined(grid, factor, Interpolation::cubic);
+DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& extended, int factor, double volume,
+                                    StructureReport& report) const {
+    DensityGrid grid =
+        recipe_.optimize->overhang ? with_limited_overhang(extended, volume, factor) : extended;
     report.stray_pieces = cut_shape(grid, {volume, volume}, of_parts(problem_->anchored, factor),
                                     of_parts(problem_->loaded, factor));
     // A cut element counts by its solid share.
@@ -240,7 +239,7 @@ DensityGrid PartOptimizer<Dim>::cut(const DensityGrid& found, double volume, Str
 /// Cuts the shape from the densities: it fills as much as they do. With a bounded compliance, the shape,
 /// which has no grey, may be lighter; but least sizes hold at the volume of the densities alone.
 template <std::size_t Dim>
-void PartOptimizer<Dim>::cut_to_bound(const DensityGrid& found, PartDesign& design) const {
+void PartOptimizer<Dim>::cut_to_bound(DensityGrid found, PartDesign& design) const {
     const StructureReport before = *design.report;
     const OptimizeRecipe& optimize = *recipe_.optimize;
     const double least = share_of(ElementUse::solid), most = problem_->topology.volume;
@@ -249,10 +248,13 @@ void PartOptimizer<Dim>::cut_to_bound(const DensityGrid& found, PartDesign& desi
     const bool seeks_bound = before.compliance_bound > 0 && !has_least_sizes;
     const int rounds = seeks_bound ? 8 : 1;
     constexpr double enough = 0.003;
+    const int factor = refinement(domain_.size, optimize.overhang);
+    extend_outside(found, extended_layers);
+    if (!optimize.overhang) found = refined(found, factor, Interpolation::cubic);
     double nearest = infinity;
     for (int round = 0; round < rounds && nearest > enough; ++round) {
         StructureReport report = before;
-        DensityGrid grid = cut(found, volume, report);
+        DensityGrid grid = cut(found, factor, volume, report);
         const double ratio =
             seeks_bound ? report.compliance / (before.compliance_bound * report.full_compliance) : 1;
         if (const double miss = std::abs(std::log(ratio)); miss < nearest) {
@@ -287,7 +289,7 @@ PartDesign PartOptimizer<Dim>::optimize() {
         extend_outside(design.grid, extended_layers);
         analyse(*problem_, domain_, problem_->topology.law, design.grid.density, true, nullptr, report);
     } else {
-        cut_to_bound(DensityGrid(design.grid), design);
+        cut_to_bound(std::move(design.grid), design);
     }
     if (optimizer.is_finished() && options_.cancel != nullptr && options_.cancel->cancelled())
         keep_search(file_, optimizer.state(), *design.report);

@@ -31,7 +31,7 @@ CaseReport case_report(const StructuralProblem<Dim>& problem, const ElementDomai
         const double peak = stress_unit * stress[numbers[e]];
         if (!is_foam && peak > result.peak_stress) {
             result.peak_stress = peak;
-            result.stress_at = 0.5 * (domain.node(element) + domain.node(element + 1));
+            result.stress_at = domain.centre(element);
         }
         for (int c = 0; c < 1 << Dim; ++c) {
             const glm::ivec3 corner = element + glm::ivec3(c & 1, c >> 1 & 1, c >> 2 & 1);
