@@ -130,11 +130,7 @@ TEST_CASE("the result has the same bits for any number of threads", "[optimizati
         });
     };
     const Found one = made(1), two = made(2);
-    CHECK(two.design == one.design);
-    CHECK(two.density == one.density);
-    CHECK(two.stiffest == one.stiffest);
-    CHECK(two.appearance == one.appearance);
-    CHECK(two.compliance == one.compliance);
+    check_same(two, one);
 }
 
 TEST_CASE("levels halve the grid and the steps, and the projection comes on at the end", "[optimization]") {

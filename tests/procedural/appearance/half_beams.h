@@ -1,6 +1,7 @@
 // Beams and pictures made in code for the tests of structure and appearance optimisation.
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -76,6 +77,18 @@ inline Found optimized(const PlaneProblemMaker& problem, glm::ivec3 size, const 
                        int width, const AppearanceSettings& settings) {
     AppearanceOptimizer optimizer(problem, size, exemplar, width, settings);
     return optimized(optimizer);
+}
+
+/// Checks that two results are the same to the last bit.
+inline void check_same(const AppearanceResult& found, const AppearanceResult& wanted) {
+    CHECK(found.design == wanted.design);
+    CHECK(found.density == wanted.density);
+    CHECK(found.filtered == wanted.filtered);
+    CHECK(found.stiffest == wanted.stiffest);
+    CHECK(found.appearance == wanted.appearance);
+    CHECK(found.compliance == wanted.compliance);
+    CHECK(found.least_compliance == wanted.least_compliance);
+    CHECK(found.stiffest_appearance == wanted.stiffest_appearance);
 }
 
 /// A by matches that are found from scratch.
