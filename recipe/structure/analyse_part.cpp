@@ -5,7 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/elasticity/cut_cells.h"
 #include "procedural/optimization/density_shape.h"
+#include "recipe/structure/bare_faces.h"
 
 namespace lamella {
 
@@ -27,18 +29,32 @@ void keep_part(const Field& part, const CancelToken* cancel, ElementDomain& doma
 }
 
 /// Returns the relative modulus of each element, by the foam's law; 1 where it is solid.
-std::vector<double> moduli_by_law(const ElementDomain& domain, const Grading& modulus, double young) {
+std::vector<double> moduli_by_law(const ElementDomain& domain, const BuiltFoam& foam, double young) {
     std::vector<double> relative(domain.use.size(), 1.0);
     const DensityGrid places{domain.size, {}, {}};
     parallel_for(relative.size(), [&](std::size_t i) {
         if (domain.use[i] != ElementUse::free) return;
-        relative[i] = modulus.at(domain.centre(places.element(i))) / young;
+        relative[i] = foam.modulus->made->at(domain.centre(places.element(i))) / young;
     });
     return relative;
 }
 
+/// Makes the foam below bare faces as soft as its cut cells are.
+void soften_faces(const Field& body, const ElementDomain& domain, const BuiltFoam& foam,
+                  std::span<const std::uint8_t> held, std::vector<double>& relative) {
+    const DensityGrid places{domain.size, {}, {}};
+    const std::vector<Interval> depths =
+        depths_below_faces(body, domain, held, cut_cells_depth(foam.cell.limits.hi));
+    parallel_for(relative.size(), [&](std::size_t i) {
+        if (depths[i].lo == infinity) return;
+        const dvec3 centre = domain.centre(places.element(i));
+        const double cell = foam.cell.made->at(centre);
+        relative[i] *= cut_cells_share(depths[i], cell, foam.member.made->at(centre) / cell);
+    });
+}
+
 template <std::size_t Dim>
-StructureReport analysed(const Recipe& recipe, ElementDomain domain, const GradingPtr& modulus,
+StructureReport analysed(const Recipe& recipe, const BuiltJob& built, ElementDomain domain, bool by_law,
                          Gradings& gradings, const CancelToken* cancel) {
     const StructuralProblem<Dim> problem =
         structural_problem<Dim>(recipe, domain, gradings, material_poisson);
@@ -46,10 +62,13 @@ StructureReport analysed(const Recipe& recipe, ElementDomain domain, const Gradi
     describe(problem, domain, report);
     report.volume_bound = 1;
     std::vector<double> density(domain.use.size(), 1.0);
-    if (modulus) density = moduli_by_law(domain, *modulus, problem.material.elastic.young);
-    analyse(problem, domain, make_penalty_law({1, void_modulus, 0}), density, modulus != nullptr, cancel,
-            report);
-    if (modulus) {
+    if (by_law) {
+        density = moduli_by_law(domain, *built.foam, problem.material.elastic.young);
+        if (softens_at_faces(recipe))
+            soften_faces(*built.body, domain, *built.foam, problem.anchored_or_loaded(), density);
+    }
+    analyse(problem, domain, make_penalty_law({1, void_modulus, 0}), density, by_law, cancel, report);
+    if (by_law) {
         report.volume = report.mass = 0;  // what was summed were moduli
         note_bare_foam(recipe, report);
     }
@@ -79,10 +98,9 @@ StructureReport analyse_part(const Recipe& given, const BuiltJob& built, const A
         gradings.set_body(built.body);
         ElementDomain domain = element_domain(recipe, *built.body, built.regions, options.cancel);
         if (!by_law) keep_part(*built.designed.part, options.cancel, domain);
-        const GradingPtr modulus = by_law ? built.foam->modulus->made : nullptr;
         return domain.dimensions == 2
-                   ? analysed<2>(recipe, std::move(domain), modulus, gradings, options.cancel)
-                   : analysed<3>(recipe, std::move(domain), modulus, gradings, options.cancel);
+                   ? analysed<2>(recipe, built, std::move(domain), by_law, gradings, options.cancel)
+                   : analysed<3>(recipe, built, std::move(domain), by_law, gradings, options.cancel);
     });
 }
 

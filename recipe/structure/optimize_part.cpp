@@ -44,7 +44,11 @@ Recipe search_problem(const Recipe& recipe) {
         const bool rules_foam = region.make == RegionMake::foam && drives_foam(recipe.optimize->result);
         if ((prescribes || rules_foam) && !late.fields.contains(region.field)) kept.regions.push_back(region);
     }
-    if (drives_foam(recipe.optimize->result)) kept.foam = recipe.foam;
+    if (drives_foam(recipe.optimize->result)) {
+        kept.foam = recipe.foam;
+        // Only that there is one counts: its beams may follow the result.
+        if (recipe.frame) kept.frame.emplace();
+    }
     kept.material = recipe.material;
     if (recipe.optimize->result != OptimizeResult::solid) kept.skin = recipe.skin;
     kept.loads = recipe.loads;

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/elasticity/cut_cells.h"
 #include "procedural/grading/region_grading.h"
 #include "recipe/base_material.h"
 #include "recipe/build/build_foam.h"
@@ -189,6 +190,25 @@ std::vector<FoamRange> OptimizedFoam::ranges_at(std::span<const dvec3> places) {
         range.densities = {middle, middle};
     });
     return ranges;
+}
+
+std::size_t OptimizedFoam::law_below_face(const FoamRange& range, Interval depths) {
+    constexpr double depth_steps_an_element = 8, steps_of_other = 64;
+    const double depth_step = depths.width() / depth_steps_an_element,
+                 other_step = whole_.other / steps_of_other;
+    const long depth = std::lround(depths.lo / depth_step), other = std::lround(range.other / other_step);
+    const auto [found, is_new] = law_of_depth_.emplace(std::pair(depth, other), laws_.size());
+    if (!is_new) return found->second;
+    const double shallow = depth_step * static_cast<double>(depth),
+                 kept = other_step * static_cast<double>(other);
+    FoamLawTable table{law_name(recipe_), laws_.front().foam->points()};
+    for (FoamLawPoint& point : table.points) {
+        const double cell = drives_cells_ ? kept / point.ratio : kept;
+        point.young *= cut_cells_share({shallow, shallow + depths.width()}, cell, point.ratio);
+        point.low_factor = point.high_factor = 1;  // the points are the material's already
+    }
+    laws_.push_back(law_of(table));
+    return found->second;
 }
 
 /// Returns the key of the last region whose number counts at a place.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "procedural/optimization/modulus_law.h"
@@ -34,7 +35,7 @@ class OptimizedFoam {
     OptimizedFoam(const Recipe& recipe, Gradings& gradings);
 
     const std::shared_ptr<const ModulusLaw>& law() const { return laws_.front().modulus; }
-    /// That of the foam without regions, and those of the places that were asked for.
+    /// That of the foam without regions, and those of the places and depths that were asked for.
     std::vector<std::shared_ptr<const ModulusLaw>> laws() const;
     /// Solid volume fractions of the sparsest and the densest foam within the limits of cells and beams,
     /// without regions.
@@ -48,6 +49,13 @@ class OptimizedFoam {
     /// Returns what the foam can be at each of these places.
     std::vector<FoamRange> ranges_at(std::span<const dvec3> places);
     const FoamRange& without_regions() const { return whole_; }
+    /// Returns the place in laws() of that of the foam between two depths (mm) below a bare face, where cut
+    /// cells make it softer: see cut_cells_share(). Depths and the number that is not driven are rounded.
+    std::size_t law_below_face(const FoamRange& range, Interval depths);
+    /// The largest cell of a range, mm.
+    double largest_cell(const FoamRange& range) const {
+        return drives_cells_ ? range.driven.hi : range.other;
+    }
     /// Throws InputError that names the region whose numbers leave the law, or have none.
     void check(const FoamRange& range, dvec3 place) const;
     /// Returns the driven number (foam.cell or foam.beam, mm) that gives a density once regions are applied
@@ -85,6 +93,7 @@ class OptimizedFoam {
     GradingPtr wall_, window_;             ///< null unless regions may change the law
     std::vector<RegionalNumber> regional_;
     std::map<Shape, std::optional<std::size_t>> law_of_shape_;
+    std::map<std::pair<long, long>, std::size_t> law_of_depth_;
 };
 
 /// Returns the centres of the elements of a grid in a box, x fastest, without the rounding of a box that was

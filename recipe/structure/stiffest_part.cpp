@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "procedural/elasticity/cut_cells.h"
 #include "procedural/optimization/overhang_shape.h"
+#include "recipe/structure/bare_faces.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/loaded_elements.h"
 #include "recipe/structure/optimized_foam.h"
@@ -38,7 +40,7 @@ TopologySettings topology_settings(const OptimizeRecipe& optimize, const Element
 template <std::size_t Dim>
 class PartOptimizer {
   public:
-    PartOptimizer(const Recipe& recipe, ElementDomain domain, Gradings& gradings,
+    PartOptimizer(const Recipe& recipe, const Field& body, ElementDomain domain, Gradings& gradings,
                   const OptimizeOptions& options, const std::filesystem::path& file)
         : recipe_(recipe), options_(options), file_(file), domain_(std::move(domain)) {
         if (drives_foam(recipe.optimize->result)) foam_.emplace(recipe, gradings);
@@ -51,7 +53,9 @@ class PartOptimizer {
             topology.law = foam_->law();
             topology.least_density = foam_->densities().lo;
             topology.greatest_density = foam_->densities().hi;
-            if (foam_->has_regions()) limit_by_regions();
+            std::vector<FoamRange> ranges;
+            if (foam_->has_regions()) ranges = limit_by_regions();
+            if (softens_at_faces(recipe)) soften_faces(body, ranges);
             const Interval volumes = foam_volumes();
             if (optimize.kind == OptimizeKind::lightness)
                 topology.volume = std::min(topology.volume, OptimizeRecipe::whole_part * volumes.hi);
@@ -68,7 +72,8 @@ class PartOptimizer {
     PartDesign optimize();
 
   private:
-    void limit_by_regions();
+    std::vector<FoamRange> limit_by_regions();
+    void soften_faces(const Field& body, std::span<const FoamRange> ranges);
     Interval foam_volumes() const;
     double share_of(ElementUse use) const;
     void check_solid_share() const;
@@ -88,12 +93,12 @@ class PartOptimizer {
     std::optional<StructuralProblem<Dim>> problem_;
 };
 
-/// Gives each element the densities and the law that the foam has there.
+/// Gives each element the densities and the law that the foam has there, and returns the range of each.
 template <std::size_t Dim>
-void PartOptimizer<Dim>::limit_by_regions() {
+std::vector<FoamRange> PartOptimizer<Dim>::limit_by_regions() {
     TopologyProblem<Dim>& topology = problem_->topology;
     const std::vector<dvec3> places = element_centres(domain_.size, domain_.box);
-    const std::vector<FoamRange> ranges = foam_->ranges_at(places);
+    std::vector<FoamRange> ranges = foam_->ranges_at(places);
     topology.limits.assign(places.size(), Interval{0, 0});
     topology.law_of.assign(places.size(), 0);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -108,6 +113,24 @@ void PartOptimizer<Dim>::limit_by_regions() {
         throw InputError(
             "optimize.result: regions leave no foam to the search: they set its driven number everywhere, or "
             "are solid or empty; accepted: regions of some of the part");
+    return ranges;
+}
+
+/// Gives elements near bare faces a softer law. `ranges` is empty for a foam without regions.
+template <std::size_t Dim>
+void PartOptimizer<Dim>::soften_faces(const Field& body, std::span<const FoamRange> ranges) {
+    TopologyProblem<Dim>& topology = problem_->topology;
+    double cell = foam_->largest_cell(foam_->without_regions());
+    for (const FoamRange& range : ranges) cell = std::max(cell, foam_->largest_cell(range));
+    const std::vector<Interval> depths =
+        depths_below_faces(body, domain_, problem_->anchored_or_loaded(), cut_cells_depth(cell));
+    topology.law_of.resize(depths.size(), 0);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        if (depths[i].lo == infinity) continue;
+        const FoamRange& range = ranges.empty() ? foam_->without_regions() : ranges[i];
+        topology.law_of[i] = static_cast<std::uint32_t>(foam_->law_below_face(range, depths[i]));
+    }
+    topology.laws = foam_->laws();
 }
 
 /// Returns the volumes of the part with the sparsest foam and with the densest.
@@ -167,9 +190,7 @@ DensityGrid PartOptimizer<Dim>::densities(const DensityMap& found) const {
 /// or loads it, and a member ends at the border without becoming thin.
 template <std::size_t Dim>
 std::vector<std::uint8_t> PartOptimizer<Dim>::far_from_holds(double radius) const {
-    std::vector<std::uint8_t> flags = problem_->anchored;
-    for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] != 0 || problem_->loaded[i] != 0;
-    flags = elements_near(domain_.size, flags, radius);
+    std::vector<std::uint8_t> flags = elements_near(domain_.size, problem_->anchored_or_loaded(), radius);
     for (std::uint8_t& flag : flags) flag = flag == 0;
     return flags;
 }
@@ -308,8 +329,8 @@ PartDesign stiffest_part(const Recipe& recipe, const Field& body, const BuiltReg
                          const std::filesystem::path& search) {
     ElementDomain domain = element_domain(recipe, body, regions, options.cancel);
     if (domain.dimensions == 2)
-        return PartOptimizer<2>(recipe, std::move(domain), gradings, options, search).optimize();
-    return PartOptimizer<3>(recipe, std::move(domain), gradings, options, search).optimize();
+        return PartOptimizer<2>(recipe, body, std::move(domain), gradings, options, search).optimize();
+    return PartOptimizer<3>(recipe, body, std::move(domain), gradings, options, search).optimize();
 }
 
 }  // namespace lamella

@@ -19,6 +19,13 @@ struct StructuralProblem {
     double displacement_unit = 1;
     std::vector<std::uint8_t> anchored{}, loaded{};  ///< by element: touches such a node
     std::vector<std::string> notes{};                ///< pieces of the body that were left out
+
+    /// Flags the elements that an anchor or a load touches.
+    std::vector<std::uint8_t> anchored_or_loaded() const {
+        std::vector<std::uint8_t> flags = anchored;
+        for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = flags[i] != 0 || loaded[i] != 0;
+        return flags;
+    }
 };
 
 /// Stands for the material's Poisson's ratio.

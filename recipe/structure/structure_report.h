@@ -65,7 +65,7 @@ struct StructureReport {
 template <std::size_t Dim>
 void describe(const StructuralProblem<Dim>& problem, const ElementDomain& domain, StructureReport& report);
 
-/// Adds a note if foam of a known law has neither skin nor frame: its cut cells carry less than the law says.
+/// Adds a note if foam has neither skin nor frame, and its law does not know how little its cut cells carry.
 void note_bare_foam(const Recipe& recipe, StructureReport& report);
 
 /// Returns the densities of the body with material everywhere.
