@@ -25,6 +25,7 @@ void add_serve_command(CLI::App& root);
 void add_homogenize_command(CLI::App& root);
 void add_optimize_command(CLI::App& root);
 void add_analyze_command(CLI::App& root);
+void add_pattern_command(CLI::App& root);
 void add_printers_command(CLI::App& root);
 void add_materials_command(CLI::App& root);
 void add_keys_command(CLI::App& root);

@@ -77,6 +77,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_homogenize_command(root);
         add_optimize_command(root);
         add_analyze_command(root);
+        add_pattern_command(root);
         add_printers_command(root);
         add_materials_command(root);
         add_keys_command(root);

@@ -1,0 +1,248 @@
+// Sweeps over the windows of all sites, in parallel.
+#include "procedural/texture/window_matches.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "procedural/voronoi/counter_hash.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int largest_exemplar = 1024;
+constexpr std::size_t sites_a_task = 256;
+constexpr std::array<int, 3> steps{1, 2, 4};
+constexpr std::size_t most_candidates = 4 * steps.size() + 12;
+constexpr float newest_share = 0.25F;  // of the newest count of uses in their mean over sweeps
+
+std::uint8_t byte_of(double share) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+}
+
+std::vector<std::uint8_t> bytes_of(const GreyImage& image) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(image.values.size());
+    for (const double value : image.values) bytes.push_back(byte_of(value));
+    return bytes;
+}
+
+int below(std::uint64_t random, int count) {
+    return static_cast<int>((random >> 32U) * static_cast<std::uint64_t>(count) >> 32U);
+}
+
+}  // namespace
+
+/// A window of the sites, its best match so far, and candidates.
+struct WindowMatches::Search {
+    std::vector<std::uint8_t> solid, distance;
+    std::array<ExemplarPixel, most_candidates> candidates;
+    std::array<std::size_t, most_candidates> begins;
+    std::array<std::uint32_t, most_candidates> by_solid, by_distance;
+    std::size_t count = 0;
+    ExemplarPixel best{};
+    float cost = 0, difference = 0;
+
+    void consider(ExemplarPixel pixel) {
+        if (std::find(candidates.begin(), candidates.begin() + count, pixel) == candidates.begin() + count)
+            candidates[count++] = pixel;
+    }
+};
+
+WindowMatches::WindowMatches(const SiteWindows& windows, const Exemplar& exemplar, int level,
+                             const SynthesisSettings& settings)
+    : windows_(windows),
+      settings_(settings),
+      level_(level),
+      width_(exemplar.solid.width),
+      height_(exemplar.solid.height),
+      radius_(windows.radius()),
+      columns_(static_cast<std::size_t>(std::max(width_ - windows.size + 1, 0))),
+      rows_(static_cast<std::size_t>(std::max(height_ - windows.size + 1, 0))),
+      difference_(windows.size, 2) {
+    if (std::min(width_, height_) < windows.size || std::max(width_, height_) > largest_exemplar)
+        throw InputError("an exemplar of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                         " pixels; expected " + std::to_string(windows.size) + " to " +
+                         std::to_string(largest_exemplar) + " in both directions");
+    exemplar_solid_ = difference_.all_rows(bytes_of(exemplar.solid), width_, height_);
+    exemplar_distance_ = difference_.all_rows(bytes_of(exemplar.distance), width_, height_);
+    const std::size_t sites = windows.sites.size() / windows.area();
+    matches_.resize(sites);
+    next_.resize(sites);
+    differences_.resize(sites);
+    use_.assign(columns_ * rows_, 0);
+    for (std::size_t i = 0; i < sites; ++i) {
+        const CounterHash random(settings.seed, level, 0, static_cast<std::int64_t>(i), 0);
+        matches_[i] = {static_cast<std::int16_t>(radius_ + below(random.bits(0), static_cast<int>(columns_))),
+                       static_cast<std::int16_t>(radius_ + below(random.bits(1), static_cast<int>(rows_)))};
+    }
+}
+
+void WindowMatches::begin_with_patches() {
+    const double patches = 2.0 * static_cast<double>(matches_.size()) / static_cast<double>(windows_.area());
+    const double chance = patches / static_cast<double>(matches_.size());
+    std::vector<int> nearest(matches_.size(), std::numeric_limits<int>::max());
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+        const CounterHash random(settings_.seed, level_, -1, static_cast<std::int64_t>(i), 0);
+        if (random.uniform(0) > chance) continue;
+        const ExemplarPixel middle = matches_[i];
+        const auto window = windows_.of(i);
+        for (std::size_t k = 0; k < window.size(); ++k) {
+            const int across = static_cast<int>(k) % windows_.size - radius_,
+                      up = static_cast<int>(k) / windows_.size - radius_;
+            const int square = across * across + up * up;
+            if (square >= nearest[window[k]]) continue;
+            nearest[window[k]] = square;
+            next_[window[k]] = clamped(middle.x + across, middle.y + up);
+        }
+    }
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+        if (nearest[i] < std::numeric_limits<int>::max()) matches_[i] = next_[i];
+    }
+}
+
+void WindowMatches::take_bytes(const SitePattern& pattern) {
+    solid_.resize(pattern.solid.size());
+    distance_.resize(pattern.distance.size());
+    for (std::size_t i = 0; i < solid_.size(); ++i) {
+        solid_[i] = byte_of(pattern.solid[i]);
+        distance_[i] = byte_of(pattern.distance[i]);
+    }
+}
+
+/// Counts for each window of the exemplar how many matches lie in it, against their mean.
+void WindowMatches::average_use() {
+    const std::size_t stride = static_cast<std::size_t>(width_) + 1;
+    std::vector<std::int64_t> sums(stride * (static_cast<std::size_t>(height_) + 1), 0);
+    for (const ExemplarPixel match : matches_)
+        ++sums[(static_cast<std::size_t>(match.y) + 1) * stride + static_cast<std::size_t>(match.x) + 1];
+    for (std::size_t y = 1; y <= static_cast<std::size_t>(height_); ++y) {
+        std::int64_t row = 0;
+        for (std::size_t x = 1; x < stride; ++x) {
+            row += sums[y * stride + x];
+            sums[y * stride + x] = row + sums[(y - 1) * stride + x];
+        }
+    }
+    const double sites = static_cast<double>(matches_.size()),
+                 centres = static_cast<double>(columns_ * rows_);
+    // Matches are middles of windows, so there are none in a margin about them.
+    for (std::size_t y = 0; y < rows_; ++y) {
+        for (std::size_t x = 0; x < columns_; ++x) {
+            const auto radius = static_cast<std::size_t>(radius_),
+                       size = static_cast<std::size_t>(windows_.size);
+            const std::int64_t used = sums[(y + size) * stride + x + size] - sums[y * stride + x + size] -
+                                      sums[(y + size) * stride + x] + sums[y * stride + x];
+            const auto covered = [&](std::size_t at, std::size_t count) {
+                const std::size_t lo = std::max(at, radius), hi = std::min(at + size, count + radius);
+                return static_cast<double>(hi - lo);
+            };
+            const double usual = sites * covered(x, columns_) * covered(y, rows_) / centres;
+            const auto excess = static_cast<float>(static_cast<double>(used) / usual - 1);
+            float& mean = use_[y * columns_ + x];
+            mean += (sweeps_ == 0 ? 1 : newest_share) * (excess - mean);
+        }
+    }
+}
+
+ExemplarPixel WindowMatches::clamped(int x, int y) const {
+    return {static_cast<std::int16_t>(std::clamp(x, radius_, width_ - 1 - radius_)),
+            static_cast<std::int16_t>(std::clamp(y, radius_, height_ - 1 - radius_))};
+}
+
+void WindowMatches::consider_neighbours(std::size_t site, Search& search) const {
+    const auto window = windows_.of(site);
+    const auto from = [&](int across, int up) {
+        if (std::max(std::abs(across), std::abs(up)) > radius_) return;
+        const ExemplarPixel match = matches_[window[windows_.place(across, up)]];
+        search.consider(clamped(match.x - across, match.y - up));
+    };
+    for (const int step : steps) {
+        from(-step, 0);
+        from(step, 0);
+        from(0, -step);
+        from(0, step);
+    }
+}
+
+void WindowMatches::consider_random(std::size_t site, Search& search) const {
+    const CounterHash random(settings_.seed, level_, static_cast<std::int64_t>(sweeps_) + 1,
+                             static_cast<std::int64_t>(site), 0);
+    std::uint64_t draw = 0;
+    for (int reach = std::max(width_, height_); reach > 0; reach /= 2) {
+        const int x = search.best.x + below(random.bits(draw), 2 * reach + 1) - reach,
+                  y = search.best.y + below(random.bits(draw + 1), 2 * reach + 1) - reach;
+        draw += 2;
+        search.consider(clamped(x, y));
+    }
+}
+
+/// Takes the candidate of the lowest cost, unless that of the best match is lower, and forgets the others.
+void WindowMatches::compare(Search& search) const {
+    for (std::size_t i = 0; i < search.count; ++i) {
+        search.begins[i] = difference_.window_begin(search.candidates[i].x - radius_,
+                                                    search.candidates[i].y - radius_, height_);
+    }
+    const std::span<const std::size_t> begins(search.begins.data(), search.count);
+    difference_.differences(search.solid.data(), exemplar_solid_.data(), begins, search.by_solid.data());
+    difference_.differences(search.distance.data(), exemplar_distance_.data(), begins,
+                            search.by_distance.data());
+    const auto scale = static_cast<float>(1 / (difference_.unit() * static_cast<double>(windows_.area())));
+    const auto spread = static_cast<float>(settings_.spread / static_cast<double>(windows_.area()));
+    for (std::size_t i = 0; i < search.count; ++i) {
+        const ExemplarPixel pixel = search.candidates[i];
+        const std::size_t place = window_of(pixel), best = window_of(search.best);
+        const float difference = scale * static_cast<float>(search.by_solid[i] + search.by_distance[i]);
+        const float cost = difference + spread * std::max(use_[place], 0.0F);
+        if (cost > search.cost || (cost == search.cost && place >= best)) continue;
+        search.cost = cost;
+        search.difference = difference;
+        search.best = pixel;
+    }
+    search.count = 0;
+}
+
+void WindowMatches::improve(std::size_t site, Search& search) {
+    const auto window = windows_.of(site);
+    const std::size_t row_bytes = difference_.row_bytes(), size = static_cast<std::size_t>(windows_.size);
+    for (std::size_t y = 0; y < size; ++y) {
+        for (std::size_t x = 0; x < size; ++x) {
+            search.solid[y * row_bytes + x] = solid_[window[y * size + x]];
+            search.distance[y * row_bytes + x] = distance_[window[y * size + x]];
+        }
+    }
+    search.best = clamped(width_, height_);  // the highest, so that an equal one replaces it
+    search.cost = std::numeric_limits<float>::infinity();
+    search.consider(matches_[site]);
+    consider_neighbours(site, search);
+    compare(search);
+    consider_random(site, search);
+    compare(search);
+    next_[site] = search.best;
+    differences_[site] = search.difference;
+}
+
+void WindowMatches::sweep(const SitePattern& pattern, int sweeps) {
+    take_bytes(pattern);
+    for (int i = 0; i < sweeps; ++i) {
+        stop_if_cancelled(settings_.cancel);
+        average_use();
+        const std::size_t tasks = (matches_.size() + sites_a_task - 1) / sites_a_task;
+        parallel_for(tasks, [&](std::size_t task) {
+            Search search;
+            search.solid.assign(difference_.window_bytes(), 0);
+            search.distance.assign(difference_.window_bytes(), 0);
+            const std::size_t end = std::min(matches_.size(), (task + 1) * sites_a_task);
+            for (std::size_t site = task * sites_a_task; site < end; ++site) improve(site, search);
+        });
+        matches_.swap(next_);
+        ++sweeps_;
+    }
+}
+
+}  // namespace lamella
