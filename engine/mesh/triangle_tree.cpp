@@ -30,8 +30,10 @@ SurfacePoint closest_point(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
     const dvec3 areas(glm::dot(glm::cross(bc, p - b), n), glm::dot(glm::cross(ca, p - c), n),
                       glm::dot(glm::cross(ab, p - a), n));
     SurfacePoint best;
-    if (nn > 0 && areas.x >= 0 && areas.y >= 0 && areas.z >= 0) {
-        best.weights = areas / (areas.x + areas.y + areas.z);
+    const double whole = areas.x + areas.y + areas.z;
+    // A triangle that is a line but for its rounding has a normal, and no areas.
+    if (nn > 0 && whole > 0 && areas.x >= 0 && areas.y >= 0 && areas.z >= 0) {
+        best.weights = areas / whole;
         best.distance = std::abs(glm::dot(n, p - a)) / std::sqrt(nn);
         return best;
     }

@@ -20,8 +20,12 @@ inline double squared_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
     const dvec3 ab = b - a, bc = c - b, ca = a - c;
     const dvec3 n = glm::cross(ab, c - a);
     const double area = glm::dot(n, n);
-    const bool inside = area > 0 && glm::dot(glm::cross(ab, n), p - a) <= 0 &&
-                        glm::dot(glm::cross(bc, n), p - b) <= 0 && glm::dot(glm::cross(ca, n), p - c) <= 0;
+    const dvec3 beyond(glm::dot(glm::cross(ab, n), p - a), glm::dot(glm::cross(bc, n), p - b),
+                       glm::dot(glm::cross(ca, n), p - c));
+    // A triangle that is a line but for its rounding has a normal, and a point may be beyond none of its
+    // sides.
+    const bool inside =
+        area > 0 && beyond.x <= 0 && beyond.y <= 0 && beyond.z <= 0 && beyond.x + beyond.y + beyond.z < 0;
     if (inside) {
         const double h = glm::dot(n, p - a);
         return h * h / area;

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/mesh/triangle_tree.h"
+#include "engine/solids/triangle_distance.h"
 #include "tests/engine/mesh/mesh_samples.h"
 #include "tests/procedural/grading/grading_checks.h"
 #include "tests/procedural/volume/scratch_folder.h"
@@ -94,6 +95,12 @@ TEST_CASE("the closest point of a triangle without area is that of its edges") {
     const SurfacePoint spot = closest_point({3, 4, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0});
     CHECK(spot.distance == 5);
     CHECK(spot.weights.x + spot.weights.y + spot.weights.z == 1);
+    // A line but for its rounding, which has a normal: the point lies beyond its end at (0, 0, 4).
+    const dvec3 a(0, 0, 2), b(-5.87747175e-39, 2.93873588e-39, 0), c(0, 0, 4), p(2, 4, 9);
+    const SurfacePoint end = closest_point(p, a, b, c);
+    CHECK(end.distance == Approx(std::sqrt(45.0)));
+    CHECK(end.weights == dvec3(0, 0, 1));
+    CHECK(squared_distance(p, a, b, c) == Approx(45));
 }
 
 TEST_CASE("the number at a point is that of the closest of all triangles, the first of equal ones") {
