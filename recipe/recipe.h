@@ -196,6 +196,8 @@ struct SkinRecipe {
     double image_size = 0;             ///< image: length that its width covers, mm
     double threshold = 0.5;            ///< image: grey, 0 to 1, below which it is solid
     bool invert = false;               ///< image: solid where it is bright
+    double gap = 0;                    ///< by-example: least width of gaps, mm; 0: any
+    dvec3 direction{0};                ///< by-example: where the picture's top points; 0: smooth by itself
     std::int64_t drains = 0;  ///< holes per closed cavity: at its lowest point, and with 2 also at its
                               ///< highest
     double drain_radius = 0;  ///< mm; 0: derived from the skin

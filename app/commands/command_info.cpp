@@ -81,7 +81,16 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
             json["too_small_for_a_window"] = built.pattern->closed;
         } else {
             json["open_share"] = built.pattern->open_share;
-            json["islands_left_out"] = built.pattern->islands;
+            if (built.pattern->pieces > 0) {
+                json["picture_open_share"] = built.pattern->picture_share;
+                json["pieces"] = built.pattern->pieces;
+                json["bridges"] = built.pattern->bridges;
+                json["too_small_to_keep"] = built.pattern->dropped;
+                json["site_mm"] = built.pattern->site;
+                json["bytes"] = built.pattern->bytes;
+            } else {
+                json["islands_left_out"] = built.pattern->islands;
+            }
         }
     }
     auto holes = Json::array();
@@ -241,6 +250,14 @@ std::string skin_text(const Json& skin) {
         text += fmt::format(", {} windows ({}), {} cells too small for one",
                             skin["windows"].get<std::size_t>(), skin["pattern"].get<std::string>(),
                             skin["too_small_for_a_window"].get<std::size_t>());
+    } else if (skin.contains("pieces")) {
+        text += fmt::format(", {:.1f} % open (its picture {:.1f} %), computed every {:.3g} mm, {:.1f} MB; ",
+                            100 * skin["open_share"].get<double>(),
+                            100 * skin["picture_open_share"].get<double>(), skin["site_mm"].get<double>(),
+                            skin["bytes"].get<double>() / 1e6);
+        text += fmt::format("{} pieces, joined by {} bridges, and {} too small to keep",
+                            skin["pieces"].get<std::size_t>(), skin["bridges"].get<std::size_t>(),
+                            skin["too_small_to_keep"].get<std::size_t>());
     } else if (skin.contains("open_share")) {
         text +=
             fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/texture/carried_tangent.h"
 
 namespace lamella {
 
@@ -22,15 +23,6 @@ struct Step {
     float cosine, sine;  ///< of the angle from the frame of the site to that of the neighbour
 };
 
-/// Returns the tangent of one site where another one's normal holds, turned the shortest way.
-dvec3 carried(dvec3 tangent, dvec3 from, dvec3 to) {
-    constexpr double opposite = -0.99;
-    const double cosine = glm::dot(from, to);
-    if (cosine < opposite) return tangent;
-    const dvec3 axis = glm::cross(from, to);
-    return tangent * cosine + glm::cross(axis, tangent) + axis * (glm::dot(axis, tangent) / (1 + cosine));
-}
-
 std::vector<Step> steps_of(const SurfaceSites& sites) {
     std::vector<Step> steps(sites.adjacent.size());
     parallel_for(sites.size(), [&](std::size_t i) {
@@ -43,7 +35,7 @@ std::vector<Step> steps_of(const SurfaceSites& sites) {
             if (length > 0) flat *= std::sqrt(glm::dot(way, way)) / length;
             flat /= sites.spacing;
             const dvec3 there = sites.tangents[other], up = glm::cross(sites.normals[other], there);
-            const dvec3 here = carried(t, n, sites.normals[other]);
+            const dvec3 here = carried_tangent(t, n, sites.normals[other]);
             dvec2 turn(glm::dot(here, there), -glm::dot(here, up));
             const double size = std::sqrt(glm::dot(turn, turn));
             turn = size > 0 ? turn / size : dvec2(1, 0);

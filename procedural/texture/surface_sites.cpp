@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "procedural/skin/surface_seeds.h"
-#include "procedural/voronoi/counter_hash.h"
+#include "procedural/texture/lattice_hash.h"
 
 namespace lamella {
 
@@ -58,12 +58,6 @@ class SiteCubes {
     }
 
   private:
-    struct Hash {
-        std::size_t operator()(const glm::i64vec3& at) const {
-            return static_cast<std::size_t>(CounterHash(0, 0, at.x, at.y, at.z).bits(0));
-        }
-    };
-
     /// Cubes of a period are a little larger, so that a whole number of them fits.
     double side(int axis) const {
         return count_[axis] > 0 ? sites_.period[axis] / static_cast<double>(count_[axis]) : side_;
@@ -84,7 +78,7 @@ class SiteCubes {
     const SurfaceSites& sites_;
     double side_;
     glm::i64vec3 count_{0};  // along axes along which the sites repeat
-    std::unordered_map<glm::i64vec3, std::vector<std::uint32_t>, Hash> cubes_;
+    std::unordered_map<glm::i64vec3, std::vector<std::uint32_t>, LatticeHash> cubes_;
 };
 
 }  // namespace

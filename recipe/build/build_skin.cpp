@@ -8,6 +8,7 @@
 #include "engine/solids/primitives.h"
 #include "procedural/skin/image_windows.h"
 #include "procedural/skin/surface_windows.h"
+#include "procedural/texture/surface_pattern.h"
 
 namespace lamella {
 
@@ -56,6 +57,32 @@ FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, doubl
                                 std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
 }
 
+FieldPtr by_example(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+                    Gradings& gradings, PatternReport& report) {
+    const SkinRecipe& skin = *recipe.skin;
+    const auto strut = gradings.resolve(skin.strut)->constant();
+    if (!strut) throw InputError("the strut of a pattern is the same everywhere; accepted: a number");
+    SurfacePatternSettings settings;
+    settings.example = {.size = skin.image_size,
+                        .strut = *strut,
+                        .gap = skin.gap,
+                        .threshold = skin.threshold,
+                        .invert = skin.invert};
+    settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
+    if (skin.direction != dvec3(0)) settings.axis = skin.direction;
+    settings.depth = depth;
+    const auto pattern = std::make_shared<const SurfacePattern>(read_picture(skin.image), *body, settings);
+    const PrintablePattern& made = pattern->pattern();
+    report.open_share = 1 - made.share;
+    report.picture_share = 1 - pattern->wanted_share();
+    report.pieces = made.pieces;
+    report.bridges = made.lines;
+    report.dropped = made.dropped;
+    report.site = pattern->spacing();
+    report.bytes = pattern->bytes();
+    return make_patterned_shell(std::move(shell), pattern);
+}
+
 }  // namespace
 
 std::span<const PatternBuilder> pattern_builders() {
@@ -63,7 +90,11 @@ std::span<const PatternBuilder> pattern_builders() {
         {{"closed", {}, {}}, nullptr},
         {{"voronoi", {"window", "strut"}, {"corner", "seed"}}, voronoi},
         {{"hexagons", {"window", "strut"}, {"corner"}}, hexagons},
-        {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image}};
+        {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image},
+        {{"by-example",
+          {"image", "image_size", "strut"},
+          {"threshold", "invert", "gap", "direction", "seed"}},
+         by_example}};
     return list;
 }
 

@@ -65,15 +65,16 @@ void add_pattern(std::vector<Setting>& t) {
                               .limits = {0, 1000},
                               .fallback = "half the strut",
                               .help = "Radius of the windows' corners."});
-    add_skin_row<&S::seed>(t, "seed", "--skin-seed",
-                           {.limits = {0, 9223372036854775807.0},
-                            .fallback = format_value(S{}.seed),
-                            .help = "Seed of the random numbers for Voronoi windows."});
+    add_skin_row<&S::seed>(
+        t, "seed", "--skin-seed",
+        {.limits = {0, 9223372036854775807.0},
+         .fallback = format_value(S{}.seed),
+         .help = "Seed of the random numbers for Voronoi windows and patterns by example."});
 }
 
 void add_image_pattern(std::vector<Setting>& t) {
     add_skin_row<&S::image>(t, "image", "--skin-image",
-                            {.fallback = "required by image",
+                            {.fallback = "required by image, by-example",
                              .help = "Picture whose dark parts are solid, on white where it is transparent; "
                                      "in a recipe, relative to the "
                                      "recipe's folder.",
@@ -81,7 +82,7 @@ void add_image_pattern(std::vector<Setting>& t) {
     add_skin_row<&S::image_size>(t, "image_size", "--skin-image-size",
                                  {.unit = "mm",
                                   .limits = {0.01, 1e5},
-                                  .fallback = "required by image",
+                                  .fallback = "required by image, by-example",
                                   .help = "Length that the picture's width covers."});
     add_skin_row<&S::threshold>(t, "threshold", "--skin-threshold",
                                 {.limits = {0, 1},
@@ -90,6 +91,15 @@ void add_image_pattern(std::vector<Setting>& t) {
     add_skin_row<&S::invert>(
         t, "invert", "--skin-invert",
         {.fallback = "false", .help = "Make the skin solid where the picture is bright instead of dark."});
+    add_skin_row<&S::gap>(t, "gap", "--skin-gap",
+                          {.unit = "mm",
+                           .limits = {0, 1000},
+                           .fallback = "any",
+                           .help = "Minimum width of gaps in a pattern by example; struts take precedence."});
+    add_skin_row<&S::direction>(t, "direction", "--skin-direction",
+                                {.limits = {-1e6, 1e6},
+                                 .fallback = "as smooth as the surface allows",
+                                 .help = "Direction in which the top of a pattern by example points."});
 }
 
 void add_drains(std::vector<Setting>& t) {
