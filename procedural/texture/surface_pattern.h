@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -18,41 +20,48 @@ struct SurfacePatternSettings {
     double depth = 1;             ///< distance from the surface within which the pattern is wanted, mm
 };
 
-/// Synthesised on sites of the surface, at every depth the pattern of the nearest site. Distances lie in
-/// bricks of 8 x 8 x 8 cells, one site's spacing wide, about the surface alone. Immutable.
+/// Samples of 8 x 8 x 8 cells with all their corners, so that a cell needs one brick. Steps of a distance,
+/// positive in the solid; no_sample away from the surface.
+struct PatternBrick {
+    static constexpr int cells = 8, side = cells + 1, samples = side * side * side;
+    static constexpr std::int16_t no_sample = std::numeric_limits<std::int16_t>::min();
+    glm::i64vec3 corner{0};  ///< its lowest cell, over `cells`
+    std::array<std::int16_t, samples> steps{};
+};
+
+/// A pattern by example about a surface: what a plan keeps of it.
+struct SurfaceBricks {
+    double spacing = 1;                                ///< of sites and samples, mm
+    double unit = 1;                                   ///< mm a step
+    double slope = 1;                                  ///< of the interpolated distances, at most: 1 or more
+    double share = 0;                                  ///< of the surface that is solid
+    double wanted_share = 0;                           ///< the picture's
+    std::uint64_t pieces = 0, dropped = 0, lines = 0;  ///< as in PrintablePattern
+    std::vector<PatternBrick> bricks;
+
+    std::size_t bytes() const { return bricks.size() * sizeof(PatternBrick); }
+};
+
+/// The largest number of sites; more are refused.
+inline constexpr std::size_t most_pattern_sites = 4'000'000;
+
+/// Synthesises a pattern on sites of the body's surface; at every depth it is that of the nearest site. The
+/// same on any number of threads. Throws InputError as sites_on_surface(), make_example() and
+/// printable_pattern() do, Interrupted when cancelled.
+SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
+                                    const SurfacePatternSettings& settings);
+
+/// The pattern as a field. Immutable.
 class SurfacePattern : public WindowPattern {
   public:
-    /// The largest number of sites; more are refused.
-    static constexpr std::size_t most_sites = 4'000'000;
-
-    /// Throws InputError as sites_on_surface(), make_example() and printable_pattern() do, Interrupted when
-    /// cancelled.
-    SurfacePattern(const Volume& picture, const Field& body, const SurfacePatternSettings& settings);
+    explicit SurfacePattern(SurfaceBricks bricks);
 
     double value_near(dvec3 p, std::uint32_t& hint) const override;
-
-    const PrintablePattern& pattern() const { return pattern_; }
-    double wanted_share() const { return wanted_share_; }  ///< the picture's
-    double spacing() const { return spacing_; }            ///< of sites, mm
-    std::size_t bytes() const { return bricks_.size() * sizeof(Brick); }
+    const SurfaceBricks& bricks() const { return bricks_; }
 
   private:
-    /// Samples of 8 x 8 x 8 cells with all their corners, so that a cell needs one brick.
-    static constexpr int cells = 8, side = cells + 1;
-    static constexpr int samples = side * side * side;
-    using Brick = std::array<std::int16_t, samples>;
-
-    void fill_bricks(const SurfaceSites& sites, double depth);
-    void find_slope();
-
-    double spacing_ = 1, wanted_share_ = 0;
-    double unit_ = 1;   ///< mm a step of the samples
-    double slope_ = 1;  ///< of the interpolated distances, at most
-    PrintablePattern pattern_;
-    std::unordered_map<glm::i64vec3, std::uint32_t, LatticeHash>
-        places_;                         ///< of bricks, by cell over `cells`
-    std::vector<glm::i64vec3> corners_;  ///< by brick, the same
-    std::vector<Brick> bricks_;
+    SurfaceBricks bricks_;
+    std::unordered_map<glm::i64vec3, std::uint32_t, LatticeHash> places_;  ///< of bricks, by their corner
 };
 
 }  // namespace lamella

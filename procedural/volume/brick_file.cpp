@@ -1,8 +1,6 @@
 // Samples are packed as planes of bytes, 64 KiB at a time.
 #include "procedural/volume/brick_file.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +9,7 @@
 #include "engine/base/error.h"
 #include "procedural/volume/gzip_stream.h"
 #include "procedural/volume/volume.h"
+#include "procedural/volume/zlib_writer.h"
 
 namespace lamella {
 
@@ -19,44 +18,10 @@ namespace {
 constexpr std::array<char, 16> brick_magic{"lamella bricks1"};
 constexpr std::size_t block = std::size_t{1} << 16U;
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
-
 /// What the packed part begins with.
 struct BrickHeader {
     std::array<std::uint32_t, 3> size{};
     std::array<double, 6> corners{};
-};
-
-/// Packs bytes into a stream.
-class ZlibWriter {
-  public:
-    explicit ZlibWriter(std::ostream& out) : out_(out), packed_(block) {
-        if (deflateInit(&zlib_, Z_DEFAULT_COMPRESSION) != Z_OK) throw FaultError("zlib cannot be started");
-    }
-    ~ZlibWriter() { deflateEnd(&zlib_); }
-    ZlibWriter(const ZlibWriter&) = delete;
-    ZlibWriter& operator=(const ZlibWriter&) = delete;
-
-    /// Writes at most 64 KiB.
-    void write(std::span<const std::uint8_t> bytes) { pack(bytes, Z_NO_FLUSH); }
-    void finish() { pack({}, Z_FINISH); }
-
-  private:
-    void pack(std::span<const std::uint8_t> bytes, int flush) {
-        zlib_.next_in = const_cast<Bytef*>(bytes.data());
-        zlib_.avail_in = static_cast<uInt>(bytes.size());
-        do {
-            zlib_.next_out = packed_.data();
-            zlib_.avail_out = static_cast<uInt>(packed_.size());
-            deflate(&zlib_, flush);
-            out_.write(reinterpret_cast<const char*>(packed_.data()),
-                       static_cast<std::streamsize>(packed_.size() - zlib_.avail_out));
-        } while (zlib_.avail_out == 0);
-    }
-
-    std::ostream& out_;
-    std::vector<Bytef> packed_;
-    z_stream zlib_{};
 };
 
 /// Calls visit(begin, end) for the samples of one block after the other.
@@ -77,11 +42,6 @@ void write_samples(ZlibWriter& out, std::span<const float> samples) {
             out.write(bytes);
         });
     }
-}
-
-template <class Number>
-std::span<const std::uint8_t> bytes_of(const Number& number) {
-    return {reinterpret_cast<const std::uint8_t*>(&number), sizeof number};
 }
 
 void take(GzipStream& in, void* out, std::size_t bytes, const std::string& name) {
@@ -117,12 +77,9 @@ void write_bricks(const std::filesystem::path& file, const DensityBricks& bricks
         }
         out.write(brick_magic.data(), brick_magic.size());
         ZlibWriter packed(out);
-        packed.write(bytes_of(header.size));
-        packed.write(bytes_of(header.corners));
-        const std::vector<std::uint8_t> whole = bricks.whole();
-        for_each_block(whole.size(), [&](std::size_t begin, std::size_t end) {
-            packed.write(std::span(whole).subspan(begin, end - begin));
-        });
+        packed.write_number(header.size);
+        packed.write_number(header.corners);
+        packed.write(bricks.whole());
         write_samples(packed, bricks.samples());
         packed.finish();
     });

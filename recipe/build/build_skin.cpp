@@ -4,83 +4,87 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "procedural/skin/image_windows.h"
 #include "procedural/skin/surface_windows.h"
-#include "procedural/texture/surface_pattern.h"
+#include "recipe/build/pattern_plan.h"
 
 namespace lamella {
 
 namespace {
 
-SurfaceWindowSettings window_settings(const Recipe& recipe, double depth, Gradings& gradings) {
-    const SkinRecipe& skin = *recipe.skin;
+SurfaceWindowSettings window_settings(PatternBuildContext& making) {
+    const SkinRecipe& skin = *making.recipe.skin;
     SurfaceWindowSettings settings;
     settings.window = skin.window;
-    settings.strut = gradings.resolve(skin.strut);
+    settings.strut = making.gradings.resolve(skin.strut);
     const auto strut = settings.strut->constant();
     settings.corner = skin.corner;
     if (skin.corner < 0) settings.corner = strut ? 0.5 * *strut : 0.125 * skin.window;
-    settings.depth = depth;
+    settings.depth = making.depth;
     return settings;
 }
 
-FieldPtr cut_by(const std::shared_ptr<const SurfaceWindows>& windows, FieldPtr shell, PatternReport& report) {
-    report.windows = windows->seed_count();
-    report.closed = windows->closed_count();
-    return make_patterned_shell(std::move(shell), windows);
+FieldPtr cut_by(const std::shared_ptr<const SurfaceWindows>& windows, PatternBuildContext& making) {
+    making.report.windows = windows->seed_count();
+    making.report.closed = windows->closed_count();
+    return make_patterned_shell(making.shell, windows);
 }
 
-FieldPtr voronoi(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
-                 PatternReport& report) {
-    const auto windows = make_voronoi_windows(*body, window_settings(recipe, depth, gradings),
-                                              static_cast<std::uint64_t>(recipe.skin->seed));
-    return cut_by(windows, std::move(shell), report);
+FieldPtr voronoi(PatternBuildContext& making) {
+    return cut_by(make_voronoi_windows(*making.body, window_settings(making),
+                                       static_cast<std::uint64_t>(making.recipe.skin->seed)),
+                  making);
 }
 
-FieldPtr hexagons(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
-                  Gradings& gradings, PatternReport& report) {
-    return cut_by(make_hexagon_windows(*body, window_settings(recipe, depth, gradings)), std::move(shell),
-                  report);
+FieldPtr hexagons(PatternBuildContext& making) {
+    return cut_by(make_hexagon_windows(*making.body, window_settings(making)), making);
 }
 
-FieldPtr image(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth, Gradings& gradings,
-               PatternReport& report) {
-    const SkinRecipe& skin = *recipe.skin;
-    const auto strut = gradings.resolve(skin.strut)->constant();
+/// Returns the strut of a pattern that has the same everywhere.
+double constant_strut(PatternBuildContext& making) {
+    const auto strut = making.gradings.resolve(making.recipe.skin->strut)->constant();
     if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
-    StrutImage picture(read_picture(skin.image), {skin.image_size, *strut, skin.threshold, skin.invert});
-    report.islands = picture.islands();
-    report.open_share = picture.open_share();
-    return make_patterned_shell(std::move(shell),
-                                std::make_shared<ImageWindows>(std::move(picture), *body, *strut, depth));
+    return *strut;
 }
 
-FieldPtr by_example(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
-                    Gradings& gradings, PatternReport& report) {
-    const SkinRecipe& skin = *recipe.skin;
-    const auto strut = gradings.resolve(skin.strut)->constant();
-    if (!strut) throw InputError("the strut of a pattern is the same everywhere; accepted: a number");
+FieldPtr image(PatternBuildContext& making) {
+    const SkinRecipe& skin = *making.recipe.skin;
+    const double strut = constant_strut(making);
+    StrutImage picture(read_picture(skin.image), {skin.image_size, strut, skin.threshold, skin.invert});
+    making.report.islands = picture.islands();
+    making.report.open_share = picture.open_share();
+    return make_patterned_shell(
+        making.shell, std::make_shared<ImageWindows>(std::move(picture), *making.body, strut, making.depth));
+}
+
+FieldPtr by_example(PatternBuildContext& making) {
+    const SkinRecipe& skin = *making.recipe.skin;
     SurfacePatternSettings settings;
     settings.example = {.size = skin.image_size,
-                        .strut = *strut,
+                        .strut = constant_strut(making),
                         .gap = skin.gap,
                         .threshold = skin.threshold,
                         .invert = skin.invert};
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
+    settings.example.synthesis.cancel = making.work.cancel;
     if (skin.direction != dvec3(0)) settings.axis = skin.direction;
-    settings.depth = depth;
-    const auto pattern = std::make_shared<const SurfacePattern>(read_picture(skin.image), *body, settings);
-    const PrintablePattern& made = pattern->pattern();
+    settings.depth = making.depth;
+    ThreadArena arena(making.work.threads);
+    const auto pattern = std::make_shared<const SurfacePattern>(arena.execute(
+        [&] { return pattern_plan(making.recipe, *making.body, settings, making.work.plans); }));
+    const SurfaceBricks& made = pattern->bricks();
+    PatternReport& report = making.report;
     report.open_share = 1 - made.share;
-    report.picture_share = 1 - pattern->wanted_share();
+    report.picture_share = 1 - made.wanted_share;
     report.pieces = made.pieces;
     report.bridges = made.lines;
     report.dropped = made.dropped;
-    report.site = pattern->spacing();
-    report.bytes = pattern->bytes();
-    return make_patterned_shell(std::move(shell), pattern);
+    report.site = made.spacing;
+    report.bytes = made.bytes();
+    return make_patterned_shell(making.shell, pattern);
 }
 
 }  // namespace
@@ -104,12 +108,13 @@ bool has_cut_skin(const Recipe& recipe) {
 }
 
 FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
-                     Gradings& gradings, std::optional<PatternReport>& report) {
+                     Gradings& gradings, const PatternWork& work, std::optional<PatternReport>& report) {
     for (const PatternBuilder& builder : pattern_builders()) {
         if (builder.kind.word != recipe.skin->pattern || !builder.cut) continue;
         report.emplace().pattern = builder.kind.word;
         try {
-            return builder.cut(recipe, std::move(shell), body, depth, gradings, *report);
+            PatternBuildContext making{recipe, shell, body, depth, gradings, work, *report};
+            return builder.cut(making);
         } catch (const LocatedError&) {
             throw;
         } catch (const InputError& error) {

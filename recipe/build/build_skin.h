@@ -1,11 +1,13 @@
 // Windows and holes of a skin, from the recipe's [skin] and [[hole]]. fill_body.h makes the skin itself.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/base/cancel_token.h"
 #include "recipe/build/build_gradings.h"
 
 namespace lamella {
@@ -35,10 +37,17 @@ struct DrilledHole {
 /// Whether the recipe's skin is more than a closed one.
 bool has_cut_skin(const Recipe& recipe);
 
+/// How a pattern by example is made.
+struct PatternWork {
+    std::filesystem::path plans{};        ///< folder for patterns; empty: none are read or kept
+    int threads = 0;                      ///< 0: one per core
+    const CancelToken* cancel = nullptr;  ///< may be null
+};
+
 /// The shell cut by the windows of the recipe's pattern. `depth` is the thickest the shell is, mm. Throws
-/// InputError for what the pattern refuses.
+/// InputError for what the pattern refuses, Interrupted when cancelled.
 FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
-                     Gradings& gradings, std::optional<PatternReport>& report);
+                     Gradings& gradings, const PatternWork& work, std::optional<PatternReport>& report);
 
 /// Where the recipe's holes are drilled through a skin at most `depth` mm thick.
 std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, double depth);
@@ -51,11 +60,21 @@ DrilledHole drill(const Field& body, dvec3 at, dvec3 direction, double radius, d
 /// The solid less the holes.
 FieldPtr without_holes(FieldPtr solid, std::span<const DrilledHole> holes);
 
-/// A pattern of the skin: its keys, and how it is made; null for a closed skin.
+/// The inputs from which a pattern is made, and what came of it.
+struct PatternBuildContext {
+    const Recipe& recipe;
+    const FieldPtr& shell;
+    const FieldPtr& body;
+    double depth;  ///< mm
+    Gradings& gradings;
+    const PatternWork& work;
+    PatternReport& report;
+};
+
+/// A pattern of the skin: its keys, and how the shell is cut by it; null for a closed skin.
 struct PatternBuilder {
     Kind kind;
-    FieldPtr (*cut)(const Recipe&, FieldPtr shell, const FieldPtr& body, double depth, Gradings&,
-                    PatternReport&);
+    FieldPtr (*cut)(PatternBuildContext& making);
 };
 std::span<const PatternBuilder> pattern_builders();
 

@@ -45,12 +45,12 @@ FieldPtr drilled(const BuiltJob& built, const FieldPtr& foam, FieldPtr shell,
 
 /// A skin with windows and holes; drains are placed once all else is there.
 FieldPtr under_cut_skin(const Recipe& recipe, BuiltJob& built, const FieldPtr& foam,
-                        const SkinThickness& thickness, Gradings& gradings) {
+                        const SkinThickness& thickness, Gradings& gradings, const PatternWork& work) {
     FieldPtr shell = thickness.graded == nullptr
                          ? make_shell(built.body, thickness.number)
                          : make_shell(built.body, thickness.graded->asked, thickness.graded->limits);
     const double depth = thickness.thickest(*built.body);
-    shell = cut_windows(recipe, std::move(shell), built.body, depth, gradings, built.pattern);
+    shell = cut_windows(recipe, std::move(shell), built.body, depth, gradings, work, built.pattern);
     built.holes = drilled_holes(recipe, *built.body, depth);
     FieldPtr part = drilled(built, foam, shell, built.holes);
     if (recipe.skin->drains == 0) return part;
@@ -64,13 +64,13 @@ FieldPtr under_cut_skin(const Recipe& recipe, BuiltJob& built, const FieldPtr& f
 
 }  // namespace
 
-FieldPtr fill_body(const Recipe& recipe, BuiltJob& built, Gradings& gradings) {
+FieldPtr fill_body(const Recipe& recipe, BuiltJob& built, Gradings& gradings, const PatternWork& work) {
     const FieldPtr foam = built.foam ? built.foam->field : nullptr;
     if (!recipe.skin) return foam ? make_filled_body(built.body, foam, 0) : built.body;
     const std::string& where = recipe.skin->thickness.where;
     try {
         const SkinThickness thickness = skin_thickness(*recipe.skin, built, gradings);
-        if (has_cut_skin(recipe)) return under_cut_skin(recipe, built, foam, thickness, gradings);
+        if (has_cut_skin(recipe)) return under_cut_skin(recipe, built, foam, thickness, gradings, work);
         return under_closed_skin(built, foam, thickness, recipe.skin->side);
     } catch (const LocatedError&) {
         throw;

@@ -19,7 +19,7 @@ namespace lamella {
 
 namespace {
 
-constexpr double void_modulus = 1e-6;
+constexpr double least_foam_modulus = 1e-6;
 
 const GradedNumber& constant_number(const GradedNumber& number, const char* key) {
     if (!number.is_formula() && number.number() > 0) return number;
@@ -70,7 +70,7 @@ OptimizedFoam::OptimizedFoam(const Recipe& recipe, Gradings& gradings) : recipe_
 OptimizedFoam::Law OptimizedFoam::law_of(const FoamLawTable& table) const {
     Law law;
     law.foam = std::make_unique<FoamLaw>(table, material_poisson_);
-    law.modulus = make_foam_modulus_law(*law.foam, void_modulus);
+    law.modulus = make_foam_modulus_law(*law.foam, least_foam_modulus);
     return law;
 }
 

@@ -199,6 +199,17 @@ def bricks():
         put("bricks", name + "_file", b"\0lamella bricks1\0" + zlib.compress(packed))
 
 
+def patterns():
+    """The first byte is that of tests/fuzz/pattern_fuzz.cpp: whether the rest is packed there."""
+    def payload(corners, steps, numbers=(0.2, 5e-5, 1.7, 0.4, 0.5)):
+        return (struct.pack("<5d4Q", *numbers, 2, 1, 1, len(corners)) + b"".join(struct.pack("<3q", *c) for c in corners) +
+                b"".join(struct.pack("<729h", *s) for s in steps))
+    for name, packed in (("none", payload([], [])), ("flat", payload([(0, 0, 0)], [[100] * 729])),
+                         ("two", payload([(0, 0, 0), (-1, 2, 3)], [[k % 90 - 45 for k in range(729)], [-32768] * 700 + [7] * 29]))):
+        put("pattern", name, b"\1" + packed)
+        put("pattern", name + "_file", b"\0lamella pattern\0" + zlib.compress(packed))
+
+
 def formulas():
     texts = ["x^2 + y*z - 3.5e-1", "min(x, y, max(z, 1)) < 2 ? sin(x) : cos(y)", "mod(x, 2) + atan2(y, x) - pow(z, 3)",
              "not (x < 1 and y >= 2) or z != 3", "clamp(x, -1, 1) * smoothstep(0, 1, y) / length(x, y, z)",
@@ -300,6 +311,6 @@ def requests():
     put("requests", "all", "\n".join(json.dumps(line) for line in lines))
 
 
-for write in (meshes, models, pictures, volumes, bricks, formulas, jobs, shards_and_journals, replies, recipes, tables,
+for write in (meshes, models, pictures, volumes, bricks, patterns, formulas, jobs, shards_and_journals, replies, recipes, tables,
               requests):
     write()

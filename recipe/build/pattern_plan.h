@@ -1,0 +1,19 @@
+// The plan of a skin's pattern by example: made once, kept under the hash of its inputs.
+#pragma once
+
+#include <filesystem>
+
+#include "procedural/texture/surface_pattern.h"
+#include "recipe/recipe.h"
+
+namespace lamella {
+
+/// Returns the hash of all that the pattern on the recipe's body depends on.
+std::string pattern_hash(const Recipe& recipe);
+
+/// Returns the pattern that the folder keeps for this recipe, or makes it and keeps it there. An empty folder
+/// keeps nothing. Throws as synthesise_on_surface().
+SurfaceBricks pattern_plan(const Recipe& recipe, const Field& body, const SurfacePatternSettings& settings,
+                           const std::filesystem::path& plans);
+
+}  // namespace lamella
