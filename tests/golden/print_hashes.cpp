@@ -23,6 +23,7 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "procedural/lattice/strut_lattice.h"
 #include "procedural/lattice/tpms.h"
+#include "procedural/texture/surface_pattern.h"
 #include "tests/procedural/optimization/topology_problems.h"
 
 using namespace lamella;
@@ -92,6 +93,27 @@ FieldPtr turned_foam(const FieldPtr& body) {
     return std::make_shared<NearestFoam>(settings);
 }
 
+/// A skin that is cut by waves, drawn in whole steps.
+FieldPtr skin_by_example(const FieldPtr& body) {
+    Volume picture;
+    picture.size = {96, 96, 1};
+    picture.full_scale = 255;
+    std::vector<std::uint8_t> grey;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const int wave = (y + x * (24 - x % 24) / 12) % 16;
+            grey.push_back(wave < 8 || (x + y) % 31 < 5 ? std::uint8_t{0} : std::uint8_t{255});
+        }
+    }
+    picture.samples = std::move(grey);
+    SurfacePatternSettings settings;
+    settings.example.size = 12;
+    settings.example.strut = 0.8;
+    settings.example.gap = 0.4;
+    return make_patterned_shell(make_shell(body, 1), std::make_shared<const SurfacePattern>(
+                                                         synthesise_on_surface(picture, *body, settings)));
+}
+
 std::map<std::string, FieldPtr> solids() {
     const MeshFile koala = read_mesh(LAMELLA_SOURCE_DIR "/examples/models/koala_mm.obj", MeshReadOptions{});
     const FieldPtr ball = make_sphere({0.1, 0.2, 0.3}, 9);
@@ -117,6 +139,7 @@ std::map<std::string, FieldPtr> solids() {
          make_union({make_torus({0, 0, 0}, 7, 2), make_round_cone({{-6, -6, -3}, 2, {6, 5, 4}, 0.7}),
                      make_cylinder({-5, 4, -4}, {3, -6, 5}, 1.5), make_box({{-8, 3, -2}, {-3, 8, 3}}, 1)})},
         {"gyroid in a ball", make_intersection({ball, gyroid(ball->bounds())})},
+        {"skin by example", skin_by_example(make_torus({0, 0, 0}, 6, 2.5))},
         {"smooth union", make_smooth_union(ball, make_sphere({8, 3, 1}, 5), 2)},
         {"foam ball", foam_in(ball, 2, 0.25, 0.7)},
         {"foam koala", foam_in(koala_body, 4, 0.4, 0.8)},
