@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "procedural/texture/pattern_file.h"
 #include "recipe/identity.h"
+#include "recipe/settings.h"
 
 namespace lamella {
 
@@ -26,7 +27,7 @@ std::optional<SurfaceBricks> kept_pattern(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string pattern_hash(const Recipe& recipe) {
+std::string pattern_hash(const Recipe& recipe, double depth) {
     Recipe kept;
     kept.part = recipe.part;
     kept.fields = recipe.fields;
@@ -41,14 +42,17 @@ std::string pattern_hash(const Recipe& recipe) {
         kept.frame = recipe.frame;
     }
     kept.material = recipe.material;
-    return job_identity(kept);
+    Fnv128 hash;
+    hash.add(job_identity(kept));
+    hash.add(format_value(depth));
+    return hash.hex();
 }
 
 SurfaceBricks pattern_plan(const Recipe& recipe, const Field& body, const SurfacePatternSettings& settings,
                            const std::filesystem::path& plans) {
     const auto make = [&] { return synthesise_on_surface(read_picture(recipe.skin->image), body, settings); };
     if (plans.empty()) return make();
-    const std::filesystem::path file = plans / (pattern_hash(recipe) + ".pattern");
+    const std::filesystem::path file = plans / (pattern_hash(recipe, settings.depth) + ".pattern");
     if (auto kept = kept_pattern(file)) return std::move(*kept);
     SurfaceBricks made = make();
     std::error_code error;

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "procedural/texture/surface_pattern.h"
 #include "recipe/recipe.h"
 
 namespace lamella {
 
-/// Returns the hash of all that the pattern on the recipe's body depends on.
-std::string pattern_hash(const Recipe& recipe);
+/// Returns the hash of all that the pattern on the recipe's body depends on. `depth` (mm) is that of the
+/// settings: regions, too, may make a skin thicker.
+std::string pattern_hash(const Recipe& recipe, double depth);
 
 /// Returns the pattern that the folder keeps for this recipe, or makes it and keeps it there. An empty folder
 /// keeps nothing. Throws as synthesise_on_surface().

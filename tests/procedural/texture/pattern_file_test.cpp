@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/solids/primitives.h"
+#include "recipe/build/build_job.h"
 #include "recipe/build/pattern_plan.h"
 #include "tests/app/commands/folder.h"
 #include "tests/app/commands/recipes.h"
@@ -102,7 +103,7 @@ TEST_CASE("a pattern is made once for all runs of its body and skin", "[texture]
     const auto body = make_sphere({0, 0, 0}, 5);
     SurfacePatternSettings settings;
     const SurfaceBricks made = pattern_plan(recipe, *body, settings, folder.path());
-    const std::filesystem::path file = folder.path() / (pattern_hash(recipe) + ".pattern");
+    const std::filesystem::path file = folder.path() / (pattern_hash(recipe, settings.depth) + ".pattern");
     REQUIRE(std::filesystem::exists(file));
     // What the folder keeps is taken, as long as it is whole.
     SurfaceBricks other = two_bricks();
@@ -111,10 +112,33 @@ TEST_CASE("a pattern is made once for all runs of its body and skin", "[texture]
     std::ofstream(file) << "not a pattern";
     check_equal(pattern_plan(recipe, *body, settings, folder.path()), made);
     check_equal(pattern_plan(recipe, *body, settings, {}), made);
-    CHECK(pattern_hash(recipe_of(text + "[layers]\nheight = 0.1\n")) == pattern_hash(recipe));
-    CHECK(pattern_hash(recipe_of(text + "[foam]\ncell = 2\nbeam = 0.2\n")) == pattern_hash(recipe));
-    CHECK(pattern_hash(recipe_of(text + "seed = 2\n")) != pattern_hash(recipe));
-    CHECK(pattern_hash(recipe_of(text + "gap = 0.4\n")) != pattern_hash(recipe));
+    const std::string hash = pattern_hash(recipe, 1);
+    const auto hash_with = [&](const std::string& more) { return pattern_hash(recipe_of(text + more), 1); };
+    CHECK(hash_with("[layers]\nheight = 0.1\n") == hash);
+    CHECK(hash_with("[foam]\ncell = 2\nbeam = 0.2\n") == hash);
+    CHECK(hash_with("seed = 2\n") != hash);
+    CHECK(hash_with("gap = 0.4\n") != hash);
+    CHECK(pattern_hash(recipe, 2) != hash);
+}
+
+TEST_CASE("a region that makes the skin thicker does not get the pattern of a thin one", "[texture]") {
+    const Folder folder;
+    const std::string text =
+        "[part]\nshape = \"sphere\"\nradius = 6\n[skin]\nthickness = 0.8\npattern = \"by-example\"\n"
+        "strut = 0.8\nimage_size = 20\nimage = \"" LAMELLA_SOURCE_DIR "/examples/inputs/blobs.png\"\n";
+    const std::string thicker =
+        "[[field]]\nname = \"top\"\nformula = \"-z\"\n"
+        "[[region]]\nfield = \"top\"\nmake = \"skin\"\nthickness = 3\n";
+    const OptimizeOptions kept{.plans = folder.path()};
+    build_job(recipe_of(text), kept);
+    const BuiltJob after = build_job(recipe_of(text + thicker), kept),
+                   anew = build_job(recipe_of(text + thicker));
+    for (double x = -5; x < 5; x += 0.31) {
+        for (double z = 0.2; z < 5; z += 0.17) {
+            const dvec3 p(x, 0.4, z);
+            REQUIRE(after.designed.part->value(p) == anew.designed.part->value(p));
+        }
+    }
 }
 
 }  // namespace pattern_file_test
