@@ -43,29 +43,38 @@ dvec2 sheet_of(const PatternOptions& options) {
     return {options.sheet.at(0), options.sheet.at(1)};
 }
 
-/// Returns the sheet as a picture like the example: solid is dark, unless it is light there. Pixels at
-/// borders are grey by how much of them the pattern covers.
+/// Returns the runs of one row, whose pixels are grey by how much of them the pattern covers: solid is dark,
+/// unless it is light in the example.
+void append_row(const FlatPattern& pattern, const PngHeader& header, int row, bool invert,
+                std::vector<GreyRun>& runs) {
+    const std::size_t first = runs.size();
+    for (int x = 0; x < header.width; ++x) {
+        const dvec2 at((x + 0.5) * header.pixel_x, (row + 0.5) * header.pixel_y);
+        const double covered = std::clamp(0.5 + pattern.distance(at) / header.pixel_x, 0.0, 1.0);
+        const auto value = static_cast<std::uint16_t>(std::lround(255 * (invert ? covered : 1 - covered)));
+        if (runs.size() > first && runs.back().value == value) {
+            ++runs.back().length;
+        } else {
+            runs.push_back({1, value});
+        }
+    }
+}
+
+/// Returns the sheet as a picture like the example.
 std::string png_of(const FlatPattern& pattern, double wanted_pixel, bool invert) {
-    constexpr int most_pixels = 65535;
-    const dvec2 size = pattern.size();
+    constexpr double most_along = 65535, most_pixels = 1 << 28;
     const double pixel = wanted_pixel > 0 ? wanted_pixel : pattern.spacing() / 2;
-    const auto count = [&](double length) {
-        return static_cast<int>(
-            std::clamp(std::round(length / pixel), 1.0, static_cast<double>(most_pixels)));
-    };
-    const int width = count(size.x), height = count(size.y);
+    const dvec2 size = pattern.size(), count = glm::max(glm::round(size / pixel), dvec2(1));
+    if (std::max(count.x, count.y) > most_along || count.x * count.y > most_pixels)
+        throw InputError(
+            fmt::format("--pixel: {} mm makes a picture of {} x {} pixels; accepted: a larger pixel, for at "
+                        "most {} along a side and {} in all",
+                        pixel, count.x, count.y, most_along, most_pixels));
+    const int width = static_cast<int>(count.x), height = static_cast<int>(count.y);
     const PngHeader header{
         .width = width, .height = height, .pixel_x = size.x / width, .pixel_y = size.y / height};
     std::vector<GreyRun> runs;
-    for (int y = height - 1; y >= 0; --y) {
-        for (int x = 0; x < width; ++x) {
-            const dvec2 at = dvec2(x + 0.5, y + 0.5) * dvec2(header.pixel_x, header.pixel_y);
-            const double covered = std::clamp(0.5 + pattern.distance(at) / header.pixel_x, 0.0, 1.0);
-            const auto value =
-                static_cast<std::uint32_t>(std::lround(255 * (invert ? covered : 1 - covered)));
-            runs.push_back({1, static_cast<decltype(GreyRun::value)>(value)});
-        }
-    }
+    for (int row = height - 1; row >= 0; --row) append_row(pattern, header, row, invert, runs);
     const std::vector<std::byte> bytes = encode_png(header, runs);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

@@ -63,7 +63,10 @@ TEST_CASE("what cannot be a sheet ends with one message", "[pattern]") {
     CHECK(mentions(told(inputs + "net.png --sheet 5"), "--sheet"));
     CHECK(mentions(told(inputs + "net.png --strut -1"), "--strut"));
     CHECK(mentions(told(inputs + "net.png --threshold 0"), "the picture is all void"));
+    CHECK(mentions(told(inputs + "net.png --pixel 0.001 -o " + folder / "large.png"),
+                   "makes a picture of 40000 x 40000 pixels"));
     CHECK(!std::filesystem::exists(folder / "sheet.stl"));
+    CHECK(!std::filesystem::exists(folder / "large.png"));
 }
 
 }  // namespace command_pattern_test
