@@ -2,29 +2,14 @@
 #include "recipe/structure/bare_faces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/parallel.h"
 #include "procedural/optimization/density_shape.h"
+#include "procedural/skin/surface_walk.h"
 #include "recipe/recipe.h"
 
 namespace lamella {
-
-namespace {
-
-/// Returns the outward direction of the nearest face.
-dvec3 outwards(const Field& body, dvec3 p, double step) {
-    dvec3 slope(0);
-    for (int axis = 0; axis < 3; ++axis) {
-        dvec3 ahead = p, behind = p;
-        ahead[axis] += step;
-        behind[axis] -= step;
-        slope[axis] = body.value(ahead) - body.value(behind);
-    }
-    const double length = glm::length(slope);
-    return length > 0 ? slope / length : slope;
-}
-
-}  // namespace
 
 bool has_bare_faces(const Recipe& recipe) {
     const auto is_covered_by = [](const SkinRecipe& skin) {
@@ -51,10 +36,18 @@ std::vector<Interval> depths_below_faces(const Field& body, const ElementDomain&
         if (domain.use[i] != ElementUse::free && domain.use[i] != ElementUse::kept) return;
         const dvec3 centre = domain.centre(places.element(i));
         const double depth = std::max(0.0, -body.value(centre));
-        if (depth > most) return;
-        const dvec3 out = outwards(body, centre, edge / 4);
+        if (depth > most && domain.dimensions == 3) return;
+        // The middle plane of a plate is equally far from both faces, and has no gradient.
+        const double step = std::min(edge, domain.edges.z) / 8;
+        const dvec3 beside = domain.dimensions == 2 ? centre + dvec3(0, 0, 2 * step) : centre;
+        const dvec3 out = rising(body, beside, step).value_or(dvec3(0));
         if (is_covered(centre + std::max(depth - edge / 2, 0.0) * out)) return;
-        depths[i] = {depth - edge / 2, depth + edge / 2};
+        // Elements of a plate are as thick as it: from its middle plane to a face.
+        constexpr double steep = 0.9;
+        const bool is_across = domain.dimensions == 2 && std::abs(out.z) > steep;
+        depths[i] =
+            is_across ? Interval{0, depth} : Interval{std::max(depth - edge / 2, 0.0), depth + edge / 2};
+        if (!is_across && depths[i].lo > most) depths[i] = {infinity, infinity};
     });
     return depths;
 }

@@ -15,10 +15,10 @@ bool has_bare_faces(const Recipe& recipe);
 /// Returns true for a foam that is soft below its bare faces as cut_cells_share() says.
 bool softens_at_faces(const Recipe& recipe);
 
-/// Returns by element how deep it lies below a bare face: its depths (mm) from the nearest point of the face
-/// to the farthest; both infinity for an element that is solid, whose nearest face is that of a solid
-/// element or of one in `held` (1: an anchor or a load acts there, and holds the ends of cut beams), or that
-/// is at least `most` deep.
+/// Returns by element its range of depths (mm) below a bare face. In the plane an element reaches from the
+/// middle of the plate to its face, if that is the nearest. Both are infinity for an element that is solid,
+/// that is deeper than `most` (mm), or whose nearest face is covered: by a solid element or by one in `held`
+/// (1: an anchor or a load acts there, and holds the ends of cut beams).
 std::vector<Interval> depths_below_faces(const Field& body, const ElementDomain& domain,
                                          std::span<const std::uint8_t> held, double most);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -193,18 +194,19 @@ std::vector<FoamRange> OptimizedFoam::ranges_at(std::span<const dvec3> places) {
 }
 
 std::size_t OptimizedFoam::law_below_face(const FoamRange& range, Interval depths) {
-    constexpr double depth_steps_an_element = 8, steps_of_other = 64;
-    const double depth_step = depths.width() / depth_steps_an_element,
+    constexpr double depth_steps_a_cell = 256, steps_of_other = 64;
+    const double depth_step = largest_cell(whole_) / depth_steps_a_cell,
                  other_step = whole_.other / steps_of_other;
-    const long depth = std::lround(depths.lo / depth_step), other = std::lround(range.other / other_step);
-    const auto [found, is_new] = law_of_depth_.emplace(std::pair(depth, other), laws_.size());
+    const std::array<long, 3> key{std::lround(depths.lo / depth_step), std::lround(depths.hi / depth_step),
+                                  std::lround(range.other / other_step)};
+    const auto [found, is_new] = law_of_depth_.emplace(key, laws_.size());
     if (!is_new) return found->second;
-    const double shallow = depth_step * static_cast<double>(depth),
-                 kept = other_step * static_cast<double>(other);
+    const auto rounded = [&](std::size_t i, double step) { return step * static_cast<double>(key[i]); };
+    const Interval below{rounded(0, depth_step), rounded(1, depth_step)};
+    const double other = rounded(2, other_step);
     FoamLawTable table{law_name(recipe_), laws_.front().foam->points()};
     for (FoamLawPoint& point : table.points) {
-        const double cell = drives_cells_ ? kept / point.ratio : kept;
-        point.young *= cut_cells_share({shallow, shallow + depths.width()}, cell, point.ratio);
+        point.young *= cut_cells_share(below, drives_cells_ ? other / point.ratio : other, point.ratio);
         point.low_factor = point.high_factor = 1;  // the points are the material's already
     }
     laws_.push_back(law_of(table));

@@ -1,11 +1,11 @@
 // OptimizedFoam: the foam whose cells or beams an optimisation drives.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "procedural/optimization/modulus_law.h"
@@ -93,7 +93,7 @@ class OptimizedFoam {
     GradingPtr wall_, window_;             ///< null unless regions may change the law
     std::vector<RegionalNumber> regional_;
     std::map<Shape, std::optional<std::size_t>> law_of_shape_;
-    std::map<std::pair<long, long>, std::size_t> law_of_depth_;
+    std::map<std::array<long, 3>, std::size_t> law_of_depth_;  ///< depths and the other number, in steps
 };
 
 /// Returns the centres of the elements of a grid in a box, x fastest, without the rounding of a box that was

@@ -53,6 +53,23 @@ TEST_CASE("elements lie below the nearest face of a box unless something covers 
     CHECK(!is_unaffected({7, 4, 3}));
 }
 
+TEST_CASE("the elements of a plate reach from its middle to its faces", "[optimization]") {
+    Recipe recipe = recipe_of("[part]\nshape = \"box\"\nsize = [40, 20, 4]\n");
+    const BuiltJob job = build_job(recipe);
+    recipe.optimize.emplace();
+    recipe.optimize->element = 1;
+    recipe.optimize->dimensions = 2;
+    const ElementDomain domain = element_domain(recipe, *job.body, job.regions, nullptr);
+    const DensityGrid grid{domain.size, {}, {}};
+    const std::vector<std::uint8_t> held(domain.use.size());
+    for (const double most : {0.5, 9.0}) {
+        const std::vector<Interval> depths = depths_below_faces(*job.body, domain, held, most);
+        CHECK(depths[grid.place({20, 10, 0})].lo == 0);
+        CHECK(depths[grid.place({20, 10, 0})].hi == Approx(2));
+        CHECK(depths[grid.place({0, 10, 0})].hi == Approx(1));
+    }
+}
+
 TEST_CASE("bare foam is as stiff by its law as its struts are by elements", "[optimization]") {
     // 6 x 5 x 5 cells between solid ends, two elements a beam's radius. Without cut cells, the law is a fifth
     // too stiff in tension and a quarter in bending.
