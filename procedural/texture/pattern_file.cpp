@@ -8,20 +8,15 @@
 
 #include "engine/base/complete_file.h"
 #include "engine/base/error.h"
-#include "procedural/volume/gzip_stream.h"
+#include "procedural/volume/packed_reader.h"
 #include "procedural/volume/zlib_writer.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr std::array<char, 16> pattern_magic{"lamella pattern"};
+constexpr PackedMagic pattern_magic{"lamella pattern"};
 constexpr std::int64_t farthest_corner = std::int64_t{1} << 40;
-
-void take(GzipStream& in, void* out, std::size_t bytes, const std::string& name) {
-    if (in.read(static_cast<char*>(out), bytes) < bytes)
-        throw InputError(name + ": fewer bricks are there than the header announces");
-}
 
 void check_numbers(const SurfaceBricks& bricks, const std::string& name) {
     const auto is_length = [](double v) { return v > 1e-6 && v < 1e6; };
@@ -60,15 +55,11 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
 }
 
 SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
-    std::array<char, pattern_magic.size()> begins{};
-    if (!in.read(begins.data(), begins.size()) || begins != pattern_magic)
-        throw InputError(name + ": this is no file of a pattern");
-    const std::uint64_t most = bytes_left(in, name) * GzipStream::max_packing;
-    GzipStream packed(in, name);
+    PackedReader packed(in, name, pattern_magic, "a pattern");
     std::array<double, 5> numbers{};
     std::array<std::uint64_t, 4> counts{};
-    take(packed, numbers.data(), sizeof numbers, name);
-    take(packed, counts.data(), sizeof counts, name);
+    packed.take(&numbers, 1);
+    packed.take(&counts, 1);
     SurfaceBricks bricks{.spacing = numbers[0],
                          .unit = numbers[1],
                          .slope = numbers[2],
@@ -79,18 +70,17 @@ SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
                          .lines = counts[2],
                          .bricks = {}};
     check_numbers(bricks, name);
-    if (counts[3] > most / sizeof(PatternBrick::steps))
-        throw InputError(name + ": it is too short for the bricks that it announces");
+    constexpr std::uint64_t most_bricks = std::uint64_t{1} << 40;
+    packed.check_length(std::min(counts[3], most_bricks) * sizeof(PatternBrick::steps));
     bricks.bricks.resize(counts[3]);
     for (PatternBrick& brick : bricks.bricks) {
         std::array<std::int64_t, 3> corner{};
-        take(packed, corner.data(), sizeof corner, name);
+        packed.take(&corner, 1);
         brick.corner = {corner[0], corner[1], corner[2]};
     }
     check_corners(bricks.bricks, name);
-    for (PatternBrick& brick : bricks.bricks) take(packed, brick.steps.data(), sizeof brick.steps, name);
-    char beyond = 0;
-    if (packed.read(&beyond, 1) > 0) throw InputError(name + ": more follows after the last brick");
+    for (PatternBrick& brick : bricks.bricks) packed.take(&brick.steps, 1);
+    packed.finish();
     return bricks;
 }
 

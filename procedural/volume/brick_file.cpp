@@ -7,7 +7,7 @@
 
 #include "engine/base/complete_file.h"
 #include "engine/base/error.h"
-#include "procedural/volume/gzip_stream.h"
+#include "procedural/volume/packed_reader.h"
 #include "procedural/volume/volume.h"
 #include "procedural/volume/zlib_writer.h"
 
@@ -15,7 +15,7 @@ namespace lamella {
 
 namespace {
 
-constexpr std::array<char, 16> brick_magic{"lamella bricks1"};
+constexpr PackedMagic brick_magic{"lamella bricks1"};
 constexpr std::size_t block = std::size_t{1} << 16U;
 
 /// What the packed part begins with.
@@ -44,17 +44,12 @@ void write_samples(ZlibWriter& out, std::span<const float> samples) {
     }
 }
 
-void take(GzipStream& in, void* out, std::size_t bytes, const std::string& name) {
-    if (in.read(static_cast<char*>(out), bytes) < bytes)
-        throw InputError(name + ": fewer bricks are there than the header announces");
-}
-
-std::vector<float> read_samples(GzipStream& in, std::size_t count, const std::string& name) {
+std::vector<float> read_samples(PackedReader& in, std::size_t count) {
     std::vector<float> samples(count);
     std::vector<std::uint8_t> bytes(std::min(count, block));
     for (unsigned shift = 0; shift < 32; shift += 8) {
         for_each_block(count, [&](std::size_t begin, std::size_t end) {
-            take(in, bytes.data(), end - begin, name);
+            in.take(bytes.data(), end - begin);
             for (std::size_t i = begin; i < end; ++i) {
                 const auto bits = std::bit_cast<std::uint32_t>(samples[i]);
                 samples[i] = std::bit_cast<float>(bits | std::uint32_t{bytes[i - begin]} << shift);
@@ -86,31 +81,23 @@ void write_bricks(const std::filesystem::path& file, const DensityBricks& bricks
 }
 
 DensityBricks read_bricks(std::istream& in, const std::string& name) {
-    std::array<char, brick_magic.size()> begins{};
-    if (!in.read(begins.data(), begins.size()) || begins != brick_magic)
-        throw InputError(name + ": this is no file of density bricks");
-    const std::uint64_t most = bytes_left(in, name) * GzipStream::max_packing;
-    GzipStream packed(in, name);
+    PackedReader packed(in, name, brick_magic, "density bricks");
     BrickHeader header;
-    take(packed, header.size.data(), sizeof header.size, name);
-    take(packed, header.corners.data(), sizeof header.corners, name);
+    packed.take(&header.size, 1);
+    packed.take(&header.corners, 1);
     const VoxelIndex size{header.size[0], header.size[1], header.size[2]};
     if (std::ranges::count(size, 0U) > 0) throw InputError(name + ": a side of the volume has no voxels");
     check_volume_size(size, sizeof(float), name);
-    const auto check_length = [&](std::uint64_t bytes) {
-        if (bytes > most) throw InputError(name + ": it is too short for the bricks that it announces");
-    };
     const VoxelIndex counts = DensityBricks::brick_counts(size);
-    check_length(counts[0] * counts[1] * counts[2]);
+    packed.check_length(counts[0] * counts[1] * counts[2]);
     std::vector<std::uint8_t> whole(counts[0] * counts[1] * counts[2]);
-    take(packed, whole.data(), whole.size(), name);
+    packed.take(whole.data(), whole.size());
     if (std::ranges::any_of(whole, [](std::uint8_t is_whole) { return is_whole > 1; }))
         throw InputError(name + ": a brick has neither one sample nor all of them");
     const std::size_t kept = DensityBricks::kept_samples(size, whole);
-    check_length(kept * sizeof(float));
-    std::vector<float> samples = read_samples(packed, kept, name);
-    char beyond = 0;
-    if (packed.read(&beyond, 1) > 0) throw InputError(name + ": more follows after the last brick");
+    packed.check_length(kept * sizeof(float));
+    std::vector<float> samples = read_samples(packed, kept);
+    packed.finish();
     const auto& c = header.corners;
     const Box box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
     try {
