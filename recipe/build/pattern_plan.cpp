@@ -1,31 +1,12 @@
 // Keeps of a recipe what its body and the pattern depend on, and hashes that.
 #include "recipe/build/pattern_plan.h"
 
-#include <fstream>
-#include <optional>
-#include <system_error>
-
-#include "engine/base/error.h"
 #include "procedural/texture/pattern_file.h"
+#include "recipe/build/kept_plan.h"
 #include "recipe/identity.h"
 #include "recipe/settings.h"
 
 namespace lamella {
-
-namespace {
-
-/// Returns the pattern of a file; nothing if it is not there or damaged: then it is made anew.
-std::optional<SurfaceBricks> kept_pattern(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in.is_open()) return std::nullopt;
-    try {
-        return read_surface_bricks(in, file.string());
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
-}  // namespace
 
 std::string pattern_hash(const Recipe& recipe, double depth) {
     Recipe kept;
@@ -53,14 +34,9 @@ SurfaceBricks pattern_plan(const Recipe& recipe, const Field& body, const Surfac
     const auto make = [&] { return synthesise_on_surface(read_picture(recipe.skin->image), body, settings); };
     if (plans.empty()) return make();
     const std::filesystem::path file = plans / (pattern_hash(recipe, settings.depth) + ".pattern");
-    if (auto kept = kept_pattern(file)) return std::move(*kept);
+    if (auto kept = read_kept(file, read_surface_bricks)) return std::move(*kept);
     SurfaceBricks made = make();
-    std::error_code error;
-    std::filesystem::create_directories(plans, error);
-    try {
-        write_surface_bricks(file, made);
-    } catch (const FaultError&) {  // as for supports: the next run makes it again
-    }
+    keep_if_possible(file, [&](const std::filesystem::path& to) { write_surface_bricks(to, made); });
     return made;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 
 #include "engine/base/error.h"
@@ -17,6 +16,7 @@
 #include "procedural/volume/brick_file.h"
 #include "procedural/volume/volume_grading.h"
 #include "recipe/build/foam_modulus.h"
+#include "recipe/build/kept_plan.h"
 #include "recipe/identity.h"
 #include "recipe/recipe_formulas.h"
 #include "recipe/result_dependents.h"
@@ -129,17 +129,6 @@ OptimizedPart part_of(const Recipe& recipe, const FieldPtr& body, Gradings& grad
     return part;
 }
 
-/// Returns what a file keeps; nothing if it is not there or damaged: then it is made anew.
-std::optional<DensityBricks> kept_densities(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in.is_open()) return std::nullopt;
-    try {
-        return read_bricks(in, file.string());
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
 }  // namespace
 
 std::string optimize_hash(const Recipe& recipe) { return job_identity(search_problem(recipe)); }
@@ -155,7 +144,8 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
         search = options.plans / (hash + ".search");
     }
     if (!file.empty() && !options.anew) {
-        if (auto kept = kept_densities(file)) return part_of(recipe, body, gradings, std::move(*kept));
+        if (auto kept = read_kept(file, read_bricks))
+            return part_of(recipe, body, gradings, std::move(*kept));
     }
     ThreadArena arena(options.threads);
     PartDesign design = arena.execute([&] {
@@ -173,11 +163,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     if (!file.empty() && is_whole) {
         std::error_code error;
         std::filesystem::remove(search, error);
-        std::filesystem::create_directories(options.plans, error);
-        try {
-            write_bricks(file, densities);
-        } catch (const FaultError&) {  // as for supports: the next run makes it again
-        }
+        keep_if_possible(file, [&](const std::filesystem::path& to) { write_bricks(to, densities); });
     }
     OptimizedPart part = part_of(recipe, body, gradings, std::move(densities));
     part.use = std::move(design.grid.use);
