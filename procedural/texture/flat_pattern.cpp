@@ -55,8 +55,8 @@ Example make_example(const Volume& picture, const ExampleSettings& settings) {
               least = static_cast<int>(across * std::min(proportion, 1.0));
     if (least < windows_in_a_picture * window)
         throw InputError(fmt::format(
-            "the picture is {} sites wide and {} high, {:.3g} mm each, and its pattern needs {} along each "
-            "side; "
+            "the picture covers {} x {} points of the pattern, {:.3g} mm apart, and {} along each side are "
+            "needed; "
             "accepted: a picture of more pixels, printed larger, or a narrower strut",
             across, static_cast<int>(across * proportion), example.spacing, windows_in_a_picture * window));
     // The coarsest picture holds whole windows, in which the largest parts of the pattern are seen at once.

@@ -45,8 +45,8 @@ struct SynthesisResult {
 /// once; then each site takes the mean of what the windows over it propose, similar ones with more weight.
 /// The same bits on any number of threads. `start` is the pattern at first; if it is empty, patches of the
 /// exemplar are. Sites with a number other than 0 in `fixed`, which may be empty, keep it. `level`
-/// distinguishes the random numbers of several grids. Throws InputError for an exemplar smaller than three
-/// windows, Interrupted when cancelled.
+/// distinguishes the random numbers of several grids. Throws InputError for an exemplar smaller than a
+/// window, Interrupted when cancelled.
 SynthesisResult synthesise(const SiteWindows& windows, const Exemplar& exemplar, SitePattern start,
                            std::span<const std::uint8_t> fixed, int level, const SynthesisSettings& settings);
 

@@ -85,8 +85,7 @@ WindowMatches::WindowMatches(const SiteWindows& windows, const Exemplar& exempla
 }
 
 void WindowMatches::begin_with_patches() {
-    const double patches = 2.0 * static_cast<double>(matches_.size()) / static_cast<double>(windows_.area());
-    const double chance = patches / static_cast<double>(matches_.size());
+    const double chance = 2.0 / static_cast<double>(windows_.area());  // of a site to be a patch's middle
     std::vector<int> nearest(matches_.size(), std::numeric_limits<int>::max());
     for (std::size_t i = 0; i < matches_.size(); ++i) {
         const CounterHash random(settings_.seed, level_, -1, static_cast<std::int64_t>(i), 0);

@@ -21,7 +21,7 @@ struct ExemplarPixel {
 class WindowMatches {
   public:
     /// Matches are random at first. The windows have to outlive the object. Throws InputError for an exemplar
-    /// smaller than three windows in a direction, and of more than 1024 pixels.
+    /// smaller than a window in a direction, and of more than 1024 pixels.
     WindowMatches(const SiteWindows& windows, const Exemplar& exemplar, int level,
                   const SynthesisSettings& settings);
 

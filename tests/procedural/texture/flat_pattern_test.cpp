@@ -112,7 +112,7 @@ TEST_CASE("pictures that cannot be an example are refused", "[texture]") {
         return "";
     };
     CHECK(mentions(told("blobs.png", {20, 20}, {.threshold = 0}), "the picture is all void"));
-    CHECK(mentions(told("blobs.png", {20, 20}, {.size = 4}), "and its pattern needs 27 along each side"));
+    CHECK(mentions(told("blobs.png", {20, 20}, {.size = 4}), "and 27 along each side are needed"));
     CHECK(mentions(told("blobs.png", {4, 20}, {}), "accepted: at least 27 along each side"));
     CHECK(mentions(told("blobs.png", {4000, 4000}, {}), "accepted: at least 27 along each side"));
     CHECK(mentions(told("blobs.png", {20, 20}, {.strut = -1}), "expected positive"));
