@@ -17,8 +17,8 @@ std::size_t place_of(glm::i64vec3 at) {
 
 }  // namespace
 
-NearestOnLattice::NearestOnLattice(const SurfaceSites& sites, double depth)
-    : sites_(sites), square_(depth * depth) {
+NearestOnLattice::NearestOnLattice(const SurfaceSites& sites, double depth, double height)
+    : sites_(sites), square_(depth * depth), height_(height) {
     for (std::uint32_t i = 0; i < sites.size(); ++i) {
         const glm::i64vec3 cube(glm::floor(sites.places[i] / sites.spacing));
         for (int k = 0; k < 8; ++k) propose(cube + glm::i64vec3(k & 1, k >> 1 & 1, k >> 2), i);
@@ -90,8 +90,9 @@ double NearestOnLattice::square(glm::i64vec3 at, std::uint32_t site) const {
 
 /// Takes the site if it is nearer than that of the point; of equally near ones, the lower number.
 void NearestOnLattice::propose(glm::i64vec3 at, std::uint32_t site) {
-    const double here = square(at, site);
-    if (here > square_) return;
+    const dvec3 way = dvec3(at) * sites_.spacing - sites_.places[site];
+    const double here = glm::dot(way, way);
+    if (here > square_ || glm::dot(way, sites_.normals[site]) > height_) return;
     std::uint32_t& now = stored(at);
     if (now != none) {
         const double before = square(at, now);

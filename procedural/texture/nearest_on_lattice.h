@@ -17,9 +17,9 @@ class NearestOnLattice {
   public:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// Finds the nearest sites of points within `depth` mm of one; those in the last step of it may have
-    /// none.
-    NearestOnLattice(const SurfaceSites& sites, double depth);
+    /// Finds the nearest sites of points within `depth` mm of one, and at most `height` mm above its surface;
+    /// those in the last step may have none.
+    NearestOnLattice(const SurfaceSites& sites, double depth, double height);
 
     /// Returns the nearest site of a point, in steps of the lattice; `none` beyond the depth.
     std::uint32_t site(glm::i64vec3 at) const;
@@ -40,7 +40,8 @@ class NearestOnLattice {
     void propose(glm::i64vec3 at, std::uint32_t site);
 
     const SurfaceSites& sites_;
-    double square_;
+    double square_;  ///< of the depth
+    double height_;
     std::vector<Brick> bricks_;
     std::unordered_map<glm::i64vec3, std::size_t, LatticeHash> numbers_;
     std::size_t last_ = 0;

@@ -38,11 +38,12 @@ std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
     return levels;
 }
 
-/// Returns the bricks of distances within a depth of the surface, mm.
+/// Returns the bricks of distances from the surface down to a depth, mm.
 std::vector<PatternBrick> bricks_about(const SurfaceSites& sites, std::span<const float> distances,
                                        double depth, double unit) {
     const CarriedDistance carried(sites, distances);
-    const NearestOnLattice nearest(sites, depth + 2 * sites.spacing);
+    const double margin = 2 * sites.spacing;
+    const NearestOnLattice nearest(sites, depth + margin, margin);
     std::vector<PatternBrick> bricks;
     for (const glm::i64vec3 corner : nearest.bricks()) bricks.emplace_back().corner = corner;
     const double limit = largest_step * unit;

@@ -17,7 +17,7 @@ namespace lamella {
 struct SurfacePatternSettings {
     ExampleSettings example;
     std::optional<dvec3> axis{};  ///< of the pattern's y; smooth by itself if not given
-    double depth = 1;             ///< distance from the surface within which the pattern is wanted, mm
+    double depth = 1;             ///< below the surface, down to which the pattern is wanted, mm
 };
 
 /// Samples of 8 x 8 x 8 cells with all their corners, so that a cell needs one brick. Steps of a distance,

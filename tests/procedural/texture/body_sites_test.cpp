@@ -112,7 +112,7 @@ TEST_CASE("windows on a cylinder are those of the sheet that it unrolls to", "[t
 
 TEST_CASE("the points about a surface know their nearest sites", "[texture]") {
     const SurfaceSites sites = sites_on_surface(*make_torus({0, 0, 0}, 5, 2), 0.4, most, nullptr);
-    const NearestOnLattice nearest(sites, 1.2);
+    const NearestOnLattice nearest(sites, 1.2, 1.2);
     int other = 0, count = 0;
     for (int z = -9; z <= 9; ++z) {
         for (int y = -20; y <= 20; y += 3) {
@@ -136,6 +136,18 @@ TEST_CASE("the points about a surface know their nearest sites", "[texture]") {
         }
     }
     CHECK(other < 0.02 * count);
+}
+
+TEST_CASE("points above the surface have sites as far as asked", "[texture]") {
+    const SurfaceSites sites = sites_on_surface(*make_sphere({0, 0, 0}, 6), 0.4, most, nullptr);
+    const NearestOnLattice nearest(sites, 2, 0.8);
+    for (int x = 0; x <= 20; ++x) {
+        const double height = 0.4 * x - 6;
+        const bool has_site = nearest.site({x, 0, 0}) != NearestOnLattice::none;
+        CAPTURE(height);
+        if (height > 0.85 || height < -2) CHECK(!has_site);
+        if (height < 0.4 && height > -1.6) CHECK(has_site);
+    }
 }
 
 TEST_CASE("bodies with too many sites, or none, are refused", "[texture]") {
