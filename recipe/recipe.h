@@ -14,6 +14,7 @@
 #include "engine/solids/shell.h"
 #include "printers/common/profile.h"
 #include "procedural/grading/attractors.h"
+#include "procedural/texture/reinforcement.h"
 #include "recipe/number_rows.h"
 #include "recipe/optimize_recipe.h"
 
@@ -197,7 +198,8 @@ struct SkinRecipe {
     double threshold = 0.5;            ///< image: grey, 0 to 1, below which it is solid
     bool invert = false;               ///< image: solid where it is bright
     double gap = 0;                    ///< by-example: least width of gaps, mm; 0: any
-    dvec3 direction{0};                ///< by-example: where the picture's top points; 0: smooth by itself
+    Reinforcement reinforce = Reinforcement::shape;  ///< by-example: how bridges are chosen
+    dvec3 direction{0};       ///< by-example: where the picture's top points; 0: smooth by itself
     std::int64_t drains = 0;  ///< holes per closed cavity: at its lowest point, and with 2 also at its
                               ///< highest
     double drain_radius = 0;  ///< mm; 0: derived from the skin

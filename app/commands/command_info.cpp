@@ -84,7 +84,10 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
             if (built.pattern->pieces > 0) {
                 json["picture_open_share"] = built.pattern->picture_share;
                 json["pieces"] = built.pattern->pieces;
+                json["joins"] = built.pattern->joins;
                 json["bridges"] = built.pattern->bridges;
+                json["cut_struts"] = built.pattern->cut_struts;
+                json["detours"] = built.pattern->detours;
                 json["too_small_to_keep"] = built.pattern->dropped;
                 json["site_mm"] = built.pattern->site;
                 json["bytes"] = built.pattern->bytes;

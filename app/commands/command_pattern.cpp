@@ -87,27 +87,35 @@ std::string svg_of(const FlatPattern& pattern) {
 }
 
 std::string report_of(const FlatPattern& pattern, const PatternOptions& options) {
-    const PrintablePattern& made = pattern.pattern();
+    const SoundPattern& made = pattern.pattern();
     const dvec2 size = pattern.size();
     if (options.json) {
-        const nlohmann::ordered_json report{
-            {"sheet_mm", {size.x, size.y}}, {"site_mm", pattern.spacing()},
-            {"solid_share", made.share},    {"example_share", pattern.wanted_share()},
-            {"pieces", made.pieces},        {"bridges", made.lines},
-            {"dropped", made.dropped}};
+        const nlohmann::ordered_json report{{"sheet_mm", {size.x, size.y}},
+                                            {"site_mm", pattern.spacing()},
+                                            {"solid_share", made.printed.share},
+                                            {"example_share", pattern.wanted_share()},
+                                            {"pieces", made.pieces},
+                                            {"dropped", made.printed.dropped},
+                                            {"joins", made.joins},
+                                            {"bridges", made.bridges},
+                                            {"cut_struts", made.cut_struts},
+                                            {"detours", made.detours}};
         return report.dump(2) + "\n";
     }
     std::string text =
         fmt::format("sheet     {:.4g} x {:.4g} mm, tiles in both directions; sites of {:.3g} mm\n", size.x,
                     size.y, pattern.spacing());
-    text += fmt::format("solid     {:.3g} % (the example {:.3g} %)\n", 100 * made.share,
+    text += fmt::format("solid     {:.3g} % (the example {:.3g} %)\n", 100 * made.printed.share,
                         100 * pattern.wanted_share());
     text += fmt::format("pieces    {}", made.pieces);
-    if (made.lines > 0) text += fmt::format(", joined by {} bridges", made.lines);
-    if (made.dropped > 0) text += fmt::format("; {} too small to keep", made.dropped);
+    if (made.joins > 0) text += fmt::format(", joined by {} bridges", made.joins);
+    if (made.printed.dropped > 0) text += fmt::format("; {} too small to keep", made.printed.dropped);
     text += "\n";
+    if (made.bridges > 0) text += fmt::format("sounder   by {} bridges\n", made.bridges);
+    if (made.cut_struts > 0) text += fmt::format("note      {} struts alone hold a part\n", made.cut_struts);
+    if (made.detours > 0) text += fmt::format("note      round {} gaps the way is long\n", made.detours);
     constexpr double much = 0.05;
-    if (std::abs(made.share - pattern.wanted_share()) > much)
+    if (std::abs(made.printed.share - pattern.wanted_share()) > much)
         text +=
             "note      least widths change the solid share: lines of the example are narrower than strut or "
             "gap at "
@@ -172,6 +180,14 @@ void add_pattern_command(CLI::App& root) {
         ->check(CLI::Range(0.0, 1.0))
         ->type_name("X");
     command.add_flag("--invert", options->example.invert, "What is light in the picture is solid");
+    command
+        .add_option(
+            "--reinforce", options->example.reinforce,
+            "How bridges make the sheet sounder: none; shape: no strut alone holds a part, and no way "
+            "round a gap is long (default)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Reinforcement>{
+            {"none", Reinforcement::none}, {"shape", Reinforcement::shape}}))
+        ->type_name("KIND");
     command.add_option("--seed", options->example.synthesis.seed, "Seed of the random numbers; default: 1")
         ->type_name("N");
     command.add_option("--pixel", options->pixel, "Pixel of a .png; default: an eighth of a strut")

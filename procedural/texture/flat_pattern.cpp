@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "procedural/texture/pattern_bridges.h"
 
 namespace lamella {
 
@@ -65,6 +67,26 @@ Example make_example(const Volume& picture, const ExampleSettings& settings) {
     return example;
 }
 
+SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
+                                const ExampleSettings& settings) {
+    const PatternLevel& finest = levels.back();
+    const int width = example.width(finest.sites.spacing, settings.size);
+    SynthesisResult found = synthesise_levels(levels, example.picture, width, settings.synthesis);
+    const PrintSettings print{.share = example.share,
+                              .strut = settings.strut,
+                              .gap = settings.gap,
+                              .limit = std::max(settings.strut, settings.gap)};
+    BridgesByShape by_shape(finest.sites, {.strut = settings.strut,
+                                           .apart = 2 * settings.synthesis.window * finest.sites.spacing,
+                                           .cancel = settings.synthesis.cancel});
+    SoundPattern made = sound_pattern(finest, make_exemplar(example.picture, std::max(1, width)),
+                                      std::move(found), settings.synthesis, print,
+                                      settings.reinforce == Reinforcement::none ? nullptr : &by_shape);
+    made.cut_struts = by_shape.last().cut_struts;
+    made.detours = by_shape.last().detours;
+    return made;
+}
+
 FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettings& settings) {
     const Example example = make_example(picture, settings);
     wanted_share_ = example.share;
@@ -90,13 +112,7 @@ FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettin
         level.sites = flat_sites(width_ >> halvings, height_ >> halvings, spacing_ * (1 << halvings));
         level.windows = site_windows(level.sites, settings.synthesis.window);
     }
-    const SynthesisResult found = synthesise_levels(
-        levels, example.picture, example.width(spacing_, settings.size), settings.synthesis);
-    const PrintSettings print{.share = example.share,
-                              .strut = settings.strut,
-                              .gap = settings.gap,
-                              .limit = std::max(settings.strut, settings.gap)};
-    pattern_ = printable_pattern(levels.back().sites, levels.back().windows, found.pattern, print);
+    pattern_ = synthesise_example(example, levels, settings);
 }
 
 double FlatPattern::distance(dvec2 at) const {
@@ -104,9 +120,9 @@ double FlatPattern::distance(dvec2 at) const {
     const double x = place(at.x / spacing_ - 0.5, width_), y = place(at.y / spacing_ - 0.5, height_);
     const int i = std::min(static_cast<int>(x), width_ - 1), j = std::min(static_cast<int>(y), height_ - 1);
     const auto site = [&](int column, int row) {
-        return static_cast<double>(
-            pattern_.distance[static_cast<std::size_t>(row % height_) * static_cast<std::size_t>(width_) +
-                              static_cast<std::size_t>(column % width_)]);
+        return static_cast<double>(pattern_.printed.distance[static_cast<std::size_t>(row % height_) *
+                                                                 static_cast<std::size_t>(width_) +
+                                                             static_cast<std::size_t>(column % width_)]);
     };
     const double s = x - i, t = y - j;
     const double low = site(i, j) * (1 - s) + site(i + 1, j) * s,

@@ -5,7 +5,8 @@
 
 #include "engine/field/field.h"
 #include "procedural/texture/pattern_levels.h"
-#include "procedural/texture/printable_pattern.h"
+#include "procedural/texture/reinforcement.h"
+#include "procedural/texture/sound_pattern.h"
 #include "procedural/volume/volume.h"
 
 namespace lamella {
@@ -17,6 +18,7 @@ struct ExampleSettings {
     double gap = 0;                     ///< least width of gaps, mm; 0: any
     std::optional<double> threshold{};  ///< grey level, 0 to 1; darker is solid; Otsu's if not given
     bool invert = false;                ///< lighter is solid instead
+    Reinforcement reinforce = Reinforcement::shape;
     SynthesisSettings synthesis{};
 };
 
@@ -33,6 +35,11 @@ struct Example {
 
 /// Throws InputError for settings out of range, and for a picture of less than three windows of sites.
 Example make_example(const Volume& picture, const ExampleSettings& settings);
+
+/// Synthesises the example on the sites of all levels, the coarsest first, and makes the pattern printable
+/// and sound. Throws InputError as printable_pattern(), Interrupted when cancelled.
+SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
+                                const ExampleSettings& settings);
 
 /// The solid of a sheet in the plane z = 0 from the origin on, as a field of any height: its value is a bound
 /// of the distance from the pattern's border. Immutable.
@@ -51,12 +58,12 @@ class FlatPattern : public Field {
     dvec2 size() const { return {width_ * spacing_, height_ * spacing_}; }  ///< mm
     double spacing() const { return spacing_; }                             ///< of sites, mm
     double wanted_share() const { return wanted_share_; }                   ///< the picture's
-    const PrintablePattern& pattern() const { return pattern_; }
+    const SoundPattern& pattern() const { return pattern_; }
 
   private:
     int width_ = 0, height_ = 0;  ///< sites
     double spacing_ = 1, wanted_share_ = 0;
-    PrintablePattern pattern_;
+    SoundPattern pattern_;
 };
 
 }  // namespace lamella

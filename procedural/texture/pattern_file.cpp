@@ -45,8 +45,8 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
         ZlibWriter packed(out);
         packed.write_number(
             std::array{bricks.spacing, bricks.unit, bricks.slope, bricks.share, bricks.wanted_share});
-        packed.write_number(
-            std::array{bricks.pieces, bricks.dropped, bricks.lines, std::uint64_t{bricks.bricks.size()}});
+        packed.write_number(std::array{bricks.pieces, bricks.joins, bricks.bridges, bricks.cut_struts,
+                                       bricks.detours, bricks.dropped, std::uint64_t{bricks.bricks.size()}});
         for (const PatternBrick& brick : bricks.bricks)
             packed.write_number(std::array{brick.corner.x, brick.corner.y, brick.corner.z});
         for (const PatternBrick& brick : bricks.bricks) packed.write_number(brick.steps);
@@ -57,7 +57,7 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
 SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
     PackedReader packed(in, name, pattern_magic, "a pattern");
     std::array<double, 5> numbers{};
-    std::array<std::uint64_t, 4> counts{};
+    std::array<std::uint64_t, 7> counts{};
     packed.take(&numbers, 1);
     packed.take(&counts, 1);
     SurfaceBricks bricks{.spacing = numbers[0],
@@ -66,13 +66,15 @@ SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
                          .share = numbers[3],
                          .wanted_share = numbers[4],
                          .pieces = counts[0],
-                         .dropped = counts[1],
-                         .lines = counts[2],
-                         .bricks = {}};
+                         .joins = counts[1],
+                         .bridges = counts[2],
+                         .cut_struts = counts[3],
+                         .detours = counts[4],
+                         .dropped = counts[5]};
     check_numbers(bricks, name);
     constexpr std::uint64_t most_bricks = std::uint64_t{1} << 40;
-    packed.check_length(std::min(counts[3], most_bricks) * sizeof(PatternBrick::steps));
-    bricks.bricks.resize(counts[3]);
+    packed.check_length(std::min(counts[6], most_bricks) * sizeof(PatternBrick::steps));
+    bricks.bricks.resize(counts[6]);
     for (PatternBrick& brick : bricks.bricks) {
         std::array<std::int64_t, 3> corner{};
         packed.take(&corner, 1);

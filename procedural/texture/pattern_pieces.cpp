@@ -116,18 +116,19 @@ SitePieces pieces_of(const SurfaceSites& sites, std::span<const float> values) {
     return pieces;
 }
 
-JoiningLines lines_between(const SurfaceSites& sites, const SitePieces& pieces,
-                           std::span<const float> reluctance) {
-    JoiningLines joining;
+std::vector<std::vector<std::uint32_t>> lines_between(const SurfaceSites& sites, const SitePieces& pieces,
+                                                      std::span<const float> reluctance) {
+    std::vector<std::vector<std::uint32_t>> lines;
     const PathSearch paths(sites, pieces, reluctance);
     DisjointSets joined(pieces.sizes.size());
     for (const Meeting& meeting : paths.meetings()) {
         if (!joined.join(paths.owner(meeting.from), paths.owner(meeting.to))) continue;
-        paths.trace(meeting.from, joining.sites);
-        paths.trace(meeting.to, joining.sites);
-        ++joining.lines;
+        auto& line = lines.emplace_back();
+        paths.trace(meeting.from, line);
+        std::ranges::reverse(line);
+        paths.trace(meeting.to, line);
     }
-    return joining;
+    return lines;
 }
 
 }  // namespace lamella

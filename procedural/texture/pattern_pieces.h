@@ -18,14 +18,10 @@ struct SitePieces {
 
 SitePieces pieces_of(const SurfaceSites& sites, std::span<const float> values);
 
-/// Returns the sites of lines that join all pieces which the surface connects: the shortest ones, as a
+/// Returns the lines, as sites, that join all pieces which the surface connects: the shortest ones, as a
 /// minimum spanning tree, where a step of a line is as long as it is times 1 plus the mean reluctance of its
-/// ends, by site. So lines go where the pattern nearly had material. Each line ends inside the pieces.
-struct JoiningLines {
-    std::vector<std::uint32_t> sites;
-    std::size_t lines = 0;
-};
-JoiningLines lines_between(const SurfaceSites& sites, const SitePieces& pieces,
-                           std::span<const float> reluctance);
+/// ends, by site. So lines go where the pattern nearly had material. Each line ends inside two pieces.
+std::vector<std::vector<std::uint32_t>> lines_between(const SurfaceSites& sites, const SitePieces& pieces,
+                                                      std::span<const float> reluctance);
 
 }  // namespace lamella

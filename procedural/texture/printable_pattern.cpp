@@ -59,29 +59,38 @@ std::size_t drop_small_pieces(const SurfaceSites& sites, double strut, std::vect
     return dropped;
 }
 
+void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, double strut,
+                std::vector<float>& distances) {
+    SiteLine points;
+    for (const auto& line : lines) points.insert(points.end(), line.begin(), line.end());
+    if (points.empty()) return;
+    const std::vector<float> struts = struts_along(sites, points, strut, strut + 4 * sites.spacing);
+    for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
+}
+
 /// Joins the pieces by struts, where the pattern is nearly solid if there is a choice.
 void join_pieces(const SurfaceSites& sites, const SitePattern& pattern, float threshold, double strut,
                  PrintablePattern& made) {
     const SitePieces pieces = pieces_of(sites, made.distance);
     made.pieces = pieces.sizes.size();
-    made.lines = 0;
+    made.joins.clear();
     if (made.pieces < 2) return;
     std::vector<float> reluctance;
     constexpr float a_distance = 4;
     for (const float distance : pattern.distance)
         reluctance.push_back(a_distance * std::max(threshold - distance, 0.0F));
-    const JoiningLines joining = lines_between(sites, pieces, reluctance);
-    made.lines = joining.lines;
-    std::vector<SitePoint> line;
-    for (const std::uint32_t site : joining.sites) line.push_back({site, sites.places[site]});
-    const std::vector<float> struts = struts_along(sites, line, strut, strut + 4 * sites.spacing);
-    for (std::size_t i = 0; i < struts.size(); ++i) made.distance[i] = std::max(made.distance[i], struts[i]);
+    for (const auto& line : lines_between(sites, pieces, reluctance)) {
+        SiteLine& join = made.joins.emplace_back();
+        for (const std::uint32_t site : line) join.push_back({site, sites.places[site]});
+    }
+    add_struts(sites, made.joins, strut, made.distance);
 }
 
 }  // namespace
 
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,
-                                   const SitePattern& pattern, const PrintSettings& settings) {
+                                   const SitePattern& pattern, std::span<const SiteLine> bridges,
+                                   const PrintSettings& settings) {
     constexpr int rounds = 4;
     constexpr double near_enough = 0.005, kept = 0.8;
     PrintablePattern made;
@@ -89,6 +98,7 @@ PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows&
     for (int round = 0; round < rounds; ++round) {
         const float threshold = threshold_for_share(pattern, aim);
         made.distance = cut(sites, windows, pattern, threshold, settings);
+        add_struts(sites, bridges, settings.strut, made.distance);
         made.dropped = drop_small_pieces(sites, settings.strut, made.distance);
         join_pieces(sites, pattern, threshold, settings.strut, made);
         made.share = solid_share(made.distance, sites.spacing);

@@ -1,8 +1,10 @@
 // PrintablePattern: a synthesised pattern in one piece, with least widths.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "procedural/texture/site_distance.h"
 #include "procedural/texture/texture_synthesis.h"
 
 namespace lamella {
@@ -19,16 +21,17 @@ struct PrintablePattern {
     double share = 0;             ///< of the surface that is solid
     std::size_t pieces = 0;       ///< before they were joined, without those that were dropped
     std::size_t dropped = 0;      ///< pieces too small to keep
-    std::size_t lines = 0;        ///< that join pieces
+    std::vector<SiteLine> joins;  ///< the middle lines of struts that join pieces
 };
 
 /// Cuts the pattern where its distance exceeds a threshold, such that the solid share is the wanted one once
 /// gaps and struts have their least widths (struts have precedence), pieces smaller than a disc of one and a
 /// half struts' diameter are dropped, and the others joined by struts along lines_between(): each component
-/// of the surface bears one piece. The threshold keeps four fifths of the pattern's solid and of its void, so
-/// lines narrower than the least width change the share. Throws InputError for a pattern that is all solid or
-/// all void.
+/// of the surface bears one piece. Struts along `bridges` are added in any case. The threshold keeps four
+/// fifths of the pattern's solid and of its void, so lines narrower than the least width change the share.
+/// Throws InputError for a pattern that is all solid or all void.
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,
-                                   const SitePattern& pattern, const PrintSettings& settings);
+                                   const SitePattern& pattern, std::span<const SiteLine> bridges,
+                                   const PrintSettings& settings);
 
 }  // namespace lamella

@@ -22,6 +22,9 @@ struct SitePoint {
     dvec3 place{0};  ///< mm
 };
 
+/// Points at most one and a half spacings apart: the middle line of a strut.
+using SiteLine = std::vector<SitePoint>;
+
 /// Returns by site the distance (mm) from the nearest of the points, at most `limit`.
 std::vector<float> distances_from(const SurfaceSites& sites, std::span<const SitePoint> points, double limit);
 

@@ -96,25 +96,19 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                                     const SurfacePatternSettings& settings) {
     const Example example = make_example(picture, settings.example);
     const std::vector<PatternLevel> levels = levels_on(body, example, settings);
-    const auto& [sites, windows] = levels.back();
-    const SynthesisResult found =
-        synthesise_levels(levels, example.picture, example.width(example.spacing, settings.example.size),
-                          settings.example.synthesis);
-    const PrintSettings print{.share = example.share,
-                              .strut = settings.example.strut,
-                              .gap = settings.example.gap,
-                              .limit = std::max(settings.example.strut, settings.example.gap)};
-    const PrintablePattern pattern = printable_pattern(sites, windows, found.pattern, print);
+    const SoundPattern pattern = synthesise_example(example, levels, settings.example);
     SurfaceBricks made{.spacing = example.spacing,
-                       .unit = print.limit / largest_step,
+                       .unit = std::max(settings.example.strut, settings.example.gap) / largest_step,
                        .slope = 1,
-                       .share = pattern.share,
+                       .share = pattern.printed.share,
                        .wanted_share = example.share,
                        .pieces = pattern.pieces,
-                       .dropped = pattern.dropped,
-                       .lines = pattern.lines,
-                       .bricks = {}};
-    made.bricks = bricks_about(sites, pattern.distance, settings.depth, made.unit);
+                       .joins = pattern.joins,
+                       .bridges = pattern.bridges,
+                       .cut_struts = pattern.cut_struts,
+                       .detours = pattern.detours,
+                       .dropped = pattern.printed.dropped};
+    made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
     made.slope = slope_of(made.bricks, made.unit, made.spacing);
     return made;
 }

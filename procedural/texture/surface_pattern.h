@@ -31,13 +31,15 @@ struct PatternBrick {
 
 /// A pattern by example about a surface: what a plan keeps of it.
 struct SurfaceBricks {
-    double spacing = 1;                                ///< of sites and samples, mm
-    double unit = 1;                                   ///< mm a step
-    double slope = 1;                                  ///< of the interpolated distances, at most: 1 or more
-    double share = 0;                                  ///< of the surface that is solid
-    double wanted_share = 0;                           ///< the picture's
-    std::uint64_t pieces = 0, dropped = 0, lines = 0;  ///< as in PrintablePattern
-    std::vector<PatternBrick> bricks;
+    double spacing = 1;       ///< of sites and samples, mm
+    double unit = 1;          ///< mm a step
+    double slope = 1;         ///< of the interpolated distances, at most: 1 or more
+    double share = 0;         ///< of the surface that is solid
+    double wanted_share = 0;  ///< the picture's
+    /// As in SoundPattern.
+    std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0;
+    std::uint64_t dropped = 0;  ///< as in PrintablePattern
+    std::vector<PatternBrick> bricks{};
 
     std::size_t bytes() const { return bricks.size() * sizeof(PatternBrick); }
 };

@@ -1,13 +1,28 @@
 // Rounds of matching and voting.
 #include "procedural/texture/texture_synthesis.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "procedural/texture/window_matches.h"
 #include "procedural/texture/window_votes.h"
 
 namespace lamella {
+
+namespace {
+
+std::vector<std::uint32_t> pixel_numbers(const WindowMatches& matches, const Exemplar& exemplar) {
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(matches.matches().size());
+    for (const ExemplarPixel match : matches.matches())
+        numbers.push_back(static_cast<std::uint32_t>(exemplar.solid.index(match.x, match.y)));
+    return numbers;
+}
+
+}  // namespace
 
 SynthesisResult synthesise(const SiteWindows& windows, const Exemplar& exemplar, SitePattern start,
                            std::span<const std::uint8_t> fixed, int level,
@@ -34,9 +49,26 @@ SynthesisResult synthesise(const SiteWindows& windows, const Exemplar& exemplar,
     }
     for (const float difference : matches.differences()) result.energy += static_cast<double>(difference);
     result.energy /= static_cast<double>(sites);
-    for (const ExemplarPixel match : matches.matches())
-        result.matches.push_back(static_cast<std::uint32_t>(exemplar.solid.index(match.x, match.y)));
+    result.matches = pixel_numbers(matches, exemplar);
     return result;
+}
+
+void resynthesise(const SiteWindows& windows, const Exemplar& exemplar, std::span<const std::uint8_t> fixed,
+                  int level, const SynthesisSettings& settings, SynthesisResult& found) {
+    constexpr int rounds = 3, first_sweeps = 2;
+    std::vector<std::uint8_t> kept(fixed.size());
+    parallel_for(fixed.size(), [&](std::size_t i) {
+        const auto window = windows.of(i);
+        kept[i] = std::ranges::all_of(window, [&](std::uint32_t site) { return fixed[site] != 0; }) ? 1 : 0;
+    });
+    WindowMatches matches(windows, exemplar, level, settings);
+    matches.begin_with(found.matches, std::move(kept));
+    const WindowVotes votes(windows, exemplar);
+    for (int round = 0; round < rounds; ++round) {
+        matches.sweep(found.pattern, round == 0 ? first_sweeps : 1);
+        votes.vote(matches, fixed, found.pattern);
+    }
+    found.matches = pixel_numbers(matches, exemplar);
 }
 
 }  // namespace lamella

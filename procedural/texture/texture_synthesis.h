@@ -50,4 +50,10 @@ struct SynthesisResult {
 SynthesisResult synthesise(const SiteWindows& windows, const Exemplar& exemplar, SitePattern start,
                            std::span<const std::uint8_t> fixed, int level, const SynthesisSettings& settings);
 
+/// Synthesises a found pattern anew at the sites with 0 in `fixed`: a few rounds that begin with its matches,
+/// of those windows alone that such sites lie in. The others may have changed since, and their neighbours
+/// follow.
+void resynthesise(const SiteWindows& windows, const Exemplar& exemplar, std::span<const std::uint8_t> fixed,
+                  int level, const SynthesisSettings& settings, SynthesisResult& found);
+
 }  // namespace lamella

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -104,6 +105,17 @@ void WindowMatches::begin_with_patches() {
     for (std::size_t i = 0; i < matches_.size(); ++i) {
         if (nearest[i] < std::numeric_limits<int>::max()) matches_[i] = next_[i];
     }
+}
+
+void WindowMatches::begin_with(std::span<const std::uint32_t> pixels, std::vector<std::uint8_t> kept) {
+    if (pixels.size() != matches_.size() || kept.size() != matches_.size())
+        throw InputError("matches of " + std::to_string(pixels.size()) + " sites; expected " +
+                         std::to_string(matches_.size()));
+    const auto width = static_cast<std::uint32_t>(width_);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        matches_[i] = clamped(static_cast<int>(pixels[i] % width), static_cast<int>(pixels[i] / width));
+    next_ = matches_;  // those that are kept are in both
+    kept_ = std::move(kept);
 }
 
 void WindowMatches::take_bytes(const SitePattern& pattern) {
@@ -237,7 +249,9 @@ void WindowMatches::sweep(const SitePattern& pattern, int sweeps) {
             search.solid.assign(difference_.window_bytes(), 0);
             search.distance.assign(difference_.window_bytes(), 0);
             const std::size_t end = std::min(matches_.size(), (task + 1) * sites_a_task);
-            for (std::size_t site = task * sites_a_task; site < end; ++site) improve(site, search);
+            for (std::size_t site = task * sites_a_task; site < end; ++site) {
+                if (kept_.empty() || kept_[site] == 0) improve(site, search);
+            }
         });
         matches_.swap(next_);
         ++sweeps_;

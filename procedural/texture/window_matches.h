@@ -27,6 +27,9 @@ class WindowMatches {
 
     /// Replaces the matches by those of patches: parts of the exemplar, as large as a window, side by side.
     void begin_with_patches();
+    /// Replaces the matches by pixels of the exemplar, row * width + column. Those with a number other than 0
+    /// in `kept` stay as they are.
+    void begin_with(std::span<const std::uint32_t> pixels, std::vector<std::uint8_t> kept);
     /// Improves the matches for a pattern by a number of sweeps.
     void sweep(const SitePattern& pattern, int sweeps);
 
@@ -56,6 +59,7 @@ class WindowMatches {
     std::vector<std::uint8_t> exemplar_solid_, exemplar_distance_;  ///< as WindowDifference::all_rows
     std::vector<std::uint8_t> solid_, distance_;                    ///< of the sites
     std::vector<ExemplarPixel> matches_, next_;
+    std::vector<std::uint8_t> kept_;  ///< by site; empty: none
     std::vector<float> differences_;
     std::vector<float>
         use_;  ///< by window of the exemplar: how often over the mean, less 1; its mean over sweeps

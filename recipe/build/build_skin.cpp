@@ -67,7 +67,8 @@ FieldPtr by_example(PatternBuildContext& making) {
                         .strut = constant_strut(making),
                         .gap = skin.gap,
                         .threshold = skin.threshold,
-                        .invert = skin.invert};
+                        .invert = skin.invert,
+                        .reinforce = skin.reinforce};
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
     settings.example.synthesis.cancel = making.work.cancel;
     if (skin.direction != dvec3(0)) settings.axis = skin.direction;
@@ -80,7 +81,10 @@ FieldPtr by_example(PatternBuildContext& making) {
     report.open_share = 1 - made.share;
     report.picture_share = 1 - made.wanted_share;
     report.pieces = made.pieces;
-    report.bridges = made.lines;
+    report.joins = made.joins;
+    report.bridges = made.bridges;
+    report.cut_struts = made.cut_struts;
+    report.detours = made.detours;
     report.dropped = made.dropped;
     report.site = made.spacing;
     report.bytes = made.bytes();
@@ -97,7 +101,7 @@ std::span<const PatternBuilder> pattern_builders() {
         {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image},
         {{"by-example",
           {"image", "image_size", "strut"},
-          {"threshold", "invert", "gap", "direction", "seed"}},
+          {"threshold", "invert", "gap", "reinforce", "direction", "seed"}},
          by_example}};
     return list;
 }

@@ -15,13 +15,16 @@ namespace lamella {
 /// What came of a skin's pattern.
 struct PatternReport {
     std::string pattern;
-    std::size_t windows = 0;   ///< cells of the pattern; 0 for a picture
-    std::size_t closed = 0;    ///< cells too small for a window
-    std::size_t islands = 0;   ///< solid parts of a picture that hang on nothing and were left out
-    double open_share = 0;     ///< of a picture, or a pattern by example, that is window
-    double picture_share = 0;  ///< by example: of the picture that is window
-    std::size_t pieces = 0;    ///< by example: before bridges joined them
-    std::size_t bridges = 0;
+    std::size_t windows = 0;     ///< cells of the pattern; 0 for a picture
+    std::size_t closed = 0;      ///< cells too small for a window
+    std::size_t islands = 0;     ///< solid parts of a picture that hang on nothing and were left out
+    double open_share = 0;       ///< of a picture, or a pattern by example, that is window
+    double picture_share = 0;    ///< by example: of the picture that is window
+    std::size_t pieces = 0;      ///< by example: before bridges joined them
+    std::size_t joins = 0;       ///< by example: bridges between pieces
+    std::size_t bridges = 0;     ///< by example: bridges that make it sounder
+    std::size_t cut_struts = 0;  ///< by example: left, as in BridgePlan
+    std::size_t detours = 0;
     std::size_t dropped = 0;  ///< by example: pieces too small to keep
     double site = 0;          ///< by example: distance of the points that the pattern is computed on, mm
     std::size_t bytes = 0;    ///< by example: of the pattern in memory

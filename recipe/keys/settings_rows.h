@@ -16,6 +16,7 @@ const std::vector<std::string>& choice_names(Shape);
 const std::vector<std::string>& choice_names(LengthUnit);
 const std::vector<std::string>& choice_names(Falloff);
 const std::vector<std::string>& choice_names(SkinSide);
+const std::vector<std::string>& choice_names(Reinforcement);
 const std::vector<std::string>& choice_names(SupportKind);
 const std::vector<std::string>& choice_names(RegionMake);
 const std::vector<std::string>& choice_names(OptimizeKind);

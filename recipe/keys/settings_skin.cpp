@@ -9,6 +9,11 @@ const std::vector<std::string>& choice_names(SkinSide) {
     return list;
 }
 
+const std::vector<std::string>& choice_names(Reinforcement) {
+    static const std::vector<std::string> list{"none", "shape", "forces"};
+    return list;
+}
+
 namespace {
 
 using S = SkinRecipe;
@@ -96,6 +101,11 @@ void add_image_pattern(std::vector<Setting>& t) {
                            .limits = {0, 1000},
                            .fallback = "any",
                            .help = "Minimum width of gaps in a pattern by example; struts take precedence."});
+    add_skin_row<&S::reinforce>(
+        t, "reinforce", "--skin-reinforce",
+        {.fallback = "shape",
+         .help = "How bridges make a pattern by example sounder, beyond joining its pieces: shape: no strut "
+                 "alone holds a part, and no way round a gap is long."});
     add_skin_row<&S::direction>(t, "direction", "--skin-direction",
                                 {.limits = {-1e6, 1e6},
                                  .fallback = "as smooth as the surface allows",

@@ -73,10 +73,10 @@ TEST_CASE("sheets of all examples are one piece with struts as wide as asked", "
         constexpr double slack = 0.9;
         CHECK(lost_by_opening(solid, slack * 0.8 * 20) == 0);
         const double share = static_cast<double>(solid.count()) / static_cast<double>(solid.marked.size());
-        CHECK(share == Approx(sheet.pattern().share).margin(0.01));
+        CHECK(share == Approx(sheet.pattern().printed.share).margin(0.01));
         // Struts that join pieces are added.
         CHECK(share > 0.95 * sheet.wanted_share());
-        if (sheet.pattern().lines < 20) CHECK(share < 1.05 * sheet.wanted_share());
+        if (sheet.pattern().joins < 20) CHECK(share < 1.05 * sheet.wanted_share());
     }
 }
 

@@ -24,9 +24,11 @@ SurfaceBricks two_bricks() {
                          .share = 0.4,
                          .wanted_share = 0.45,
                          .pieces = 7,
-                         .dropped = 3,
-                         .lines = 6,
-                         .bricks = {}};
+                         .joins = 6,
+                         .bridges = 9,
+                         .cut_struts = 1,
+                         .detours = 2,
+                         .dropped = 3};
     for (const glm::i64vec3 corner : {glm::i64vec3(0, 0, 0), glm::i64vec3(-3, 2, 1)}) {
         PatternBrick& brick = bricks.bricks.emplace_back();
         brick.corner = corner;
@@ -50,7 +52,10 @@ void check_equal(const SurfaceBricks& a, const SurfaceBricks& b) {
     CHECK(a.wanted_share == b.wanted_share);
     CHECK(a.pieces == b.pieces);
     CHECK(a.dropped == b.dropped);
-    CHECK(a.lines == b.lines);
+    CHECK(a.joins == b.joins);
+    CHECK(a.bridges == b.bridges);
+    CHECK(a.cut_struts == b.cut_struts);
+    CHECK(a.detours == b.detours);
     REQUIRE(a.bricks.size() == b.bricks.size());
     for (std::size_t i = 0; i < a.bricks.size(); ++i) {
         CHECK(a.bricks[i].corner == b.bricks[i].corner);

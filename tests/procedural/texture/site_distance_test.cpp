@@ -58,13 +58,23 @@ TEST_CASE("pieces of a pattern are joined by the fewest and shortest lines", "[t
     const SitePieces pieces = pieces_of(sites, values);
     REQUIRE(pieces.sizes.size() == 4);
     const std::vector<float> none(sites.size(), 0);
-    const JoiningLines joining = lines_between(sites, pieces, none);
-    CHECK(joining.lines == 3);
+    const auto sites_of = [](const std::vector<std::vector<std::uint32_t>>& lines) {
+        std::vector<std::uint32_t> all;
+        for (const auto& line : lines) all.insert(all.end(), line.begin(), line.end());
+        return all;
+    };
+    const auto lines = lines_between(sites, pieces, none);
+    CHECK(lines.size() == 3);
+    for (const auto& line : lines) {
+        for (std::size_t k = 1; k < line.size(); ++k)
+            CHECK(std::ranges::count(sites.neighbours(line[k - 1]), line[k]) == 1);
+        CHECK(pieces.piece[line.front()] != pieces.piece[line.back()]);
+    }
     std::vector<float> joined = values;
-    for (const std::uint32_t site : joining.sites) joined[site] = 1;
+    for (const std::uint32_t site : sites_of(lines)) joined[site] = 1;
     CHECK(pieces_of(sites, joined).sizes.size() == 1);
     // The way from 18.5 to 2 goes over the border: nothing lies between 9.5 and 17.
-    for (const std::uint32_t site : joining.sites) {
+    for (const std::uint32_t site : sites_of(lines)) {
         const double x = sites.places[site].x;
         CHECK((x < 9.5 || x > 17));
     }
@@ -73,9 +83,9 @@ TEST_CASE("pieces of a pattern are joined by the fewest and shortest lines", "[t
     for (std::size_t i = 0; i < sites.size(); ++i) {
         if (sites.places[i].x > 19.7 || sites.places[i].x < 0.3) wall[i] = 1e4F;
     }
-    const JoiningLines around = lines_between(sites, pieces, wall);
-    CHECK(around.lines == 3);
-    CHECK(std::ranges::any_of(around.sites, [&](std::uint32_t site) {
+    const auto around = lines_between(sites, pieces, wall);
+    CHECK(around.size() == 3);
+    CHECK(std::ranges::any_of(sites_of(around), [&](std::uint32_t site) {
         return sites.places[site].x > 10 && sites.places[site].x < 16;
     }));
 }
