@@ -88,6 +88,10 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
                 json["bridges"] = built.pattern->bridges;
                 json["cut_struts"] = built.pattern->cut_struts;
                 json["detours"] = built.pattern->detours;
+                if (built.pattern->softness > 0) {
+                    json["softness_before"] = built.pattern->softness_before;
+                    json["softness"] = built.pattern->softness;
+                }
                 json["too_small_to_keep"] = built.pattern->dropped;
                 json["site_mm"] = built.pattern->site;
                 json["bytes"] = built.pattern->bytes;

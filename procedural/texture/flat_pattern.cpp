@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "procedural/texture/pattern_bridges.h"
 
 namespace lamella {
 
@@ -67,8 +66,14 @@ Example make_example(const Volume& picture, const ExampleSettings& settings) {
     return example;
 }
 
+BridgeSettings bridge_settings(const SurfaceSites& sites, const ExampleSettings& settings) {
+    return {.strut = settings.strut,
+            .apart = 2 * settings.synthesis.window * sites.spacing,
+            .cancel = settings.synthesis.cancel};
+}
+
 SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
-                                const ExampleSettings& settings) {
+                                const ExampleSettings& settings, BridgeChoice* choice) {
     const PatternLevel& finest = levels.back();
     const int width = example.width(finest.sites.spacing, settings.size);
     SynthesisResult found = synthesise_levels(levels, example.picture, width, settings.synthesis);
@@ -76,12 +81,19 @@ SoundPattern synthesise_example(const Example& example, const std::vector<Patter
                               .strut = settings.strut,
                               .gap = settings.gap,
                               .limit = std::max(settings.strut, settings.gap)};
-    BridgesByShape by_shape(finest.sites, {.strut = settings.strut,
-                                           .apart = 2 * settings.synthesis.window * finest.sites.spacing,
-                                           .cancel = settings.synthesis.cancel});
-    SoundPattern made = sound_pattern(finest, make_exemplar(example.picture, std::max(1, width)),
-                                      std::move(found), settings.synthesis, print,
-                                      settings.reinforce == Reinforcement::none ? nullptr : &by_shape);
+    return sound_pattern(finest, make_exemplar(example.picture, std::max(1, width)), std::move(found),
+                         settings.synthesis, print, choice);
+}
+
+SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
+                                const ExampleSettings& settings) {
+    if (settings.reinforce == Reinforcement::none)
+        return synthesise_example(example, levels, settings, nullptr);
+    if (settings.reinforce != Reinforcement::shape)
+        throw InputError("forces act on the skin of a body; accepted: reinforcement by shape");
+    const SurfaceSites& sites = levels.back().sites;
+    BridgesByShape by_shape(sites, bridge_settings(sites, settings));
+    SoundPattern made = synthesise_example(example, levels, settings, &by_shape);
     made.cut_struts = by_shape.last().cut_struts;
     made.detours = by_shape.last().detours;
     return made;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/field/field.h"
+#include "procedural/texture/pattern_bridges.h"
 #include "procedural/texture/pattern_levels.h"
 #include "procedural/texture/reinforcement.h"
 #include "procedural/texture/sound_pattern.h"
@@ -36,8 +37,15 @@ struct Example {
 /// Throws InputError for settings out of range, and for a picture of less than three windows of sites.
 Example make_example(const Volume& picture, const ExampleSettings& settings);
 
-/// Synthesises the example on the sites of all levels, the coarsest first, and makes the pattern printable
-/// and sound. Throws InputError as printable_pattern(), Interrupted when cancelled.
+/// Returns the settings of bridges between sites.
+BridgeSettings bridge_settings(const SurfaceSites& sites, const ExampleSettings& settings);
+
+/// Synthesises the example on the sites of all levels, the coarsest first, and makes the pattern printable,
+/// with bridges as `choice` says, or without more than join its pieces if that is null. Throws InputError as
+/// printable_pattern(), Interrupted when cancelled.
+SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
+                                const ExampleSettings& settings, BridgeChoice* choice);
+/// The same, with bridges by shape if the settings ask for them. Throws InputError for other reinforcements.
 SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
                                 const ExampleSettings& settings);
 

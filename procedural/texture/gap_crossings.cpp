@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::uint32_t no_site = SitePieces::none;
 
-double length_of(dvec3 way) { return std::sqrt(glm::dot(way, way)); }
-
 }  // namespace
 
 GapCrossings::GapCrossings(const SurfaceSites& sites, std::span<const float> values)
@@ -67,9 +65,9 @@ void GapCrossings::find_crossings() {
         for (const std::uint32_t to : sites_.neighbours(i)) {
             if (to < from || owner_[to] == no_site || owner_[to] == owner_[i]) continue;
             const dvec3 ahead = sites_.way(sites_.places[to], sites_.places[owner_[to]]);
-            const double ways = length_of(back) + length_of(ahead);
-            if (glm::dot(back, ahead) > opposite * length_of(back) * length_of(ahead)) continue;
-            const double width = length_of(sites_.way(sites_.places[owner_[i]], sites_.places[owner_[to]]));
+            const double ways = length(back) + length(ahead);
+            if (glm::dot(back, ahead) > opposite * length(back) * length(ahead)) continue;
+            const double width = length(sites_.way(sites_.places[owner_[i]], sites_.places[owner_[to]]));
             if (width < as_straight * ways) continue;
             found[i].push_back({owner_[i], owner_[to], from, to, width});
         }
@@ -92,13 +90,13 @@ SiteLine straightened(const SurfaceSites& sites, std::span<const std::uint32_t> 
     SiteLine points;
     if (line.empty()) return points;
     const dvec3 begin = sites.places[line.front()], chord = sites.way(begin, sites.places[line.back()]);
-    const double length = length_of(chord);
+    const double straight = length(chord);
     for (const std::uint32_t site : line) {
         SitePoint point{site, sites.places[site]};
         const dvec3 sideways = glm::cross(sites.normals[site], chord);
-        const double width = length_of(sideways);
+        const double width = length(sideways);
         constexpr double least = 1e-6;
-        if (width > least * length) {
+        if (width > least * straight) {
             const dvec3 way = sites.way(begin, point.place);
             point.place -= glm::dot(way, sideways) / (width * width) * sideways;
         }

@@ -23,7 +23,8 @@ void check_numbers(const SurfaceBricks& bricks, const std::string& name) {
     const auto is_share = [](double v) { return v >= 0 && v <= 1; };
     if (!is_length(bricks.spacing) || !(bricks.unit > 1e-12 && bricks.unit < 1e6) ||
         !(bricks.slope >= 1 && bricks.slope < 1e12) || !is_share(bricks.share) ||
-        !is_share(bricks.wanted_share))
+        !is_share(bricks.wanted_share) || !(bricks.softness_before >= 0 && bricks.softness_before < 1e12) ||
+        !(bricks.softness >= 0 && bricks.softness < 1e12))
         throw InputError(name + ": a number of the pattern is out of range");
 }
 
@@ -43,8 +44,8 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
     write_complete_file(file, [&](std::ostream& out) {
         out.write(pattern_magic.data(), pattern_magic.size());
         ZlibWriter packed(out);
-        packed.write_number(
-            std::array{bricks.spacing, bricks.unit, bricks.slope, bricks.share, bricks.wanted_share});
+        packed.write_number(std::array{bricks.spacing, bricks.unit, bricks.slope, bricks.share,
+                                       bricks.wanted_share, bricks.softness_before, bricks.softness});
         packed.write_number(std::array{bricks.pieces, bricks.joins, bricks.bridges, bricks.cut_struts,
                                        bricks.detours, bricks.dropped, std::uint64_t{bricks.bricks.size()}});
         for (const PatternBrick& brick : bricks.bricks)
@@ -56,7 +57,7 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
 
 SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
     PackedReader packed(in, name, pattern_magic, "a pattern");
-    std::array<double, 5> numbers{};
+    std::array<double, 7> numbers{};
     std::array<std::uint64_t, 7> counts{};
     packed.take(&numbers, 1);
     packed.take(&counts, 1);
@@ -70,7 +71,9 @@ SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
                          .bridges = counts[2],
                          .cut_struts = counts[3],
                          .detours = counts[4],
-                         .dropped = counts[5]};
+                         .dropped = counts[5],
+                         .softness_before = numbers[5],
+                         .softness = numbers[6]};
     check_numbers(bricks, name);
     constexpr std::uint64_t most_bricks = std::uint64_t{1} << 40;
     packed.check_length(std::min(counts[6], most_bricks) * sizeof(PatternBrick::steps));

@@ -11,8 +11,6 @@ namespace {
 
 constexpr int in_the_cut = 3;
 
-double length_of(dvec3 way) { return std::sqrt(glm::dot(way, way)); }
-
 }  // namespace
 
 SolidParting::SolidParting(const SurfaceSites& sites, std::span<const float> values)
@@ -86,11 +84,11 @@ double SolidWays::length(std::uint32_t from, std::uint32_t to, double limit) {
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     ++now_;
-    const auto propose = [&](std::uint32_t site, double length) {
-        const double least = length + length_of(sites_.way(sites_.places[site], sites_.places[to]));
-        if (!(least < limit) || (stamp_[site] == now_ && !(length < length_[site]))) return;
+    const auto propose = [&](std::uint32_t site, double way) {
+        const double least = way + lamella::length(sites_.way(sites_.places[site], sites_.places[to]));
+        if (!(least < limit) || (stamp_[site] == now_ && !(way < length_[site]))) return;
         stamp_[site] = now_;
-        length_[site] = length;
+        length_[site] = way;
         open.emplace(least, site);
     };
     propose(from, 0);
@@ -100,8 +98,8 @@ double SolidWays::length(std::uint32_t from, std::uint32_t to, double limit) {
         open.pop();
         for (const std::uint32_t other : sites_.neighbours(site)) {
             if (values_[other] > 0)
-                propose(other,
-                        length_[site] + length_of(sites_.way(sites_.places[site], sites_.places[other])));
+                propose(other, length_[site] +
+                                   lamella::length(sites_.way(sites_.places[site], sites_.places[other])));
         }
     }
     return limit;

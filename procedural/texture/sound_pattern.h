@@ -30,6 +30,6 @@ struct SoundPattern {
 /// that are chosen after `rounds` rounds are not built. Throws as printable_pattern().
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
                            const SynthesisSettings& synthesis, const PrintSettings& print,
-                           BridgeChoice* choice, int rounds = 8);
+                           BridgeChoice* choice, int rounds = 12);
 
 }  // namespace lamella

@@ -11,6 +11,7 @@
 #include "engine/base/parallel.h"
 #include "procedural/texture/body_sites.h"
 #include "procedural/texture/carried_distance.h"
+#include "procedural/texture/force_bridges.h"
 #include "procedural/texture/nearest_on_lattice.h"
 
 namespace lamella {
@@ -90,13 +91,37 @@ double slope_of(std::span<const PatternBrick> bricks, double unit, double spacin
     return std::max(1.0, std::sqrt(glm::dot(slopes, slopes)));
 }
 
+/// Returns the edge of finite elements: half a strut, or as wide as keeps their number in bounds.
+double element_edge(const Field& shell, double strut) {
+    constexpr double most = 3e6;
+    const dvec3 size = shell.bounds().size();
+    return std::max(0.5 * strut, std::cbrt(size.x * size.y * size.z / most));
+}
+
+SoundPattern reinforced_by_forces(const Example& example, const std::vector<PatternLevel>& levels,
+                                  const SurfacePatternSettings& settings, std::vector<double>& softness) {
+    const SurfaceSites& sites = levels.back().sites;
+    const SynthesisSettings& synthesis = settings.example.synthesis;
+    const SkinElements elements(*settings.shell, sites, settings.depth,
+                                element_edge(*settings.shell, settings.example.strut), synthesis.cancel);
+    BridgesByForces by_forces(
+        sites, elements, settings.loads,
+        {.by_shape = bridge_settings(sites, settings.example), .thickness = settings.depth});
+    SoundPattern made = synthesise_example(example, levels, settings.example, &by_forces);
+    softness = by_forces.softness();
+    return made;
+}
+
 }  // namespace
 
 SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                                     const SurfacePatternSettings& settings) {
     const Example example = make_example(picture, settings.example);
     const std::vector<PatternLevel> levels = levels_on(body, example, settings);
-    const SoundPattern pattern = synthesise_example(example, levels, settings.example);
+    std::vector<double> softness;
+    const SoundPattern pattern = settings.example.reinforce == Reinforcement::forces
+                                     ? reinforced_by_forces(example, levels, settings, softness)
+                                     : synthesise_example(example, levels, settings.example);
     SurfaceBricks made{.spacing = example.spacing,
                        .unit = std::max(settings.example.strut, settings.example.gap) / largest_step,
                        .slope = 1,
@@ -108,6 +133,10 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                        .cut_struts = pattern.cut_struts,
                        .detours = pattern.detours,
                        .dropped = pattern.printed.dropped};
+    if (!softness.empty()) {
+        made.softness_before = softness.front();
+        made.softness = softness.back();
+    }
     made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
     made.slope = slope_of(made.bricks, made.unit, made.spacing);
     return made;

@@ -11,6 +11,7 @@
 #include "procedural/skin/window_pattern.h"
 #include "procedural/texture/flat_pattern.h"
 #include "procedural/texture/lattice_hash.h"
+#include "procedural/texture/skin_loads.h"
 
 namespace lamella {
 
@@ -18,6 +19,9 @@ struct SurfacePatternSettings {
     ExampleSettings example;
     std::optional<dvec3> axis{};  ///< of the pattern's y; smooth by itself if not given
     double depth = 1;             ///< below the surface, down to which the pattern is wanted, mm
+    /// Of reinforcement by forces: the skin without the pattern, and what loads it.
+    FieldPtr shell{};
+    SkinLoads loads = squeezed_skin;
 };
 
 /// Samples of 8 x 8 x 8 cells with all their corners, so that a cell needs one brick. Steps of a distance,
@@ -39,6 +43,9 @@ struct SurfaceBricks {
     /// As in SoundPattern.
     std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0;
     std::uint64_t dropped = 0;  ///< as in PrintablePattern
+    /// Mean compliance under the loads, over that of the closed skin, without bridges and with them; 0: no
+    /// forces.
+    double softness_before = 0, softness = 0;
     std::vector<PatternBrick> bricks{};
 
     std::size_t bytes() const { return bricks.size() * sizeof(PatternBrick); }

@@ -10,6 +10,7 @@
 #include "procedural/skin/image_windows.h"
 #include "procedural/skin/surface_windows.h"
 #include "recipe/build/pattern_plan.h"
+#include "recipe/structure/structural_problem.h"
 
 namespace lamella {
 
@@ -60,6 +61,25 @@ FieldPtr image(PatternBuildContext& making) {
         making.shell, std::make_shared<ImageWindows>(std::move(picture), *making.body, strut, making.depth));
 }
 
+/// Returns the recipe's loads on elements of the skin.
+LoadedSkin loaded_skin(PatternBuildContext& making, const SkinElements& elements,
+                       std::span<const float> shares) {
+    ElementDomain domain{.dimensions = 3,
+                         .size = elements.size(),
+                         .edges = dvec3(elements.edge()),
+                         .box = elements.box(),
+                         .use = {}};
+    for (const float share : shares) domain.use.push_back(share > 0 ? ElementUse::free : ElementUse::outside);
+    const StructuralProblem<3> problem =
+        structural_problem<3>(making.recipe, domain, making.gradings, material_poisson);
+    LoadedSkin loaded{problem.topology.body, {}};
+    const std::vector<std::size_t> numbers = element_numbers(loaded.body.grid);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        loaded.body.present[numbers[i]] = domain.use[i] == ElementUse::outside ? 0 : 1;
+    for (const LoadCase<3>& load : problem.topology.cases) loaded.cases.push_back(load.forces);
+    return loaded;
+}
+
 FieldPtr by_example(PatternBuildContext& making) {
     const SkinRecipe& skin = *making.recipe.skin;
     SurfacePatternSettings settings;
@@ -73,6 +93,12 @@ FieldPtr by_example(PatternBuildContext& making) {
     settings.example.synthesis.cancel = making.work.cancel;
     if (skin.direction != dvec3(0)) settings.axis = skin.direction;
     settings.depth = making.depth;
+    settings.shell = making.shell;
+    if (!making.recipe.loads.empty() && !making.recipe.anchors.empty()) {
+        settings.loads = [&making](const SkinElements& elements, std::span<const float> shares) {
+            return loaded_skin(making, elements, shares);
+        };
+    }
     ThreadArena arena(making.work.threads);
     const auto pattern = std::make_shared<const SurfacePattern>(arena.execute(
         [&] { return pattern_plan(making.recipe, *making.body, settings, making.work.plans); }));
@@ -86,6 +112,8 @@ FieldPtr by_example(PatternBuildContext& making) {
     report.cut_struts = made.cut_struts;
     report.detours = made.detours;
     report.dropped = made.dropped;
+    report.softness_before = made.softness_before;
+    report.softness = made.softness;
     report.site = made.spacing;
     report.bytes = made.bytes();
     return make_patterned_shell(making.shell, pattern);

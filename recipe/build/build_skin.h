@@ -25,9 +25,11 @@ struct PatternReport {
     std::size_t bridges = 0;     ///< by example: bridges that make it sounder
     std::size_t cut_struts = 0;  ///< by example: left, as in BridgePlan
     std::size_t detours = 0;
-    std::size_t dropped = 0;  ///< by example: pieces too small to keep
-    double site = 0;          ///< by example: distance of the points that the pattern is computed on, mm
-    std::size_t bytes = 0;    ///< by example: of the pattern in memory
+    std::size_t dropped = 0;     ///< by example: pieces too small to keep
+    double softness_before = 0;  ///< by example: as in SurfaceBricks
+    double softness = 0;
+    double site = 0;        ///< by example: distance of the points that the pattern is computed on, mm
+    std::size_t bytes = 0;  ///< by example: of the pattern in memory
 };
 
 /// A hole as it is drilled.

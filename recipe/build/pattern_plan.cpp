@@ -22,6 +22,11 @@ std::string pattern_hash(const Recipe& recipe, double depth) {
         kept.foam = recipe.foam;
         kept.frame = recipe.frame;
     }
+    if (recipe.skin->reinforce == Reinforcement::forces) {
+        kept.regions = recipe.regions;
+        kept.loads = recipe.loads;
+        kept.anchors = recipe.anchors;
+    }
     kept.material = recipe.material;
     Fnv128 hash;
     hash.add(job_identity(kept));

@@ -105,7 +105,8 @@ void add_image_pattern(std::vector<Setting>& t) {
         t, "reinforce", "--skin-reinforce",
         {.fallback = "shape",
          .help = "How bridges make a pattern by example sounder, beyond joining its pieces: shape: no strut "
-                 "alone holds a part, and no way round a gap is long."});
+                 "alone holds a part, and no way round a gap is long; forces: also where a finite element "
+                 "analysis under the loads, or squeezes from all sides, finds them most useful."});
     add_skin_row<&S::direction>(t, "direction", "--skin-direction",
                                 {.limits = {-1e6, 1e6},
                                  .fallback = "as smooth as the surface allows",

@@ -81,7 +81,7 @@ TEST_CASE("a skin by example is one piece and as open as its picture", "[texture
         CHECK(pieces_of_part(*job.designed.part, job.body->bounds(), 0.2) == 1);
         REQUIRE(job.pattern);
         // Bridges between pieces close more.
-        if (job.pattern->bridges < 10)
+        if (job.pattern->joins < 10)
             CHECK(1 - job.pattern->open_share == Approx(1 - job.pattern->picture_share).epsilon(0.05));
         // Half way through the skin, by points of the body on a spiral about its middle.
         const Box bounds = job.body->bounds();
