@@ -14,7 +14,7 @@
 #include "engine/solids/shell.h"
 #include "printers/common/profile.h"
 #include "procedural/grading/attractors.h"
-#include "procedural/texture/reinforcement.h"
+#include "procedural/pattern/reinforcement.h"
 #include "recipe/number_rows.h"
 #include "recipe/optimize_recipe.h"
 

@@ -13,7 +13,7 @@
 #include "engine/base/parallel.h"
 #include "engine/field/slice_context.h"
 #include "printers/masks/png_writer.h"
-#include "procedural/texture/flat_pattern.h"
+#include "procedural/pattern/flat_pattern.h"
 
 namespace lamella {
 

@@ -1,7 +1,7 @@
 // Keeps of a recipe what its body and the pattern depend on, and hashes that.
 #include "recipe/build/pattern_plan.h"
 
-#include "procedural/texture/pattern_file.h"
+#include "procedural/pattern/pattern_file.h"
 #include "recipe/build/kept_plan.h"
 #include "recipe/identity.h"
 #include "recipe/settings.h"

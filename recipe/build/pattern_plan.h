@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "procedural/texture/surface_pattern.h"
+#include "procedural/pattern/surface_pattern.h"
 #include "recipe/recipe.h"
 
 namespace lamella {

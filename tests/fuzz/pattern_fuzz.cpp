@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "procedural/texture/pattern_file.h"
+#include "procedural/pattern/pattern_file.h"
 #include "tests/fuzz/packed_file.h"
 
 using namespace lamella;

@@ -23,7 +23,7 @@
 #include "procedural/foam/voronoi_foam.h"
 #include "procedural/lattice/strut_lattice.h"
 #include "procedural/lattice/tpms.h"
-#include "procedural/texture/surface_pattern.h"
+#include "procedural/pattern/surface_pattern.h"
 #include "tests/procedural/optimization/topology_problems.h"
 
 using namespace lamella;

@@ -6,9 +6,9 @@
 
 #include "engine/base/error.h"
 #include "engine/solids/primitives.h"
+#include "procedural/pattern/nearest_on_lattice.h"
+#include "procedural/pattern/pattern_pieces.h"
 #include "procedural/texture/carried_tangent.h"
-#include "procedural/texture/nearest_on_lattice.h"
-#include "procedural/texture/pattern_pieces.h"
 #include "procedural/texture/site_windows.h"
 
 namespace body_sites_test {

@@ -1,0 +1,37 @@
+// PrintablePattern: a synthesised pattern in one piece, with least widths.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "procedural/pattern/site_distance.h"
+#include "procedural/texture/texture_synthesis.h"
+
+namespace lamella {
+
+struct PrintSettings {
+    double share = 0.5;  ///< of the surface that is to be solid
+    double strut = 0.8;  ///< least width of struts, mm
+    double gap = 0;      ///< least width of gaps, mm; 0: any
+    double limit = 1;    ///< largest distance that is told, mm
+};
+
+struct PrintablePattern {
+    std::vector<float> distance;  ///< from the border, mm, positive in the solid, by site
+    double share = 0;             ///< of the surface that is solid
+    std::size_t pieces = 0;       ///< before they were joined, without those that were dropped
+    std::size_t dropped = 0;      ///< pieces too small to keep
+    std::vector<SiteLine> joins;  ///< the middle lines of struts that join pieces
+};
+
+/// Cuts the pattern where its distance exceeds a threshold, such that the solid share is the wanted one once
+/// gaps and struts have their least widths (struts have precedence), pieces smaller than a disc of one and a
+/// half struts' diameter are dropped, and the others joined by struts along lines_between(): each component
+/// of the surface bears one piece. Struts along `bridges` are added in any case. The threshold keeps four
+/// fifths of the pattern's solid and of its void, so lines narrower than the least width change the share.
+/// Throws InputError for a pattern that is all solid or all void.
+PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,
+                                   const SitePattern& pattern, std::span<const SiteLine> bridges,
+                                   const PrintSettings& settings);
+
+}  // namespace lamella

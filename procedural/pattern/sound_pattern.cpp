@@ -1,0 +1,68 @@
+// Rounds of printing, choosing bridges and local synthesis.
+#include "procedural/pattern/sound_pattern.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "procedural/pattern/least_widths.h"
+
+namespace lamella {
+
+namespace {
+
+/// Puts bridges into a pattern, and synthesises anew what is within a window of the new ones.
+void build(const PatternLevel& level, const Exemplar& exemplar, std::span<const SiteLine> bridges,
+           std::size_t built, double strut, int round, const SynthesisSettings& synthesis,
+           SynthesisResult& found) {
+    const SurfaceSites& sites = level.sites;
+    SiteLine all, added;
+    for (std::size_t i = 0; i < bridges.size(); ++i) {
+        all.insert(all.end(), bridges[i].begin(), bridges[i].end());
+        if (i >= built) added.insert(added.end(), bridges[i].begin(), bridges[i].end());
+    }
+    const double reach = level.windows.size * sites.spacing;
+    const std::vector<float> to_all = struts_along(sites, all, strut, strut + reach),
+                             to_added = struts_along(sites, added, strut, strut + reach);
+    std::vector<std::uint8_t> fixed(sites.size(), 1);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        if (to_all[i] > 0) {
+            const double pixels = static_cast<double>(to_all[i]) / sites.spacing;
+            const auto distance = static_cast<float>(std::min(0.5 + 0.5 * pixels / Exemplar::reach, 1.0));
+            found.pattern.solid[i] = 1;
+            found.pattern.distance[i] = std::max(found.pattern.distance[i], distance);
+        } else if (static_cast<double>(to_added[i]) > -reach) {
+            fixed[i] = 0;
+        }
+    }
+    resynthesise(level.windows, exemplar, fixed, round, synthesis, found);
+}
+
+}  // namespace
+
+SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
+                           const SynthesisSettings& synthesis, const PrintSettings& print,
+                           BridgeChoice* choice, int rounds) {
+    constexpr int first_round = 1000;  // of random numbers: grids have the lower ones
+    SoundPattern made;
+    std::vector<SiteLine> bridges;
+    for (int round = 0;; ++round) {
+        stop_if_cancelled(synthesis.cancel);
+        made.printed = printable_pattern(level.sites, level.windows, found.pattern, bridges, print);
+        const std::size_t built = bridges.size();
+        if (round == 0) {
+            made.pieces = made.printed.pieces;
+            made.joins = made.printed.joins.size();
+            bridges = made.printed.joins;
+        }
+        if (choice != nullptr) {
+            std::vector<SiteLine> chosen = choice->choose(made.printed.distance);
+            if (round == rounds) chosen.clear();
+            made.bridges += chosen.size();
+            std::ranges::move(chosen, std::back_inserter(bridges));
+        }
+        if (bridges.size() == built) return made;
+        build(level, exemplar, bridges, built, print.strut, first_round + round, synthesis, found);
+    }
+}
+
+}  // namespace lamella

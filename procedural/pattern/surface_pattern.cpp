@@ -1,0 +1,174 @@
+// Synthesis on the surface, then distances carried into the space about it.
+#include "procedural/pattern/surface_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "procedural/pattern/carried_distance.h"
+#include "procedural/pattern/force_bridges.h"
+#include "procedural/pattern/nearest_on_lattice.h"
+#include "procedural/texture/body_sites.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr int sweeps_at_the_coarsest = 1000, sweeps_after = 5;
+constexpr int largest_step = 16384;
+constexpr int side = PatternBrick::side;
+
+std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
+                                    const SurfacePatternSettings& settings) {
+    const SynthesisSettings& synthesis = settings.example.synthesis;
+    std::vector<PatternLevel> levels;
+    for (int halvings = example.levels - 1; halvings >= 0; --halvings) {
+        PatternLevel level;
+        level.sites =
+            sites_on_surface(body, example.spacing * (1 << halvings), most_pattern_sites, synthesis.cancel);
+        const bool is_coarsest = levels.empty();
+        set_tangents(level.sites, is_coarsest ? nullptr : &levels.back().sites, settings.axis,
+                     is_coarsest ? sweeps_at_the_coarsest : sweeps_after);
+        level.windows = site_windows(level.sites, synthesis.window);
+        levels.push_back(std::move(level));
+    }
+    return levels;
+}
+
+/// Returns the bricks of distances from the surface down to a depth, mm.
+std::vector<PatternBrick> bricks_about(const SurfaceSites& sites, std::span<const float> distances,
+                                       double depth, double unit) {
+    const CarriedDistance carried(sites, distances);
+    const double margin = 2 * sites.spacing;
+    const NearestOnLattice nearest(sites, depth + margin, margin);
+    std::vector<PatternBrick> bricks;
+    for (const glm::i64vec3 corner : nearest.bricks()) bricks.emplace_back().corner = corner;
+    const double limit = largest_step * unit;
+    parallel_for(bricks.size(), [&](std::size_t i) {
+        for (int k = 0; k < PatternBrick::samples; ++k) {
+            const glm::i64vec3 at = std::int64_t{PatternBrick::cells} * bricks[i].corner +
+                                    glm::i64vec3(k % side, k / side % side, k / side / side);
+            const std::uint32_t site = nearest.site(at);
+            std::int16_t& step = bricks[i].steps[static_cast<std::size_t>(k)];
+            step = PatternBrick::no_sample;
+            if (site == NearestOnLattice::none) continue;
+            const double distance = carried.at(dvec3(at) * sites.spacing, site);
+            step = static_cast<std::int16_t>(std::lround(std::clamp(distance, -limit, limit) / unit));
+        }
+    });
+    return bricks;
+}
+
+/// Returns the largest differences of neighbouring samples of a brick, along each axis.
+glm::ivec3 steepest_steps(const PatternBrick& brick) {
+    constexpr std::array<std::size_t, 3> strides{1, side, std::size_t{side} * side};
+    glm::ivec3 most(0);
+    for (int k = 0; k < PatternBrick::samples; ++k) {
+        const glm::ivec3 at(k % side, k / side % side, k / side / side);
+        const int here = brick.steps[static_cast<std::size_t>(k)];
+        if (here == PatternBrick::no_sample) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (at[axis] == PatternBrick::cells) continue;
+            const int next =
+                brick.steps[static_cast<std::size_t>(k) + strides[static_cast<std::size_t>(axis)]];
+            if (next != PatternBrick::no_sample) most[axis] = std::max(most[axis], std::abs(next - here));
+        }
+    }
+    return most;
+}
+
+/// The interpolated distance is no steeper than the steepest differences along each axis together.
+double slope_of(std::span<const PatternBrick> bricks, double unit, double spacing) {
+    std::vector<glm::ivec3> steepest(bricks.size());
+    parallel_for(bricks.size(), [&](std::size_t i) { steepest[i] = steepest_steps(bricks[i]); });
+    glm::ivec3 most(0);
+    for (const glm::ivec3& of_brick : steepest) most = glm::max(most, of_brick);
+    const dvec3 slopes = dvec3(most) * (unit / spacing);
+    return std::max(1.0, std::sqrt(glm::dot(slopes, slopes)));
+}
+
+/// Returns the edge of finite elements: half a strut, or as wide as keeps their number in bounds.
+double element_edge(const Field& shell, double strut) {
+    constexpr double most = 3e6;
+    const dvec3 size = shell.bounds().size();
+    return std::max(0.5 * strut, std::cbrt(size.x * size.y * size.z / most));
+}
+
+SoundPattern reinforced_by_forces(const Example& example, const std::vector<PatternLevel>& levels,
+                                  const SurfacePatternSettings& settings, std::vector<double>& softness) {
+    const SurfaceSites& sites = levels.back().sites;
+    const SynthesisSettings& synthesis = settings.example.synthesis;
+    const SkinElements elements(*settings.shell, sites, settings.depth,
+                                element_edge(*settings.shell, settings.example.strut), synthesis.cancel);
+    BridgesByForces by_forces(
+        sites, elements, settings.loads,
+        {.by_shape = bridge_settings(sites, settings.example), .thickness = settings.depth});
+    SoundPattern made = synthesise_example(example, levels, settings.example, &by_forces);
+    softness = by_forces.softness();
+    return made;
+}
+
+}  // namespace
+
+SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
+                                    const SurfacePatternSettings& settings) {
+    const Example example = make_example(picture, settings.example);
+    const std::vector<PatternLevel> levels = levels_on(body, example, settings);
+    std::vector<double> softness;
+    const SoundPattern pattern = settings.example.reinforce == Reinforcement::forces
+                                     ? reinforced_by_forces(example, levels, settings, softness)
+                                     : synthesise_example(example, levels, settings.example);
+    SurfaceBricks made{.spacing = example.spacing,
+                       .unit = std::max(settings.example.strut, settings.example.gap) / largest_step,
+                       .slope = 1,
+                       .share = pattern.printed.share,
+                       .wanted_share = example.share,
+                       .pieces = pattern.pieces,
+                       .joins = pattern.joins,
+                       .bridges = pattern.bridges,
+                       .cut_struts = pattern.cut_struts,
+                       .detours = pattern.detours,
+                       .dropped = pattern.printed.dropped};
+    if (!softness.empty()) {
+        made.softness_before = softness.front();
+        made.softness = softness.back();
+    }
+    made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
+    made.slope = slope_of(made.bricks, made.unit, made.spacing);
+    return made;
+}
+
+SurfacePattern::SurfacePattern(SurfaceBricks bricks) : bricks_(std::move(bricks)) {
+    for (std::uint32_t i = 0; i < bricks_.bricks.size(); ++i) places_.emplace(bricks_.bricks[i].corner, i);
+}
+
+double SurfacePattern::value_near(dvec3 p, std::uint32_t& hint) const {
+    const dvec3 at = p / bricks_.spacing, floor = glm::floor(at), share = at - floor;
+    // Away from the surface, the shell alone decides.
+    constexpr double solid = -std::numeric_limits<double>::min(), farthest = 1e15;
+    if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest)) return solid;
+    const glm::i64vec3 cell(floor), corner(cell.x >> 3, cell.y >> 3, cell.z >> 3);
+    if (hint >= bricks_.bricks.size() || bricks_.bricks[hint].corner != corner) {
+        const auto found = places_.find(corner);
+        if (found == places_.end()) return solid;
+        hint = found->second;
+    }
+    const std::int16_t* const steps =
+        &bricks_.bricks[hint]
+             .steps[static_cast<std::size_t>((cell.x & 7) + side * ((cell.y & 7) + side * (cell.z & 7)))];
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) {
+        const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+        const std::int16_t step = steps[x + side * (y + side * z)];
+        if (step == PatternBrick::no_sample) return solid;
+        sum += (x != 0 ? share.x : 1 - share.x) * (y != 0 ? share.y : 1 - share.y) *
+               (z != 0 ? share.z : 1 - share.z) * step;
+    }
+    return -sum * bricks_.unit / bricks_.slope;
+}
+
+}  // namespace lamella
