@@ -195,9 +195,10 @@ struct SkinRecipe {
     std::int64_t seed = 1;             ///< voronoi: of the random numbers
     std::string image;                 ///< path of a picture
     double image_size = 0;             ///< image: length that its width covers, mm
-    double threshold = 0.5;            ///< image: grey, 0 to 1, below which it is solid
-    bool invert = false;               ///< image: solid where it is bright
-    double gap = 0;                    ///< by-example: least width of gaps, mm; 0: any
+    double threshold =
+        -1;               ///< grey, 0 to 1, below which a picture is solid; negative: 0.5, by-example Otsu's
+    bool invert = false;  ///< image: solid where it is bright
+    double gap = 0;       ///< by-example: least width of gaps, mm; 0: any
     Reinforcement reinforce = Reinforcement::shape;  ///< by-example: how bridges are chosen
     dvec3 direction{0};       ///< by-example: where the picture's top points; 0: smooth by itself
     std::int64_t drains = 0;  ///< holes per closed cavity: at its lowest point, and with 2 also at its

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "procedural/pattern/pattern_pieces.h"
 #include "procedural/pattern/solid_parting.h"
 
@@ -106,19 +107,28 @@ class BridgePlanner {
     }
 
     void shorten_detours() {
+        const std::vector<GapCrossing> crossings =
+            spread_out(sites_, gaps_.all(), settings_.widest_gap * settings_.strut, 2 * settings_.strut);
+        std::vector<double> spans(crossings.size());  // length of the way round, in widths
+        constexpr std::size_t crossings_a_task = 128;
+        parallel_for((crossings.size() + crossings_a_task - 1) / crossings_a_task, [&](std::size_t task) {
+            SolidWays ways(sites_, distances_);
+            const std::size_t end = std::min(crossings.size(), (task + 1) * crossings_a_task);
+            for (std::size_t i = task * crossings_a_task; i < end; ++i) {
+                stop_if_cancelled(settings_.cancel);
+                constexpr double beyond = 2;  // is as bad as any
+                const GapCrossing& c = crossings[i];
+                const double span = c.width + settings_.strut;
+                spans[i] = ways.length(c.from, c.to, beyond * settings_.detour * span) / span;
+            }
+        });
         struct Detour {
             GapCrossing crossing;
             double share;
         };
         std::vector<Detour> detours;
-        SolidWays ways(sites_, distances_);
-        for (const GapCrossing& c :
-             spread_out(sites_, gaps_.all(), settings_.widest_gap * settings_.strut, 2 * settings_.strut)) {
-            stop_if_cancelled(settings_.cancel);
-            constexpr double beyond = 2;  // is as bad as any
-            const double span = c.width + settings_.strut;
-            const double length = ways.length(c.from, c.to, beyond * settings_.detour * span);
-            if (length > settings_.detour * span) detours.push_back({c, length / span});
+        for (std::size_t i = 0; i < crossings.size(); ++i) {
+            if (spans[i] > settings_.detour) detours.push_back({crossings[i], spans[i]});
         }
         plan_.detours = detours.size();
         std::ranges::stable_sort(detours, std::greater<>(), &Detour::share);

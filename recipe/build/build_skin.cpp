@@ -54,7 +54,8 @@ double constant_strut(PatternBuildContext& making) {
 FieldPtr image(PatternBuildContext& making) {
     const SkinRecipe& skin = *making.recipe.skin;
     const double strut = constant_strut(making);
-    StrutImage picture(read_picture(skin.image), {skin.image_size, strut, skin.threshold, skin.invert});
+    StrutImage picture(read_picture(skin.image),
+                       {skin.image_size, strut, skin.threshold < 0 ? 0.5 : skin.threshold, skin.invert});
     making.report.islands = picture.islands();
     making.report.open_share = picture.open_share();
     return make_patterned_shell(
@@ -86,9 +87,9 @@ FieldPtr by_example(PatternBuildContext& making) {
     settings.example = {.size = skin.image_size,
                         .strut = constant_strut(making),
                         .gap = skin.gap,
-                        .threshold = skin.threshold,
                         .invert = skin.invert,
                         .reinforce = skin.reinforce};
+    if (skin.threshold >= 0) settings.example.threshold = skin.threshold;
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
     settings.example.synthesis.cancel = making.work.cancel;
     if (skin.direction != dvec3(0)) settings.axis = skin.direction;

@@ -91,7 +91,7 @@ void add_image_pattern(std::vector<Setting>& t) {
                                   .help = "Length that the picture's width covers."});
     add_skin_row<&S::threshold>(t, "threshold", "--skin-threshold",
                                 {.limits = {0, 1},
-                                 .fallback = format_value(S{}.threshold),
+                                 .fallback = "0.5; by-example: the value that parts the picture best (Otsu)",
                                  .help = "Grey value below which the skin is solid."});
     add_skin_row<&S::invert>(
         t, "invert", "--skin-invert",
