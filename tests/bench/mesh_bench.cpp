@@ -5,6 +5,7 @@
 #include "engine/mesh/mesh_field.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/shell.h"
+#include "procedural/pattern/surface_pattern.h"
 #include "procedural/skin/image_windows.h"
 #include "procedural/skin/surface_windows.h"
 #include "tests/bench/plate.h"
@@ -54,7 +55,8 @@ void graded_skin_layer(benchmark::State& state) {
 }
 BENCHMARK(graded_skin_layer)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// The same skin with windows of 3 mm between struts of 1 mm: Voronoi (0), hexagons (1), a picture (2).
+/// The same skin with windows of 3 mm between struts of 1 mm: Voronoi (0), hexagons (1), a picture (2); a
+/// pattern by example, for which the picture is three times as large (3).
 std::shared_ptr<const WindowPattern> windows(const FieldPtr& body, std::int64_t kind) {
     const SurfaceWindowSettings settings{3, 1, 0.5, 1};
     if (kind == 0) return make_voronoi_windows(*body, settings, 1);
@@ -67,6 +69,11 @@ std::shared_ptr<const WindowPattern> windows(const FieldPtr& body, std::int64_t 
     }
     picture.samples = std::move(samples);
     picture.full_scale = 255;
+    if (kind == 3) {
+        SurfacePatternSettings example;
+        example.example = {.size = 48, .strut = 3, .reinforce = Reinforcement::none};
+        return std::make_shared<SurfacePattern>(synthesise_on_surface(picture, *body, example));
+    }
     return std::make_shared<ImageWindows>(StrutImage(picture, {4, 1, 0.5, false}), *body, 1, 1);
 }
 
@@ -77,6 +84,7 @@ void patterned_skin_layer(benchmark::State& state) {
 }
 BENCHMARK(patterned_skin_layer)
     ->ArgsProduct({{100'000, 1'000'000}, {0, 1, 2}})
+    ->Args({100'000, 3})
     ->Unit(benchmark::kMillisecond);
 
 /// From a mesh field to its windows: seeds and their cells, or charts.

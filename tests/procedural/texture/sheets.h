@@ -77,4 +77,45 @@ inline double patch_distance(const GreyImage& from, const GreyImage& to, int pat
     return sum / count;
 }
 
+/// Returns a part of an image that tiles, from a place on, which may lie beyond the border.
+inline GreyImage shifted(const GreyImage& image, int left, int low, int width, int height) {
+    GreyImage part(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int u = ((left + x) % image.width + image.width) % image.width,
+                      v = ((low + y) % image.height + image.height) % image.height;
+            part.values[part.index(x, y)] = image.values[image.index(u, v)];
+        }
+    }
+    return part;
+}
+
+/// Returns the least share of pixels in which two parts of an image that tiles differ, `part` pixels wide and
+/// high, that do not overlap; those every `stride` pixels are compared with all.
+inline double least_self_difference(const GreyImage& image, int part, int stride) {
+    const auto gap = [](int a, int b, int size) {
+        const int d = std::abs(a - b) % size;
+        return std::min(d, size - d);
+    };
+    double least = part * part;
+    for (int y = 0; y < image.height; y += stride) {
+        for (int x = 0; x < image.width; x += stride) {
+            for (int v = 0; v < image.height; ++v) {
+                for (int u = 0; u < image.width; ++u) {
+                    if (gap(x, u, image.width) < part && gap(y, v, image.height) < part) continue;
+                    double difference = 0;
+                    for (int j = 0; j < part && difference < least; ++j) {
+                        for (int i = 0; i < part; ++i)
+                            difference += std::abs(
+                                image.values[image.index((x + i) % image.width, (y + j) % image.height)] -
+                                image.values[image.index((u + i) % image.width, (v + j) % image.height)]);
+                    }
+                    least = std::min(least, difference);
+                }
+            }
+        }
+    }
+    return least / (part * part);
+}
+
 }  // namespace sheets

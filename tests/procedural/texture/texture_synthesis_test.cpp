@@ -155,6 +155,34 @@ TEST_CASE("a pattern looks like its exemplar as another part of the same picture
     }
 }
 
+TEST_CASE("a sheet has no seam where it tiles, and no large part of it is there twice", "[texture]") {
+    constexpr int width = 80, size = 112, patch = 13;
+    struct Case {
+        const char* file;
+        bool invert;
+    };
+    for (const Case& tried : {Case{"blobs.png", false}, Case{"net.png", true}}) {
+        CAPTURE(tried.file);
+        const GreyImage picture = black_and_white(box_filtered(example(tried.file, tried.invert), width));
+        const std::vector<PatternLevel> levels = levels_of(size, 2);
+        double at_border = 0, elsewhere = 0;
+        constexpr int seeds = 4;
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            SynthesisSettings settings;
+            settings.seed = seed;
+            const SynthesisResult found = synthesise_levels(levels, picture, width, settings);
+            const GreyImage sheet = cut(found.pattern, threshold_for_share(found.pattern, mean_of(picture)));
+            // Patches over the border, and those as far from it as can be.
+            at_border +=
+                patch_distance(shifted(sheet, 0, -patch / 2, size, patch), picture, patch, 4) / seeds;
+            elsewhere += patch_distance(shifted(sheet, 0, size / 2, size, patch), picture, patch, 4) / seeds;
+            constexpr int part = 36;  // a fifth of the example's area
+            if (seed < 3) CHECK(least_self_difference(sheet, part, 8) > 0.05);
+        }
+        CHECK(at_border < 1.1 * elsewhere);
+    }
+}
+
 TEST_CASE("a synthesis that makes no sense is refused, and one that is cancelled stops", "[texture]") {
     const SurfaceSites sites = flat_sites(32, 32, 1);
     const SiteWindows windows = site_windows(sites, 9);
