@@ -251,6 +251,20 @@ std::string memory_text(const Json& m) {
         mebibytes(m["layer_bytes"]), m["beams_per_layer"].get<double>());
 }
 
+/// Says how a pattern by example hangs together.
+std::string bridges_text(const Json& skin) {
+    const auto count = [&](const char* key) { return skin[key].get<std::size_t>(); };
+    std::string text = fmt::format("{} pieces, joined by {} bridges, and {} too small to keep",
+                                   count("pieces"), count("joins"), count("too_small_to_keep"));
+    if (count("bridges") > 0) text += fmt::format("; sounder by {} bridges", count("bridges"));
+    if (count("cut_struts") > 0) text += fmt::format("; {} struts alone hold a part", count("cut_struts"));
+    if (count("detours") > 0) text += fmt::format("; round {} gaps the way is long", count("detours"));
+    if (skin.contains("softness"))
+        text += fmt::format("; {:.3g} times as soft as the closed skin, {:.3g} times without forces",
+                            skin["softness"].get<double>(), skin["softness_before"].get<double>());
+    return text;
+}
+
 std::string skin_text(const Json& skin) {
     std::string text = fmt::format("skin      {} mm", graded_text(skin["thickness_mm"]));
     if (skin.contains("windows")) {
@@ -262,9 +276,7 @@ std::string skin_text(const Json& skin) {
                             100 * skin["open_share"].get<double>(),
                             100 * skin["picture_open_share"].get<double>(), skin["site_mm"].get<double>(),
                             skin["bytes"].get<double>() / 1e6);
-        text += fmt::format("{} pieces, joined by {} bridges, and {} too small to keep",
-                            skin["pieces"].get<std::size_t>(), skin["bridges"].get<std::size_t>(),
-                            skin["too_small_to_keep"].get<std::size_t>());
+        text += bridges_text(skin);
     } else if (skin.contains("open_share")) {
         text +=
             fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",

@@ -1,8 +1,6 @@
 // BridgesByForces: bridges where loads would use them most.
 #pragma once
 
-#include <optional>
-
 #include "procedural/pattern/gap_crossings.h"
 #include "procedural/pattern/pattern_bridges.h"
 #include "procedural/pattern/skin_loads.h"
@@ -12,11 +10,10 @@ namespace lamella {
 
 struct ForceSettings {
     BridgeSettings by_shape{};
-    double thickness = 1;  ///< of the skin, mm
-    double wanted = 3;     ///< compliance at which no more are chosen, over that of the closed skin
-    double least_gain =
-        0.02;  ///< of the compliance by the bridges of two rounds; below it no more are chosen
-    double most_solid = 1.05;  ///< solid at which no more are chosen, over that without bridges
+    double thickness = 1;      ///< of the skin, mm
+    double wanted = 3;         ///< compliance at which no more are chosen, over that of the closed skin
+    double least_gain = 0.02;  ///< of the compliance in two rounds, below which no more are chosen
+    double most_solid = 1.05;  ///< solid at which no more are chosen, over that with bridges by shape alone
 };
 
 /// Returns by how much a bar between two points lowers the compliance of a body: exact (Sherman and Morrison
@@ -26,10 +23,10 @@ inline double gain_of_bar(double stiffness, double stretch, double flexibility) 
     return stiffness * stretch * stretch / (1 + stiffness * flexibility);
 }
 
-/// Chooses bridges from a finite element analysis of the skin. Of the crossings of gaps, the ends of those
-/// that would carry most as bars move apart, or together, most: a bar's gain is at most its stiffness times
-/// the square of that. Of the best, the flexibility between their ends is solved for as well, and they are
-/// taken by gain for their length.
+/// Chooses bridges by shape until there are none left, or four times, and then from a finite element analysis
+/// of the skin. Of the crossings of gaps, the ends of those that would carry most as bars move apart, or
+/// together, most: a bar's gain is at most its stiffness times the square of that. Of the best, the
+/// flexibility between their ends is solved for as well, and they are taken by gain for their length.
 class BridgesByForces : public BridgeChoice {
   public:
     /// Sites, elements and loads have to outlive the object.
@@ -38,7 +35,7 @@ class BridgesByForces : public BridgeChoice {
 
     /// Throws InputError as the loads do, Interrupted when cancelled.
     std::vector<SiteLine> choose(std::span<const float> distances) override;
-    /// The mean over the load cases of the compliance, over that of the closed skin, by round.
+    /// The mean over the load cases of the compliance, over that of the closed skin, by analysis.
     const std::vector<double>& softness() const { return softness_; }
 
   private:

@@ -43,8 +43,8 @@ struct SurfaceBricks {
     /// As in SoundPattern.
     std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0;
     std::uint64_t dropped = 0;  ///< as in PrintablePattern
-    /// Mean compliance under the loads, over that of the closed skin, without bridges and with them; 0: no
-    /// forces.
+    /// Mean compliance under the loads, over that of the closed skin, with bridges by shape alone, and with
+    /// all; 0 where no forces were asked for.
     double softness_before = 0, softness = 0;
     std::vector<PatternBrick> bricks{};
 
