@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/pattern/brick_crumbs.h"
 #include "procedural/pattern/carried_distance.h"
 #include "procedural/pattern/force_bridges.h"
 #include "procedural/pattern/nearest_on_lattice.h"
@@ -138,6 +139,9 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
         made.softness = softness.back();
     }
     made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
+    const double strut = settings.example.strut / made.spacing, deep = settings.depth / made.spacing;
+    made.dropped +=
+        drop_crumbs(body, settings.depth, static_cast<std::size_t>(0.5 * strut * strut * deep), made);
     made.slope = slope_of(made.bricks, made.unit, made.spacing);
     return made;
 }

@@ -42,7 +42,7 @@ struct SurfaceBricks {
     double wanted_share = 0;  ///< the picture's
     /// As in SoundPattern.
     std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0;
-    std::uint64_t dropped = 0;  ///< as in PrintablePattern
+    std::uint64_t dropped = 0;  ///< as in PrintablePattern, and crumbs below the surface
     /// Mean compliance under the loads, over that of the closed skin, with bridges by shape alone, and with
     /// all; 0 where no forces were asked for.
     double softness_before = 0, softness = 0;
