@@ -29,7 +29,7 @@ run_target() {
     for dictionary in tests/fuzz/"${words[$1]:-$1}".dict "$build/seeds/$1.dict"; do
         [ ! -f "$dictionary" ] || options+=("-dict=$dictionary")
     done
-    "$build/tests/fuzz/fuzz_$1" -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=20 -print_final_stats=1 \
+    "$build/tests/fuzz/fuzz_$1" -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=60 -print_final_stats=1 \
         "${options[@]}" -artifact_prefix="$findings/" "$corpus" "$known" >"$build/$1.log" 2>&1 ||
         echo "fuzz: $1 found something, see $build/$1.log" >&2
     awk -v name="$1" '/stat::number_of_executed_units/ { print "fuzz: " name ": " $2 " runs" }' "$build/$1.log"
