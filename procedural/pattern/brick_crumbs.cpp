@@ -22,7 +22,10 @@ glm::ivec3 place_of(std::size_t sample) {
     return {k % side, k / side % side, k / side / side};
 }
 
-std::size_t sample_at(glm::ivec3 at) { return static_cast<std::size_t>(at.x + side * (at.y + side * at.z)); }
+std::size_t sample_at(glm::ivec3 at) {
+    const int sample = at.x + side * (at.y + side * at.z);
+    return static_cast<std::size_t>(sample);
+}
 
 /// Flags the solid samples between the surface and the depth, with a sample to spare.
 std::vector<std::uint8_t> solid_samples(const Field& body, double depth, const SurfaceBricks& bricks) {
