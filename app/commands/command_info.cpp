@@ -15,6 +15,7 @@
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
 #include "app/reports/memory_bound.h"
+#include "engine/base/text.h"
 #include "printers/readers/read_job.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/json_triple.h"
@@ -254,13 +255,16 @@ std::string memory_text(const Json& m) {
 /// Says how a pattern by example hangs together.
 std::string bridges_text(const Json& skin) {
     const auto count = [&](const char* key) { return skin[key].get<std::size_t>(); };
-    std::string text = fmt::format("{} pieces, joined by {} bridges, and {} too small to keep",
-                                   count("pieces"), count("joins"), count("too_small_to_keep"));
-    if (count("bridges") > 0) text += fmt::format("; sounder by {} bridges", count("bridges"));
-    if (count("cut_struts") > 0) text += fmt::format("; {} struts alone hold a part", count("cut_struts"));
-    if (count("detours") > 0) text += fmt::format("; round {} gaps the way is long", count("detours"));
+    std::string text =
+        fmt::format("{}, joined by {}, and {} too small to keep", counted(count("pieces"), "piece"),
+                    counted(count("joins"), "bridge"), count("too_small_to_keep"));
+    if (count("bridges") > 0) text += "; sounder by " + counted(count("bridges"), "bridge");
+    if (count("cut_struts") > 0)
+        text +=
+            fmt::format("; parts that hang on one strut alone, at {}", counted(count("cut_struts"), "place"));
+    if (count("detours") > 0) text += fmt::format("; a long way round {}", counted(count("detours"), "gap"));
     if (skin.contains("softness"))
-        text += fmt::format("; {:.3g} times as soft as the closed skin, {:.3g} times without forces",
+        text += fmt::format("; {:.3g} times as soft as the closed skin, {:.3g} times by shape alone",
                             skin["softness"].get<double>(), skin["softness_before"].get<double>());
     return text;
 }

@@ -11,6 +11,7 @@
 #include "app/reports/section_writer.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/base/text.h"
 #include "engine/field/slice_context.h"
 #include "printers/masks/png_writer.h"
 #include "procedural/pattern/flat_pattern.h"
@@ -20,7 +21,7 @@ namespace lamella {
 namespace {
 
 struct PatternOptions {
-    std::string picture, output;
+    std::string picture, output, reinforce = "shape";
     ExampleSettings example;
     double threshold = -1;
     std::vector<double> sheet;
@@ -108,12 +109,15 @@ std::string report_of(const FlatPattern& pattern, const PatternOptions& options)
     text += fmt::format("solid     {:.3g} % (the example {:.3g} %)\n", 100 * made.printed.share,
                         100 * pattern.wanted_share());
     text += fmt::format("pieces    {}", made.pieces);
-    if (made.joins > 0) text += fmt::format(", joined by {} bridges", made.joins);
+    if (made.joins > 0) text += ", joined by " + counted(made.joins, "bridge");
     if (made.printed.dropped > 0) text += fmt::format("; {} too small to keep", made.printed.dropped);
     text += "\n";
-    if (made.bridges > 0) text += fmt::format("sounder   by {} bridges\n", made.bridges);
-    if (made.cut_struts > 0) text += fmt::format("note      {} struts alone hold a part\n", made.cut_struts);
-    if (made.detours > 0) text += fmt::format("note      round {} gaps the way is long\n", made.detours);
+    if (made.bridges > 0) text += fmt::format("sounder   by {}\n", counted(made.bridges, "bridge"));
+    if (made.cut_struts > 0)
+        text += fmt::format("note      parts hang on one strut alone, at {}\n",
+                            counted(made.cut_struts, "place"));
+    if (made.detours > 0)
+        text += fmt::format("note      a long way round {}\n", counted(made.detours, "gap"));
     constexpr double much = 0.05;
     if (std::abs(made.printed.share - pattern.wanted_share()) > much)
         text +=
@@ -125,6 +129,7 @@ std::string report_of(const FlatPattern& pattern, const PatternOptions& options)
 
 void run(PatternOptions options) {
     check_output(options);
+    if (options.reinforce == "none") options.example.reinforce = Reinforcement::none;
     if (options.threshold >= 0) options.example.threshold = options.threshold;
     const Volume picture = read_picture(options.picture);
     ThreadArena arena(options.threads);
@@ -182,11 +187,10 @@ void add_pattern_command(CLI::App& root) {
     command.add_flag("--invert", options->example.invert, "What is light in the picture is solid");
     command
         .add_option(
-            "--reinforce", options->example.reinforce,
+            "--reinforce", options->reinforce,
             "How bridges make the sheet sounder: none; shape: no strut alone holds a part, and no way "
-            "round a gap is long (default)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Reinforcement>{
-            {"none", Reinforcement::none}, {"shape", Reinforcement::shape}}))
+            "round a gap is long; default: shape")
+        ->check(CLI::IsMember({"none", "shape"}))
         ->type_name("KIND");
     command.add_option("--seed", options->example.synthesis.seed, "Seed of the random numbers; default: 1")
         ->type_name("N");
