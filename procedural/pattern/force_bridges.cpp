@@ -19,6 +19,9 @@ constexpr double tolerance = 1e-3;
 constexpr double most_direct_work = 4e9;  // multiplications, some seconds: beyond, multigrid is quicker
 constexpr double least_share = 0.05;      // of an element that is in the body
 constexpr std::size_t most_bars = 60;     // a round
+constexpr double wanted_softness = 3;     // compliance over that of the closed skin
+constexpr double least_gain = 0.02;       // of the compliance, in two rounds
+constexpr double most_solid = 1.05;       // over that with bridges by shape alone
 
 /// Elements that are hardly solid are left out: they would hang on others by corners.
 std::vector<float> carrying(std::vector<float> shares) {
@@ -170,7 +173,7 @@ void BridgesByForces::solve_best(Analysis& analysis, std::vector<Bar>& bars) con
 /// Returns whether the bridges of the last two rounds gained hardly anything.
 bool BridgesByForces::has_stalled() const {
     const std::size_t count = softness_.size();
-    return count > 2 && softness_[count - 1] > (1 - settings_.least_gain) * softness_[count - 3];
+    return count > 2 && softness_[count - 1] > (1 - least_gain) * softness_[count - 3];
 }
 
 std::vector<SiteLine> BridgesByForces::choose(std::span<const float> distances) {
@@ -189,8 +192,8 @@ std::vector<SiteLine> BridgesByForces::choose(std::span<const float> distances) 
     const auto solid = static_cast<std::size_t>(
         std::ranges::count_if(distances, [](float distance) { return distance > 0; }));
     if (softness_.size() == 1) solid_at_first_ = solid;
-    if (softness <= settings_.wanted || has_stalled() ||
-        static_cast<double>(solid) > settings_.most_solid * static_cast<double>(solid_at_first_))
+    if (softness <= wanted_softness || has_stalled() ||
+        static_cast<double>(solid) > most_solid * static_cast<double>(solid_at_first_))
         return {};
     const GapCrossings gaps(sites_, distances);
     std::vector<Bar> bars = possible_bars(gaps, analysis);

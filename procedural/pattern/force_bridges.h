@@ -10,10 +10,7 @@ namespace lamella {
 
 struct ForceSettings {
     BridgeSettings by_shape{};
-    double thickness = 1;      ///< of the skin, mm
-    double wanted = 3;         ///< compliance at which no more are chosen, over that of the closed skin
-    double least_gain = 0.02;  ///< of the compliance in two rounds, below which no more are chosen
-    double most_solid = 1.05;  ///< solid at which no more are chosen, over that with bridges by shape alone
+    double thickness = 1;  ///< of the skin, mm
 };
 
 /// Returns by how much a bar between two points lowers the compliance of a body: exact (Sherman and Morrison
@@ -26,7 +23,9 @@ inline double gain_of_bar(double stiffness, double stretch, double flexibility) 
 /// Chooses bridges by shape until there are none left, or four times, and then from a finite element analysis
 /// of the skin. Of the crossings of gaps, the ends of those that would carry most as bars move apart, or
 /// together, most: a bar's gain is at most its stiffness times the square of that. Of the best, the
-/// flexibility between their ends is solved for as well, and they are taken by gain for their length.
+/// flexibility between their ends is solved for as well, and they are taken by gain for their length. None
+/// are chosen once the compliance is three times that of the closed skin, the solid has grown by a twentieth,
+/// or two rounds have gained less than 2 %.
 class BridgesByForces : public BridgeChoice {
   public:
     /// Sites, elements and loads have to outlive the object.

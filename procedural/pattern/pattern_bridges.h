@@ -13,7 +13,7 @@ namespace lamella {
 
 struct BridgeSettings {
     double strut = 0.8;        ///< width of a bridge, mm
-    double detour = 8;         ///< longest way from side to side of a gap, in widths of the gap and a strut
+    double detour = 8;         ///< longest way from side to side of a gap, over the width of gap and strut
     double widest_gap = 6;     ///< that is bridged to shorten a detour, in struts
     double widest_strut = 3;   ///< that counts as one that may break, in struts
     double least_part = 0.02;  ///< of the solid; what a strut holds that is less is an ornament

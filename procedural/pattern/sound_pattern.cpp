@@ -41,7 +41,8 @@ void build(const PatternLevel& level, const Exemplar& exemplar, std::span<const 
 
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
                            const SynthesisSettings& synthesis, const PrintSettings& print,
-                           BridgeChoice* choice, int rounds) {
+                           BridgeChoice* choice) {
+    constexpr int most_rounds = 12;
     constexpr int first_round = 1000;  // of random numbers: grids have the lower ones
     SoundPattern made;
     std::vector<SiteLine> bridges;
@@ -56,7 +57,7 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
         }
         if (choice != nullptr) {
             std::vector<SiteLine> chosen = choice->choose(made.printed.distance);
-            if (round == rounds) chosen.clear();
+            if (round == most_rounds) chosen.clear();
             made.bridges += chosen.size();
             std::ranges::move(chosen, std::back_inserter(bridges));
         }

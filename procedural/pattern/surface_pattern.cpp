@@ -101,15 +101,20 @@ double element_edge(const Field& shell, double strut) {
 
 SoundPattern reinforced_by_forces(const Example& example, const std::vector<PatternLevel>& levels,
                                   const SurfacePatternSettings& settings, std::vector<double>& softness) {
+    if (!settings.shell)
+        throw InputError("forces act on the skin of a body; accepted: settings with a shell");
     const SurfaceSites& sites = levels.back().sites;
     const SynthesisSettings& synthesis = settings.example.synthesis;
+    const BridgeSettings by_shape = bridge_settings(sites, settings.example);
     const SkinElements elements(*settings.shell, sites, settings.depth,
                                 element_edge(*settings.shell, settings.example.strut), synthesis.cancel);
-    BridgesByForces by_forces(
-        sites, elements, settings.loads,
-        {.by_shape = bridge_settings(sites, settings.example), .thickness = settings.depth});
+    BridgesByForces by_forces(sites, elements, settings.loads,
+                              {.by_shape = by_shape, .thickness = settings.depth});
     SoundPattern made = synthesise_example(example, levels, settings.example, &by_forces);
     softness = by_forces.softness();
+    const BridgePlan left = plan_bridges(sites, made.printed.distance, by_shape);
+    made.cut_struts = left.cut_struts;
+    made.detours = left.detours;
     return made;
 }
 

@@ -19,7 +19,7 @@ struct SurfacePatternSettings {
     ExampleSettings example;
     std::optional<dvec3> axis{};  ///< of the pattern's y; smooth by itself if not given
     double depth = 1;             ///< below the surface, down to which the pattern is wanted, mm
-    /// Of reinforcement by forces: the skin without the pattern, and what loads it.
+    /// Of reinforcement by forces, which needs both: the skin without the pattern, and what loads it.
     FieldPtr shell{};
     SkinLoads loads = squeezed_skin;
 };

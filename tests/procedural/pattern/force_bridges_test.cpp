@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/solids/primitives.h"
 #include "engine/solids/shell.h"
@@ -171,6 +172,15 @@ TEST_CASE("a skin reinforced by forces gives way at most half as far", "[texture
     CHECK(reinforced.bridges > 0);
     CHECK(reinforced.softness > 1);
     CHECK(reinforced.softness <= reinforced.softness_before);
+}
+
+TEST_CASE("reinforcement by forces needs a skin", "[texture]") {
+    const Ball ball;
+    SurfacePatternSettings settings;
+    settings.example.size = 24;
+    settings.example.reinforce = Reinforcement::forces;
+    const Volume picture = read_picture(LAMELLA_SOURCE_DIR "/examples/inputs/net.png");
+    CHECK_THROWS_AS(synthesise_on_surface(picture, *ball.body, settings), InputError);
 }
 
 TEST_CASE("a skin reinforced by forces is the same on any number of threads", "[texture]") {
