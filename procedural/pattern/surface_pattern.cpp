@@ -40,6 +40,24 @@ std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
     return levels;
 }
 
+/// Returns the distance at a point of the lattice, whose nearest site is given. Outside the skin, between two
+/// sides of a slit or of a wall, it is the smaller of theirs: the pattern of neither reaches over to the
+/// other.
+double distance_on_lattice(const SurfaceSites& sites, const CarriedDistance& carried,
+                           const NearestOnLattice& nearest, double depth, glm::i64vec3 at,
+                           std::uint32_t site) {
+    const dvec3 p = dvec3(at) * sites.spacing, normal = sites.normals[site];
+    double distance = carried.at(p, site);
+    const double height = glm::dot(p - sites.places[site], normal);
+    if (height <= 0 && height >= -depth) return distance;
+    for (int k = 0; k < 27; ++k) {
+        const std::uint32_t other = nearest.site(at + glm::i64vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+        if (other != NearestOnLattice::none && glm::dot(normal, sites.normals[other]) < 0)
+            distance = std::min(distance, carried.at(p, other));
+    }
+    return distance;
+}
+
 /// Returns the bricks of distances from the surface down to a depth, mm.
 std::vector<PatternBrick> bricks_about(const SurfaceSites& sites, std::span<const float> distances,
                                        double depth, double unit) {
@@ -57,7 +75,7 @@ std::vector<PatternBrick> bricks_about(const SurfaceSites& sites, std::span<cons
             std::int16_t& step = bricks[i].steps[static_cast<std::size_t>(k)];
             step = PatternBrick::no_sample;
             if (site == NearestOnLattice::none) continue;
-            const double distance = carried.at(dvec3(at) * sites.spacing, site);
+            const double distance = distance_on_lattice(sites, carried, nearest, depth, at, site);
             step = static_cast<std::int16_t>(std::lround(std::clamp(distance, -limit, limit) / unit));
         }
     });

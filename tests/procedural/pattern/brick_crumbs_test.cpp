@@ -51,16 +51,27 @@ TEST_CASE("crumbs become void, also over the border of bricks, and pieces stay",
         return in(at, {1, 1, 1}, {22, 2, 2}) || in(at, {7, 5, 5}, {8, 6, 6}) ||
                in(at, {20, 6, 6}, {20, 6, 6});
     });
-    CHECK(drop_crumbs(*body, 3, 10, bricks) == 1);
-    CHECK(solid_at(bricks, {7, 5, 5}) == 3);  // with its copies, this one has twelve samples
-    CHECK(drop_crumbs(*body, 3, 20, bricks) == 1);
-    CHECK(solid_at(bricks, {7, 5, 5}) == -3);
-    CHECK(solid_at(bricks, {8, 6, 6}) == -3);
-    CHECK(solid_at(bricks, {20, 6, 6}) == -3);
+    CHECK(drop_crumbs(*body, 3, 8, bricks) == 1);
+    CHECK(solid_at(bricks, {7, 5, 5}) == 3);
+    CHECK(drop_crumbs(*body, 3, 9, bricks) == 1);
+    CHECK(solid_at(bricks, {7, 5, 5}) == -1);
+    CHECK(solid_at(bricks, {8, 6, 6}) == -1);
+    CHECK(solid_at(bricks, {20, 6, 6}) == -1);
     for (int x = 1; x <= 22; ++x) CHECK(solid_at(bricks, {x, 2, 1}) == 3);
     // Deeper than asked for, nothing counts.
     SurfaceBricks deep = drawn(1, [&](glm::ivec3 at) { return in(at, {4, 4, 4}, {4, 4, 4}); });
     CHECK(drop_crumbs(*body, 1, 20, deep) == 0);
+}
+
+TEST_CASE("solid outside the skin stays where it is next to a piece within", "[pattern]") {
+    // The surface lies between samples 8 and 9 of x.
+    const FieldPtr body = make_box(Box{dvec3(-20), dvec3(4.25, 20, 20)});
+    SurfaceBricks bricks =
+        drawn(2, [&](glm::ivec3 at) { return (at.y < 4 && at.x < 12) || (at.y == 7 && at.x == 9); });
+    CHECK(drop_crumbs(*body, 3, 10, bricks) == 0);
+    CHECK(solid_at(bricks, {9, 3, 3}) == 3);
+    CHECK(solid_at(bricks, {8, 3, 3}) == 3);
+    CHECK(solid_at(bricks, {9, 7, 3}) == -1);
 }
 
 }  // namespace brick_crumbs_test
