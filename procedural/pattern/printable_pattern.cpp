@@ -68,10 +68,18 @@ void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, doub
     for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
 }
 
+/// Returns the pieces that hold together by more than half a strut's width: where two merely touch, they are
+/// two.
+SitePieces firm_pieces(const SurfaceSites& sites, double strut, std::span<const float> distances) {
+    std::vector<float> depths;
+    for (const float distance : distances) depths.push_back(distance - static_cast<float>(0.25 * strut));
+    return pieces_of(sites, depths);
+}
+
 /// Joins the pieces by struts, where the pattern is nearly solid if there is a choice.
 void join_pieces(const SurfaceSites& sites, const SitePattern& pattern, float threshold, double strut,
                  PrintablePattern& made) {
-    const SitePieces pieces = pieces_of(sites, made.distance);
+    const SitePieces pieces = firm_pieces(sites, strut, made.distance);
     made.pieces = pieces.sizes.size();
     made.joins.clear();
     if (made.pieces < 2) return;

@@ -27,9 +27,10 @@ struct PrintablePattern {
 /// Cuts the pattern where its distance exceeds a threshold, such that the solid share is the wanted one once
 /// gaps and struts have their least widths (struts have precedence), pieces smaller than a disc of one and a
 /// half struts' diameter are dropped, and the others joined by struts along lines_between(): each component
-/// of the surface bears one piece. Struts along `bridges` are added in any case. The threshold keeps four
-/// fifths of the pattern's solid and of its void, so lines narrower than the least width change the share.
-/// Throws InputError for a pattern that is all solid or all void.
+/// of the surface bears one piece. Pieces that merely touch are joined as well. Struts along `bridges` are
+/// added in any case. The threshold keeps four fifths of the pattern's solid and of its void, so lines
+/// narrower than the least width change the share. Throws InputError for a pattern that is all solid or all
+/// void.
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,
                                    const SitePattern& pattern, std::span<const SiteLine> bridges,
                                    const PrintSettings& settings);
