@@ -39,8 +39,10 @@ PrintLimits filament_limits(const PrinterProfile& profile) {
                    {Check::empty_layers, fail},
                    {Check::necks, warn},
                    {Check::gaps, warn}});
-    limits.thickness = profile.filament.nozzle;     // by practice: one bead as wide as the nozzle
-    limits.gap = profile.filament.nozzle;           // by practice: beads side by side fuse
+    const double nozzle = profile.filament.nozzle;
+    limits.piece = 0.5 * nozzle * nozzle * nozzle;  // by practice: a dot, half as high as it is wide
+    limits.thickness = nozzle;                      // by practice: one bead as wide as the nozzle
+    limits.gap = nozzle;                            // by practice: beads side by side fuse
     limits.neck = 2 * profile.filament.line_width;  // [5] walls are safe from two beads on
     return limits;
 }
@@ -62,6 +64,7 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
                    {Check::cups, warn}});
     const double pixel = std::max(profile.image.pixel_x, profile.image.pixel_y);
     const bool has_pixels = find_backend(profile.backend).content == LayerContent::pixels;
+    if (has_pixels) limits.piece = pixel * pixel * pixel;          // what is smaller hardens nowhere
     limits.thickness = std::max(0.4, has_pixels ? 2 * pixel : 0);  // [1] walls held at two sides
     limits.gap = std::max(0.5, has_pixels ? 2 * pixel : 0);        // [1] holes and clearances
     limits.neck = 0.6;                                             // [1] walls held at one side
@@ -80,6 +83,7 @@ PrintLimits powder_limits() {
                    {Check::empty_layers, fail},
                    {Check::gaps, warn},
                    {Check::necks, warn}});
+    limits.piece = 0.001;       // by practice: a grain
     limits.thickness = 0.8;     // [2] features, [3] pins
     limits.thickness_up = 0.8;  // the same: grains do not know what is up
     limits.gap = 0.5;           // [3] clearances and slots
@@ -144,6 +148,7 @@ PrintLimits default_limits(Process process, const PrinterProfile& profile) {
 PrintLimits process_limits(const PrinterProfile& profile) {
     PrintLimits limits = default_limits(process_of(profile), profile);
     const CheckProfile& check = profile.check;
+    limits.piece = chosen(check.min_piece, limits.piece);
     limits.thickness = chosen(check.min_thickness, limits.thickness);
     limits.thickness_up = chosen(check.min_thickness_up, limits.thickness_up);
     limits.gap = chosen(check.min_gap, limits.gap);

@@ -81,7 +81,10 @@ Json limits_mm_json(const PrintLimits& limits) {
 }
 
 Json limits_mm3_json(const PrintLimits& limits) {
-    return {{"large_part", limits.large_part}, {"cavity", limits.cavity}, {"cup", limits.cup}};
+    return {{"piece", limits.piece},
+            {"large_part", limits.large_part},
+            {"cavity", limits.cavity},
+            {"cup", limits.cup}};
 }
 
 /// Returns the begin and end of each run, in the middle of its row.

@@ -6,10 +6,12 @@
 
 namespace lamella {
 
-/// Finds every connected component of the part but the largest.
+/// Finds every connected component of the part but the largest and those below the limit.
 class PieceCheck : public LayerCheck {
   public:
-    explicit PieceCheck(const CheckContext& context) : pieces_(context.grid, 0, context.max_faults) {}
+    explicit PieceCheck(const CheckContext& context) : pieces_(context.grid, 0, context.max_faults) {
+        pieces_.ignore_below(context.limits.piece);
+    }
     void add(LayerSample& layer, PreparedRows /*prepared*/) override {
         pieces_.add(std::move(layer.part), layer.index);
     }

@@ -35,6 +35,8 @@ class StreamingFaults {
         take();
     }
     void excuse_greatest() { faults_.excuse_greatest(); }
+    /// Ignores faults of less volume (mm^3). Call before the first layer.
+    void ignore_below(double volume) { least_volume_ = volume; }
     const FaultList& faults() const { return faults_; }
 
   private:
@@ -44,6 +46,7 @@ class StreamingFaults {
             const dvec3 size = fault.box.size();
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
+            if (fault.size < least_volume_) continue;
             faults_.add(sampling_.to_full_resolution(std::move(fault), grid_, layer_count_));
         }
         ended_.clear();
@@ -52,6 +55,7 @@ class StreamingFaults {
     CheckSampling sampling_;
     int layer_count_;
     double least_;
+    double least_volume_ = 0;
     StreamingComponents components_;
     std::vector<EndedComponent> ended_;
     FaultList faults_;

@@ -35,7 +35,10 @@ struct Words {
 const std::array<Words, check_count> table{{
     {"a piece is not joined to the rest of the part",
      "Join it to the part, or leave loose pieces of foam out with --drop-islands.",
-     [](const PrintLimits&) -> std::string { return "the part is one piece"; }},
+     [](const PrintLimits& limits) -> std::string {
+         if (limits.piece <= 0) return "the part is one piece";
+         return fmt::format("one piece, but for crumbs below {:.3g} mm3", limits.piece);
+     }},
     {"a layer falls into several pieces",
      "Join them in the design, or have bars put between them: --printer-ties join.",
      [](const PrintLimits&) -> std::string { return "each layer is one piece"; }},

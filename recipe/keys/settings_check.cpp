@@ -51,6 +51,10 @@ void add_concerns(std::vector<Setting>& t, std::index_sequence<checks...> /*all*
 
 void add_sizes(std::vector<Setting>& t) {
     using C = CheckProfile;
+    add_size<&C::min_piece>(t, "least_piece", "--check-least-piece", true,
+                            "Minimum volume of a loose piece that is a fault",
+                            "a dot of the nozzle for filament, a cube of a pixel's side for resin, 0.001 for "
+                            "powder, else 0");
     add_size<&C::min_thickness>(
         t, "least_thickness", "--check-least-thickness", false,
         "Minimum thickness of walls and struts within layers",

@@ -98,7 +98,8 @@ TEST_CASE("a second piece is told with its volume and place, and decides the exi
     const Outcome failed = run_lamella(asked);
     CHECK(failed.code == 1);
     CHECK(mentions(failed.out, "boxes on generic-8k (resin): 1 of 1 checks fail\n"));
-    CHECK(mentions(failed.out, "connectivity  the part is one piece  FAIL  1 place\n"));
+    CHECK(
+        mentions(failed.out, "connectivity  one piece, but for crumbs below 1.56e-05 mm3  FAIL  1 place\n"));
     CHECK(mentions(failed.out, "  50.0 mm3    at ("));
     CHECK(mentions(failed.out, ", layers 0 to 7\n"));
     CHECK(failed.err == "lamella: boxes cannot be printed as it is on generic-8k: connectivity (1 place)\n");
@@ -203,6 +204,20 @@ TEST_CASE("a file that cannot be made is told of before anything is looked at", 
     CHECK(tree(folder.path()).empty());
 }
 
+TEST_CASE("a loose piece smaller than a pixel is no fault unless asked for", "[check]") {
+    const Folder folder;
+    write(folder / "crumb.obj",
+          boxes_obj({{dvec3(0), dvec3(2, 2, 0.5)}, {dvec3(3, 3, 0), dvec3(3.04, 3.04, 0.045)}}));
+    const std::string check =
+        fmt::format("check -q {} --printer-pixel 0.05 --layer-height 0.02 --check-pitch 0.01 {}",
+                    folder / "crumb.obj", only({"connectivity"}));
+    CHECK(run_lamella(check).code == 0);
+    CHECK(run_lamella(check + " --check-least-piece 0.00001").code == 1);
+    const Outcome all = run_lamella(check + " --check-least-piece 0");
+    CHECK(all.code == 1);
+    CHECK(mentions(all.out, "the part is one piece"));
+}
+
 TEST_CASE("slice --check writes the bytes of a run without it, and tells what it found", "[check]") {
     const Folder folder;
     const std::string part = boxes(folder, two_blocks());
@@ -212,7 +227,9 @@ TEST_CASE("slice --check writes the bytes of a run without it, and tells what it
         REQUIRE(run_lamella(job + at + "_plain").code == 0);
         const Outcome checked = run_lamella(job + at + "_checked --check --json " + only({"connectivity"}));
         CHECK(checked.code == 1);
-        CHECK(mentions(checked.err, "connectivity  the part is one piece  FAIL  1 place\n"));
+        CHECK(mentions(checked.err, "connectivity  "));
+        CHECK(mentions(checked.err, "one piece"));
+        CHECK(mentions(checked.err, "  FAIL  1 place\n"));
         CHECK(mentions(checked.err, "all layers have been written nevertheless"));
         const Json summary = Json::parse(checked.out);
         REQUIRE(summary["checks"].size() == 1);
