@@ -194,7 +194,9 @@ struct SkinRecipe {
     double corner = -1;                ///< radius of the windows' corners, mm; negative: half the strut
     std::int64_t seed = 1;             ///< voronoi: of the random numbers
     std::string image;                 ///< path of a picture
-    double image_size = 0;             ///< image: length that its width covers, mm
+    GradedNumber image_size;           ///< image: length that its width covers, mm
+    std::string second_image;          ///< by-example: path of a picture that the pattern changes into
+    GradedNumber second_weight;        ///< how much it looks like that one, 0 to 1
     double threshold =
         -1;               ///< grey, 0 to 1, below which a picture is solid; negative: 0.5, by-example Otsu's
     bool invert = false;  ///< image: solid where it is bright

@@ -116,6 +116,7 @@ class RecipeDraft {
     template <typename Sizes>
     void check_shape(const Part& of, const std::string& shape, const Sizes& sizes);
     void check_numbers(const Recipe& recipe);
+    void check_second_image();
     void check_cut_skin(const Recipe& recipe);
     void check_drains(const Recipe& recipe);
     void check_enclosures(const Recipe& recipe);

@@ -65,7 +65,9 @@ std::vector<const GradedNumber*> numbers_of(const Recipe& recipe) {
         for (const GradedNumber* number : numbers_of(*recipe.foam)) numbers.push_back(number);
     }
     if (recipe.frame) numbers.push_back(&recipe.frame->beam);
-    if (recipe.skin) numbers.insert(numbers.end(), {&recipe.skin->thickness, &recipe.skin->strut});
+    if (const auto& skin = recipe.skin)
+        numbers.insert(numbers.end(),
+                       {&skin->thickness, &skin->strut, &skin->image_size, &skin->second_weight});
     return numbers;
 }
 
@@ -150,6 +152,8 @@ class FormulaCheck {
         if (recipe_.skin) {
             check_formula({&recipe_.skin->thickness});
             check_formula({&recipe_.skin->strut});
+            check_formula({&recipe_.skin->image_size});
+            check_formula({&recipe_.skin->second_weight});
         }
         for (const RegionRecipe& region : recipe_.regions) {
             for (const RegionNumber& given : numbers_of(region)) {

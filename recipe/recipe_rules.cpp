@@ -198,6 +198,16 @@ void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     }
 }
 
+/// Checks that a second picture of a pattern goes with its weight.
+void RecipeDraft::check_second_image() {
+    for (const auto& [key, other] :
+         {std::pair("second_image", "second_weight"), std::pair("second_weight", "second_image")}) {
+        if (!entry("skin", key) || entry("skin", other)) continue;
+        refuse(0,
+               fmt::format("{}: has no effect without skin.{}; accepted: both", where("skin", key), other));
+    }
+}
+
 /// Checks that a skin with windows or holes lies inside the surface.
 void RecipeDraft::check_cut_skin(const Recipe& recipe) {
     const SkinRecipe& skin = *recipe.skin;
@@ -279,6 +289,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (const auto& skin = recipe.skin) {
         check_limits("skin", "thickness", skin->thickness, skin->thickness_min, skin->thickness_max);
         check_drains(recipe);
+        check_second_image();
         check_cut_skin(recipe);
     } else if (!recipe.holes.empty()) {
         refuse(0, fmt::format("{}: holes are drilled through a skin, and there is none; accepted: [skin] "

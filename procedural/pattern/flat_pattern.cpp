@@ -13,95 +13,12 @@ namespace lamella {
 
 namespace {
 
-constexpr double sites_in_a_strut = 4;
-constexpr int windows_in_a_picture = 3;
 constexpr double most_sites = 4e6;
-
-void check(const ExampleSettings& settings) {
-    const auto is_length = [](double v) { return v > 0 && std::isfinite(v); };
-    if (!is_length(settings.size) || !is_length(settings.strut) ||
-        !(settings.gap == 0 || is_length(settings.gap)))
-        throw InputError(
-            fmt::format("a picture {} mm wide with struts of {} mm and gaps of {} mm; expected positive "
-                        "lengths",
-                        settings.size, settings.strut, settings.gap));
-    if (settings.threshold && !(*settings.threshold >= 0 && *settings.threshold <= 1))
-        throw InputError(fmt::format("a threshold of {}; expected 0 to 1", *settings.threshold));
-}
 
 }  // namespace
 
-int Example::width(double site_spacing, double size) const {
-    return std::min(static_cast<int>(std::lround(size / site_spacing)), picture.width);
-}
-
-Example make_example(const Volume& picture, const ExampleSettings& settings) {
-    check(settings);
-    const GreyImage solid = solidity(picture, settings.invert);
-    double level = otsu_threshold(solid);
-    // Darker than the threshold, or at least as light.
-    if (settings.threshold)
-        level = settings.invert ? *settings.threshold : std::nextafter(1 - *settings.threshold, 2.0);
-    Example example;
-    example.picture = black_and_white(solid, level);
-    example.share = mean_of(example.picture);
-    if (example.share == 0 || example.share == 1)
-        throw InputError(fmt::format("the picture is all {}; accepted: another threshold",
-                                     example.share == 0 ? "void" : "solid"));
-    const double pixel = settings.size / example.picture.width;
-    example.spacing = std::max(settings.strut / sites_in_a_strut, pixel);
-    const int window = settings.synthesis.window;
-    const double proportion = static_cast<double>(example.picture.height) / example.picture.width;
-    const int across = example.width(example.spacing, settings.size),
-              least = static_cast<int>(across * std::min(proportion, 1.0));
-    if (least < windows_in_a_picture * window)
-        throw InputError(fmt::format(
-            "the picture covers {} x {} points of the pattern, {:.3g} mm apart, and {} along each side are "
-            "needed; "
-            "accepted: a picture of more pixels, printed larger, or a narrower strut",
-            across, static_cast<int>(across * proportion), example.spacing, windows_in_a_picture * window));
-    // The coarsest picture holds whole windows, in which the largest parts of the pattern are seen at once.
-    constexpr double windows_at_the_coarsest = 2.5;
-    while ((least >> example.levels) >= windows_at_the_coarsest * window) ++example.levels;
-    return example;
-}
-
-BridgeSettings bridge_settings(const SurfaceSites& sites, const ExampleSettings& settings) {
-    return {.strut = settings.strut,
-            .apart = 2 * settings.synthesis.window * sites.spacing,
-            .cancel = settings.synthesis.cancel};
-}
-
-SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
-                                const ExampleSettings& settings, BridgeChoice* choice) {
-    const PatternLevel& finest = levels.back();
-    const int width = example.width(finest.sites.spacing, settings.size);
-    SynthesisResult found = synthesise_levels(levels, example.picture, width, settings.synthesis);
-    const PrintSettings print{.share = example.share,
-                              .strut = settings.strut,
-                              .gap = settings.gap,
-                              .limit = std::max(settings.strut, settings.gap)};
-    return sound_pattern(finest, make_exemplar(example.picture, std::max(1, width)), std::move(found),
-                         settings.synthesis, print, choice);
-}
-
-SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
-                                const ExampleSettings& settings) {
-    if (settings.reinforce == Reinforcement::none)
-        return synthesise_example(example, levels, settings, nullptr);
-    if (settings.reinforce != Reinforcement::shape)
-        throw InputError("forces act on the skin of a body; accepted: reinforcement by shape");
-    const SurfaceSites& sites = levels.back().sites;
-    BridgesByShape by_shape(sites, bridge_settings(sites, settings));
-    SoundPattern made = synthesise_example(example, levels, settings, &by_shape);
-    made.cut_struts = by_shape.last().cut_struts;
-    made.detours = by_shape.last().detours;
-    return made;
-}
-
 FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettings& settings) {
     const Example example = make_example(picture, settings);
-    wanted_share_ = example.share;
     const int finest_in_coarsest = 1 << (example.levels - 1);
     const auto sites_along = [&](double length, double spacing) {
         return finest_in_coarsest *
@@ -110,7 +27,7 @@ FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettin
     const double across = sites_along(sheet.x, example.spacing);
     spacing_ = sheet.x / across;
     const double up = sites_along(sheet.y, spacing_);
-    const int least = windows_in_a_picture * settings.synthesis.window;
+    const int least = windows_in_an_example * settings.synthesis.window;
     if (std::min(across, up) < least || across * up > most_sites)
         throw InputError(
             fmt::format("a sheet of {} x {} mm has {} x {} sites of {:.3g} mm; accepted: at least {} "

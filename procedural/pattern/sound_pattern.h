@@ -22,6 +22,7 @@ struct SoundPattern {
     std::size_t pieces = 0;                   ///< before any were joined
     std::size_t joins = 0;                    ///< bridges between pieces
     std::size_t bridges = 0;                  ///< that were chosen
+    double wanted_share = 0;                  ///< the picture's
     std::size_t cut_struts = 0, detours = 0;  ///< left, as in BridgePlan; 0 where nobody looked
 };
 

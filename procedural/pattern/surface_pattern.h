@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "procedural/pattern/flat_pattern.h"
+#include "procedural/pattern/pattern_example.h"
 #include "procedural/pattern/skin_loads.h"
 #include "procedural/skin/window_pattern.h"
 #include "procedural/texture/lattice_hash.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "procedural/skin/raster.h"
@@ -50,7 +51,39 @@ Exemplar make_exemplar(const GreyImage& black_and_white, int width) {
         }
     }
     exemplar.distance = box_filtered(exemplar.distance, width);
+    exemplar.parts.push_back({0, exemplar.solid.width, exemplar.solid.height});
     return exemplar;
+}
+
+Exemplar stacked(const std::vector<Exemplar>& parts, std::vector<float> weights) {
+    if (parts.size() < 2 || weights.empty() || weights.size() % parts.size() != 0)
+        throw InputError("weights of " + std::to_string(weights.size()) +
+                         " sites and parts; expected some of " + std::to_string(parts.size()) +
+                         " parts each");
+    Exemplar all;
+    int width = 0, height = 0;
+    for (const Exemplar& part : parts) {
+        all.parts.push_back({height, part.solid.width, part.solid.height, 0});
+        width = std::max(width, part.solid.width);
+        height += part.solid.height;
+    }
+    all.solid = all.distance = GreyImage(width, height);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const ExemplarPart& part = all.parts[p];
+        for (int y = 0; y < part.height; ++y) {
+            for (int x = 0; x < part.width; ++x) {
+                const std::size_t from = parts[p].solid.index(x, y),
+                                  to = all.solid.index(x, part.first_row + y);
+                all.solid.values[to] = parts[p].solid.values[from];
+                all.distance.values[to] = parts[p].distance.values[from];
+            }
+        }
+    }
+    const double sites = static_cast<double>(weights.size() / parts.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        all.parts[i % parts.size()].weight += static_cast<double>(weights[i]) / sites;
+    all.weights = std::move(weights);
+    return all;
 }
 
 double mean_of(const GreyImage& image) {

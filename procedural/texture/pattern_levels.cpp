@@ -23,20 +23,30 @@ SitePattern upsampled(const SitePattern& coarse, const SurfaceSites& from, const
 
 }  // namespace
 
-SynthesisResult synthesise_levels(const std::vector<PatternLevel>& levels, const GreyImage& black_and_white,
-                                  int width, const SynthesisSettings& settings) {
+SynthesisResult synthesise_levels(const std::vector<PatternLevel>& levels, const ExemplarOfLevel& exemplar,
+                                  const SynthesisSettings& settings) {
     SynthesisResult result;
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const int halvings = static_cast<int>(levels.size() - 1 - l);
-        const Exemplar exemplar = make_exemplar(black_and_white, std::max(1, width >> halvings));
         const SurfaceSites& sites = levels[l].sites;
         SynthesisSettings rounds = settings;
         rounds.rounds <<= halvings;  // coarse ones are cheap, and decide the structure
         SitePattern start;
         if (l > 0) start = upsampled(result.pattern, levels[l - 1].sites, sites);
-        result = synthesise(levels[l].windows, exemplar, std::move(start), {}, static_cast<int>(l), rounds);
+        result = synthesise(levels[l].windows, exemplar(sites, halvings), std::move(start), {},
+                            static_cast<int>(l), rounds);
     }
     return result;
+}
+
+SynthesisResult synthesise_levels(const std::vector<PatternLevel>& levels, const GreyImage& black_and_white,
+                                  int width, const SynthesisSettings& settings) {
+    return synthesise_levels(
+        levels,
+        [&](const SurfaceSites&, int doublings) {
+            return make_exemplar(black_and_white, std::max(1, width >> doublings));
+        },
+        settings);
 }
 
 float threshold_for_share(const SitePattern& pattern, double share) {

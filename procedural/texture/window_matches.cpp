@@ -18,10 +18,13 @@ namespace lamella {
 namespace {
 
 constexpr int largest_exemplar = 1024;
+constexpr std::size_t most_parts = 24;
 constexpr std::size_t sites_a_task = 256;
 constexpr std::array<int, 3> steps{1, 2, 4};
-constexpr std::size_t most_candidates = 4 * steps.size() + 12;
+constexpr std::size_t most_candidates = 4 * steps.size() + 24;
 constexpr float newest_share = 0.25F;  // of the newest count of uses in their mean over sweeps
+// Cost of a part that a site does not want, a pixel of the window: several times the usual difference.
+constexpr float unwanted = 0.2F;
 
 std::uint8_t byte_of(double share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
@@ -59,6 +62,7 @@ struct WindowMatches::Search {
 WindowMatches::WindowMatches(const SiteWindows& windows, const Exemplar& exemplar, int level,
                              const SynthesisSettings& settings)
     : windows_(windows),
+      exemplar_(exemplar),
       settings_(settings),
       level_(level),
       width_(exemplar.solid.width),
@@ -67,22 +71,51 @@ WindowMatches::WindowMatches(const SiteWindows& windows, const Exemplar& exempla
       columns_(static_cast<std::size_t>(std::max(width_ - windows.size + 1, 0))),
       rows_(static_cast<std::size_t>(std::max(height_ - windows.size + 1, 0))),
       difference_(windows.size, 2) {
-    if (std::min(width_, height_) < windows.size || std::max(width_, height_) > largest_exemplar)
-        throw InputError("an exemplar of " + std::to_string(width_) + " x " + std::to_string(height_) +
-                         " pixels; expected " + std::to_string(windows.size) + " to " +
-                         std::to_string(largest_exemplar) + " in both directions");
+    const std::size_t sites = windows.sites.size() / windows.area(), parts = exemplar.parts.size();
+    for (const ExemplarPart& part : exemplar.parts) {
+        if (std::min(part.width, part.height) < windows.size ||
+            std::max(part.width, part.height) > largest_exemplar)
+            throw InputError("an exemplar of " + std::to_string(part.width) + " x " +
+                             std::to_string(part.height) + " pixels; expected " +
+                             std::to_string(windows.size) + " to " + std::to_string(largest_exemplar) +
+                             " in both directions");
+    }
+    if (parts == 0 || parts > most_parts || exemplar.weights.size() != (parts > 1 ? parts * sites : 0))
+        throw InputError("an exemplar of " + std::to_string(parts) + " parts with " +
+                         std::to_string(exemplar.weights.size()) + " weights; expected 1 to " +
+                         std::to_string(most_parts) + ", with one for each site");
     exemplar_solid_ = difference_.all_rows(bytes_of(exemplar.solid), width_, height_);
     exemplar_distance_ = difference_.all_rows(bytes_of(exemplar.distance), width_, height_);
-    const std::size_t sites = windows.sites.size() / windows.area();
     matches_.resize(sites);
     next_.resize(sites);
     differences_.resize(sites);
     use_.assign(columns_ * rows_, 0);
     for (std::size_t i = 0; i < sites; ++i) {
         const CounterHash random(settings.seed, level, 0, static_cast<std::int64_t>(i), 0);
-        matches_[i] = {static_cast<std::int16_t>(radius_ + below(random.bits(0), static_cast<int>(columns_))),
-                       static_cast<std::int16_t>(radius_ + below(random.bits(1), static_cast<int>(rows_)))};
+        const ExemplarPart& part = exemplar.parts[wanted_part(i, random.uniform(2))];
+        const int columns = part.width - windows.size + 1, rows = part.height - windows.size + 1;
+        matches_[i] = {static_cast<std::int16_t>(radius_ + below(random.bits(0), columns)),
+                       static_cast<std::int16_t>(part.first_row + radius_ + below(random.bits(1), rows))};
     }
+}
+
+/// Returns a part by chance, the more a site wants it the likelier.
+std::size_t WindowMatches::wanted_part(std::size_t site, double random) const {
+    const std::size_t parts = exemplar_.parts.size();
+    if (parts == 1) return 0;
+    const std::span<const float> weights(exemplar_.weights.data() + site * parts, parts);
+    double left = 0;
+    for (const float weight : weights) left += static_cast<double>(weight);
+    left *= random;
+    std::size_t part = 0;
+    while (part + 1 < parts && left >= static_cast<double>(weights[part]))
+        left -= static_cast<double>(weights[part++]);
+    return part;
+}
+
+float WindowMatches::reluctance(std::size_t site, ExemplarPixel pixel) const {
+    if (exemplar_.weights.empty()) return 0;
+    return unwanted * (1 - exemplar_.weights[site * exemplar_.parts.size() + part_of(pixel)]);
 }
 
 void WindowMatches::begin_with_patches() {
@@ -99,7 +132,7 @@ void WindowMatches::begin_with_patches() {
             const int square = across * across + up * up;
             if (square >= nearest[window[k]]) continue;
             nearest[window[k]] = square;
-            next_[window[k]] = clamped(middle.x + across, middle.y + up);
+            next_[window[k]] = clamped(middle.x + across, middle.y + up, part_of(middle));
         }
     }
     for (std::size_t i = 0; i < matches_.size(); ++i) {
@@ -112,8 +145,10 @@ void WindowMatches::begin_with(std::span<const std::uint32_t> pixels, std::vecto
         throw InputError("matches of " + std::to_string(pixels.size()) + " sites; expected " +
                          std::to_string(matches_.size()));
     const auto width = static_cast<std::uint32_t>(width_);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        matches_[i] = clamped(static_cast<int>(pixels[i] % width), static_cast<int>(pixels[i] / width));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const int x = static_cast<int>(pixels[i] % width), y = static_cast<int>(pixels[i] / width);
+        matches_[i] = clamped(x, y, exemplar_.part_of(y));
+    }
     next_ = matches_;  // those that are kept are in both
     kept_ = std::move(kept);
 }
@@ -140,30 +175,45 @@ void WindowMatches::average_use() {
             sums[y * stride + x] = row + sums[(y - 1) * stride + x];
         }
     }
-    const double sites = static_cast<double>(matches_.size()),
-                 centres = static_cast<double>(columns_ * rows_);
+    for (const ExemplarPart& part : exemplar_.parts) {
+        const std::size_t lo = static_cast<std::size_t>(part.first_row) * stride,
+                          hi = lo + static_cast<std::size_t>(part.height) * stride;
+        average_use(part, static_cast<double>(sums[hi + stride - 1] - sums[lo + stride - 1]), sums);
+    }
+}
+
+/// The same for a part in which so many matches lie; `sums` counts those above and left of a pixel.
+void WindowMatches::average_use(const ExemplarPart& part, double matches,
+                                std::span<const std::int64_t> sums) {
+    const std::size_t stride = static_cast<std::size_t>(width_) + 1,
+                      first = static_cast<std::size_t>(part.first_row);
+    const auto radius = static_cast<std::size_t>(radius_), size = static_cast<std::size_t>(windows_.size);
+    const std::size_t columns = static_cast<std::size_t>(part.width) - size + 1,
+                      rows = static_cast<std::size_t>(part.height) - size + 1;
+    const double centres = static_cast<double>(columns * rows);
     // Matches are middles of windows, so there are none in a margin about them.
-    for (std::size_t y = 0; y < rows_; ++y) {
-        for (std::size_t x = 0; x < columns_; ++x) {
-            const auto radius = static_cast<std::size_t>(radius_),
-                       size = static_cast<std::size_t>(windows_.size);
+    const auto covered = [&](std::size_t at, std::size_t count) {
+        const std::size_t lo = std::max(at, radius), hi = std::min(at + size, count + radius);
+        return static_cast<double>(hi - lo);
+    };
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t y = first + row;
+        for (std::size_t x = 0; x < columns; ++x) {
             const std::int64_t used = sums[(y + size) * stride + x + size] - sums[y * stride + x + size] -
                                       sums[(y + size) * stride + x] + sums[y * stride + x];
-            const auto covered = [&](std::size_t at, std::size_t count) {
-                const std::size_t lo = std::max(at, radius), hi = std::min(at + size, count + radius);
-                return static_cast<double>(hi - lo);
-            };
-            const double usual = sites * covered(x, columns_) * covered(y, rows_) / centres;
-            const auto excess = static_cast<float>(static_cast<double>(used) / usual - 1);
+            const double usual = matches * covered(x, columns) * covered(row, rows) / centres;
+            const auto excess = used == 0 ? -1.0F : static_cast<float>(static_cast<double>(used) / usual - 1);
             float& mean = use_[y * columns_ + x];
             mean += (sweeps_ == 0 ? 1 : newest_share) * (excess - mean);
         }
     }
 }
 
-ExemplarPixel WindowMatches::clamped(int x, int y) const {
-    return {static_cast<std::int16_t>(std::clamp(x, radius_, width_ - 1 - radius_)),
-            static_cast<std::int16_t>(std::clamp(y, radius_, height_ - 1 - radius_))};
+ExemplarPixel WindowMatches::clamped(int x, int y, std::size_t part) const {
+    const ExemplarPart& in = exemplar_.parts[part];
+    return {static_cast<std::int16_t>(std::clamp(x, radius_, in.width - 1 - radius_)),
+            static_cast<std::int16_t>(
+                std::clamp(y, in.first_row + radius_, in.first_row + in.height - 1 - radius_))};
 }
 
 void WindowMatches::consider_neighbours(std::size_t site, Search& search) const {
@@ -171,7 +221,7 @@ void WindowMatches::consider_neighbours(std::size_t site, Search& search) const 
     const auto from = [&](int across, int up) {
         if (std::max(std::abs(across), std::abs(up)) > radius_) return;
         const ExemplarPixel match = matches_[window[windows_.place(across, up)]];
-        search.consider(clamped(match.x - across, match.y - up));
+        search.consider(clamped(match.x - across, match.y - up, part_of(match)));
     };
     for (const int step : steps) {
         from(-step, 0);
@@ -185,16 +235,27 @@ void WindowMatches::consider_random(std::size_t site, Search& search) const {
     const CounterHash random(settings_.seed, level_, static_cast<std::int64_t>(sweeps_) + 1,
                              static_cast<std::int64_t>(site), 0);
     std::uint64_t draw = 0;
-    for (int reach = std::max(width_, height_); reach > 0; reach /= 2) {
+    const std::size_t part = part_of(search.best);
+    const ExemplarPart& here = exemplar_.parts[part];
+    for (int reach = std::max(here.width, here.height); reach > 0; reach /= 2) {
         const int x = search.best.x + below(random.bits(draw), 2 * reach + 1) - reach,
                   y = search.best.y + below(random.bits(draw + 1), 2 * reach + 1) - reach;
         draw += 2;
-        search.consider(clamped(x, y));
+        search.consider(clamped(x, y, part));
     }
+    if (exemplar_.parts.size() == 1) return;
+    // A picture of another size has the same at the same share of its width and height.
+    const std::size_t wanted = wanted_part(site, random.uniform(draw));
+    const ExemplarPart& there = exemplar_.parts[wanted];
+    const int x = search.best.x * there.width / here.width,
+              y = (search.best.y - here.first_row) * there.height / here.height;
+    search.consider(clamped(x, there.first_row + y, wanted));
+    search.consider(clamped(below(random.bits(draw + 1), there.width),
+                            there.first_row + below(random.bits(draw + 2), there.height), wanted));
 }
 
 /// Takes the candidate of the lowest cost, unless that of the best match is lower, and forgets the others.
-void WindowMatches::compare(Search& search) const {
+void WindowMatches::compare(std::size_t site, Search& search) const {
     for (std::size_t i = 0; i < search.count; ++i) {
         search.begins[i] = difference_.window_begin(search.candidates[i].x - radius_,
                                                     search.candidates[i].y - radius_, height_);
@@ -209,7 +270,7 @@ void WindowMatches::compare(Search& search) const {
         const ExemplarPixel pixel = search.candidates[i];
         const std::size_t place = window_of(pixel), best = window_of(search.best);
         const float difference = scale * static_cast<float>(search.by_solid[i] + search.by_distance[i]);
-        const float cost = difference + spread * std::max(use_[place], 0.0F);
+        const float cost = difference + spread * std::max(use_[place], 0.0F) + reluctance(site, pixel);
         if (cost > search.cost || (cost == search.cost && place >= best)) continue;
         search.cost = cost;
         search.difference = difference;
@@ -227,13 +288,14 @@ void WindowMatches::improve(std::size_t site, Search& search) {
             search.distance[y * row_bytes + x] = distance_[window[y * size + x]];
         }
     }
-    search.best = clamped(width_, height_);  // the highest, so that an equal one replaces it
+    search.best = clamped(width_, height_,
+                          exemplar_.parts.size() - 1);  // the highest, so that an equal one replaces it
     search.cost = std::numeric_limits<float>::infinity();
     search.consider(matches_[site]);
     consider_neighbours(site, search);
-    compare(search);
+    compare(site, search);
     consider_random(site, search);
-    compare(search);
+    compare(site, search);
     next_[site] = search.best;
     differences_[site] = search.difference;
 }

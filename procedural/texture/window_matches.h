@@ -20,8 +20,8 @@ struct ExemplarPixel {
 /// the match counts that is the lower pixel of the exemplar, row by row.
 class WindowMatches {
   public:
-    /// Matches are random at first. The windows have to outlive the object. Throws InputError for an exemplar
-    /// smaller than a window in a direction, and of more than 1024 pixels.
+    /// Matches are random at first. Windows and exemplar have to outlive the object. Throws InputError for a
+    /// part of the exemplar smaller than a window in a direction, and of more than 1024 pixels.
     WindowMatches(const SiteWindows& windows, const Exemplar& exemplar, int level,
                   const SynthesisSettings& settings);
 
@@ -44,14 +44,20 @@ class WindowMatches {
     void improve(std::size_t site, Search& search);
     void consider_neighbours(std::size_t site, Search& search) const;
     void consider_random(std::size_t site, Search& search) const;
-    void compare(Search& search) const;
-    ExemplarPixel clamped(int x, int y) const;
+    void compare(std::size_t site, Search& search) const;
+    /// Returns the pixel of a part nearest to (x, y) about which a window fits.
+    ExemplarPixel clamped(int x, int y, std::size_t part) const;
+    std::size_t part_of(ExemplarPixel pixel) const { return exemplar_.part_of(pixel.y); }
+    std::size_t wanted_part(std::size_t site, double random) const;
+    float reluctance(std::size_t site, ExemplarPixel pixel) const;
+    void average_use(const ExemplarPart& part, double matches, std::span<const std::int64_t> sums);
     std::size_t window_of(ExemplarPixel pixel) const {
         return static_cast<std::size_t>(pixel.y - radius_) * columns_ +
                static_cast<std::size_t>(pixel.x - radius_);
     }
 
     const SiteWindows& windows_;
+    const Exemplar& exemplar_;
     SynthesisSettings settings_;
     int level_, width_, height_, radius_;
     std::size_t columns_, rows_;  ///< of windows in the exemplar

@@ -45,15 +45,23 @@ std::vector<float> WindowVotes::rarity(const SitePattern& pattern) const {
         return std::min(static_cast<std::size_t>(std::max(distance * bins, 0.0)), bins - 1);
     };
     std::array<double, bins> here{}, wanted{};
-    const double sites = static_cast<double>(pattern.distance.size()),
-                 pixels = static_cast<double>(exemplar_.distance.values.size());
+    const double sites = static_cast<double>(pattern.distance.size());
     for (const float distance : pattern.distance) here[bin(static_cast<double>(distance))] += 1 / sites;
-    for (const double distance : exemplar_.distance.values) wanted[bin(distance)] += 1 / pixels;
+    for (const ExemplarPart& part : exemplar_.parts) {
+        const double share = part.weight / (static_cast<double>(part.width) * part.height);
+        for (int y = 0; y < part.height; ++y) {
+            for (int x = 0; x < part.width; ++x)
+                wanted[bin(exemplar_.distance.values[exemplar_.distance.index(x, part.first_row + y)])] +=
+                    share;
+        }
+    }
     std::vector<float> counts;
     counts.reserve(exemplar_.distance.values.size());
     for (const double distance : exemplar_.distance.values) {
         const std::size_t b = bin(distance);
-        counts.push_back(static_cast<float>(1 / (1 + std::max(here[b] / wanted[b] - 1, 0.0))));
+        // No part has what is beside a narrow one.
+        counts.push_back(
+            static_cast<float>(wanted[b] > 0 ? 1 / (1 + std::max(here[b] / wanted[b] - 1, 0.0)) : 1));
     }
     return counts;
 }

@@ -44,18 +44,23 @@ FieldPtr hexagons(PatternBuildContext& making) {
     return cut_by(make_hexagon_windows(*making.body, window_settings(making)), making);
 }
 
-/// Returns the strut of a pattern that has the same everywhere.
+/// Returns a number of a pattern that is the same everywhere; `what` is it, for the message.
+double constant_number(PatternBuildContext& making, const GradedNumber& number, const char* what) {
+    const auto constant = making.gradings.resolve(number)->constant();
+    if (!constant) throw InputError(fmt::format("{} is the same everywhere; accepted: a number", what));
+    return *constant;
+}
+
 double constant_strut(PatternBuildContext& making) {
-    const auto strut = making.gradings.resolve(making.recipe.skin->strut)->constant();
-    if (!strut) throw InputError("the strut of a picture is the same everywhere; accepted: a number");
-    return *strut;
+    return constant_number(making, making.recipe.skin->strut, "the strut of a picture");
 }
 
 FieldPtr image(PatternBuildContext& making) {
     const SkinRecipe& skin = *making.recipe.skin;
     const double strut = constant_strut(making);
     StrutImage picture(read_picture(skin.image),
-                       {skin.image_size, strut, skin.threshold < 0 ? 0.5 : skin.threshold, skin.invert});
+                       {constant_number(making, skin.image_size, "the size of a picture that is tiled"),
+                        strut, skin.threshold < 0 ? 0.5 : skin.threshold, skin.invert});
     making.report.islands = picture.islands();
     making.report.open_share = picture.open_share();
     return make_patterned_shell(
@@ -81,14 +86,31 @@ LoadedSkin loaded_skin(PatternBuildContext& making, const SkinElements& elements
     return loaded;
 }
 
+/// Sets the width of the picture, the same everywhere or graded.
+void set_size(PatternBuildContext& making, ExampleSettings& example) {
+    constexpr Interval sizes{0.01, 1e5};
+    const GradedUse size = graded("skin.image_size", making.recipe.skin->image_size, sizes, making.gradings);
+    if (const auto constant = size.made->constant()) {
+        example.size = *constant;
+        return;
+    }
+    const Interval found = range_in(*making.body, *size.made);
+    example.size = found.hi;
+    example.least_size = found.lo;
+    example.graded_size = size.made;
+}
+
 FieldPtr by_example(PatternBuildContext& making) {
     const SkinRecipe& skin = *making.recipe.skin;
     SurfacePatternSettings settings;
-    settings.example = {.size = skin.image_size,
-                        .strut = constant_strut(making),
-                        .gap = skin.gap,
-                        .invert = skin.invert,
-                        .reinforce = skin.reinforce};
+    settings.example = {
+        .strut = constant_strut(making), .gap = skin.gap, .invert = skin.invert, .reinforce = skin.reinforce};
+    set_size(making, settings.example);
+    if (!skin.second_image.empty()) {
+        const GradedUse weight = graded("skin.second_weight", skin.second_weight, {0, 1}, making.gradings);
+        settings.example.second = {std::make_shared<const Volume>(read_picture(skin.second_image)),
+                                   weight.made};
+    }
     if (skin.threshold >= 0) settings.example.threshold = skin.threshold;
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
     settings.example.synthesis.cancel = making.work.cancel;
@@ -130,7 +152,7 @@ std::span<const PatternBuilder> pattern_builders() {
         {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image},
         {{"by-example",
           {"image", "image_size", "strut"},
-          {"threshold", "invert", "gap", "reinforce", "direction", "seed"}},
+          {"threshold", "invert", "gap", "reinforce", "direction", "seed", "second_image", "second_weight"}},
          by_example}};
     return list;
 }

@@ -84,11 +84,23 @@ void add_image_pattern(std::vector<Setting>& t) {
                                      "in a recipe, relative to the "
                                      "recipe's folder.",
                              .is_path = true});
-    add_skin_row<&S::image_size>(t, "image_size", "--skin-image-size",
-                                 {.unit = "mm",
-                                  .limits = {0.01, 1e5},
-                                  .fallback = "required by image, by-example",
-                                  .help = "Length that the picture's width covers."});
+    add_skin_row<&S::image_size>(
+        t, "image_size", "--skin-image-size",
+        {.unit = "mm",
+         .limits = {0.01, 1e5},
+         .fallback = "required by image, by-example",
+         .help = "Length that the picture's width covers; by-example takes a "
+                 "formula, whose largest length is at most 3.6 times the smallest."});
+    add_skin_row<&S::second_image>(t, "second_image", "--skin-second-image",
+                                   {.fallback = "none",
+                                    .help = "Second picture of a pattern by example, into which the first "
+                                            "changes where second_weight is above 0.",
+                                    .is_path = true});
+    add_skin_row<&S::second_weight>(t, "second_weight", "--skin-second-weight",
+                                    {.limits = {0, 1},
+                                     .fallback = "required with second_image",
+                                     .help = "How much a pattern by example looks like the second picture: "
+                                             "0 like the first alone, 1 like the second alone."});
     add_skin_row<&S::threshold>(t, "threshold", "--skin-threshold",
                                 {.limits = {0, 1},
                                  .fallback = "0.5; by-example: the value that parts the picture best (Otsu)",

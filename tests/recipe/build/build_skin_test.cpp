@@ -168,6 +168,16 @@ TEST_CASE("skins that cannot be are refused with the key that is to blame") {
                                           "strut = 1\n"),
                    "nowhere.png"));
     CHECK(mentions(complaint(ball, skin + "pattern = \"voronoi\"\nwindow = 2\nstrut = \"z\"\n"), "strut"));
+    const std::string blobs = "image = \"" LAMELLA_SOURCE_DIR "/examples/inputs/blobs.png\"\nstrut = 0.8\n";
+    CHECK(mentions(complaint(ball, skin + "pattern = \"image\"\n" + blobs + "image_size = \"9 + 0.1*z\"\n"),
+                   "the size of a picture that is tiled is the same everywhere"));
+    const std::string by_example = skin + "pattern = \"by-example\"\n" + blobs;
+    CHECK(mentions(complaint(ball, by_example + "image_size = 20\nsecond_weight = 0.5\n"),
+                   "skin.second_weight: has no effect without skin.second_image"));
+    CHECK(mentions(complaint(ball, by_example + "image_size = 20\nsecond_image = \"nowhere.png\"\n"),
+                   "skin.second_image: has no effect without skin.second_weight"));
+    CHECK(mentions(complaint(ball, by_example + "image_size = \"24 + 2*z\"\n"),
+                   "accepted: the largest at most 3.6 times the smallest"));
 }
 
 TEST_CASE("windows, holes and drains change a job's identity") {
