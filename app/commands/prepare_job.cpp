@@ -53,6 +53,12 @@ OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& c
     optimizing.on_iteration = [display](const TopologyIteration& iteration, int iterations) {
         display->show(static_cast<double>(iteration.index) / iterations);
     };
+    const bool kept = !options.plans.empty();
+    optimizing.on_pattern = [kept] {
+        std::fputs(kept ? "computing the pattern of the skin, which is kept for later runs\n"
+                        : "computing the pattern of the skin\n",
+                   stderr);
+    };
     return optimizing;
 }
 

@@ -93,7 +93,8 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
     if (foam) built.foam = build_foam(*foam, job.bounds, gradings);
     set_layers(recipe, job);
     job.part = with_regions(
-        fill_body(recipe, built, gradings, {optimizing.plans, optimizing.threads, optimizing.cancel}),
+        fill_body(recipe, built, gradings,
+                  {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_pattern}),
         built.body, recipe.foam || recipe.skin, built.regions);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {

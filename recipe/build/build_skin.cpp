@@ -123,8 +123,10 @@ FieldPtr by_example(PatternBuildContext& making) {
         };
     }
     ThreadArena arena(making.work.threads);
-    const auto pattern = std::make_shared<const SurfacePattern>(arena.execute(
-        [&] { return pattern_plan(making.recipe, *making.body, settings, making.work.plans); }));
+    const auto pattern = std::make_shared<const SurfacePattern>(arena.execute([&] {
+        return pattern_plan(making.recipe, *making.body, settings, making.work.plans,
+                            making.work.on_synthesis);
+    }));
     const SurfaceBricks& made = pattern->bricks();
     PatternReport& report = making.report;
     report.open_share = 1 - made.share;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,8 @@ struct PatternWork {
     std::filesystem::path plans{};        ///< folder for patterns; empty: none are read or kept
     int threads = 0;                      ///< 0: one per core
     const CancelToken* cancel = nullptr;  ///< may be null
+    /// Called before a pattern is synthesised, which may take minutes; may be empty.
+    std::function<void()> on_synthesis{};
 };
 
 /// The shell cut by the windows of the recipe's pattern. `depth` is the thickest the shell is, mm. Throws

@@ -35,8 +35,12 @@ std::string pattern_hash(const Recipe& recipe, double depth) {
 }
 
 SurfaceBricks pattern_plan(const Recipe& recipe, const Field& body, const SurfacePatternSettings& settings,
-                           const std::filesystem::path& plans) {
-    const auto make = [&] { return synthesise_on_surface(read_picture(recipe.skin->image), body, settings); };
+                           const std::filesystem::path& plans, const std::function<void()>& on_synthesis) {
+    const auto make = [&] {
+        const Volume picture = read_picture(recipe.skin->image);
+        if (on_synthesis) on_synthesis();
+        return synthesise_on_surface(picture, body, settings);
+    };
     if (plans.empty()) return make();
     const std::filesystem::path file = plans / (pattern_hash(recipe, settings.depth) + ".pattern");
     if (auto kept = read_kept(file, read_surface_bricks)) return std::move(*kept);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "procedural/pattern/surface_pattern.h"
@@ -14,8 +15,10 @@ namespace lamella {
 std::string pattern_hash(const Recipe& recipe, double depth);
 
 /// Returns the pattern that the folder keeps for this recipe, or makes it and keeps it there. An empty folder
-/// keeps nothing. Throws as synthesise_on_surface().
+/// keeps nothing. Calls `on_synthesis`, which may be empty, before it makes one. Throws as
+/// synthesise_on_surface().
 SurfaceBricks pattern_plan(const Recipe& recipe, const Field& body, const SurfacePatternSettings& settings,
-                           const std::filesystem::path& plans);
+                           const std::filesystem::path& plans,
+                           const std::function<void()>& on_synthesis = {});
 
 }  // namespace lamella

@@ -29,6 +29,8 @@ struct OptimizeOptions {
     std::function<void(const OptimizationStep&, int iterations)> on_iteration{};
     /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null.
     const CancelToken* cancel = nullptr;
+    /// Called before the pattern of a skin is synthesised, which may take minutes; may be empty.
+    std::function<void()> on_pattern{};
     SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
 };
 
