@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 #include "engine/base/error.h"
@@ -84,7 +85,7 @@ void run(const DumpOptions& options) {
     if (!options.box.empty()) box = parse_box(options.box);
     BuiltFoam foam;
     if (has_body) {
-        BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+        BuiltJob built = build_job(recipe, with_kept_plans(false));
         foam = std::move(*built.foam);
         if (!box) box = built.designed.bounds;
     } else {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 #include "app/reports/foam_statistics.h"
@@ -342,7 +343,7 @@ void run(const InfoOptions& options) {
     }
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+    BuiltJob built = build_job(recipe, with_kept_plans(false));
     if (options.islands) {
         IslandSurveyOptions survey;
         survey.threads = options.threads;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 #include "app/reports/modulus_paint.h"
@@ -67,7 +68,7 @@ void run(PreviewCommand& options) {
     const auto start = std::chrono::steady_clock::now();
     const Recipe recipe = options.recipe.read();
     if (!options.quiet) note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+    BuiltJob built = build_job(recipe, with_kept_plans(options.quiet));
     const std::string path = options.output.empty() ? recipe.part.name + ".png" : options.output;
     options.picture.width = options.picture.height = options.size;
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();

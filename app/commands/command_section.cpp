@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/commands/commands.h"
+#include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 #include "app/reports/section_writer.h"
@@ -35,7 +36,7 @@ std::string chosen_format(const SectionOptions& options) {
 std::string section(const SectionOptions& options, const std::string& format) {
     const Recipe recipe = options.recipe.read();
     note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+    BuiltJob built = build_job(recipe, with_kept_plans(false));
     finish_job(recipe, built, {});
     const Box& bounds = built.job.bounds;
     if (!(bounds.lo.z <= options.z && options.z <= bounds.hi.z)) {

@@ -135,7 +135,7 @@ void run(const SupportsCommand& options) {
     Recipe recipe = options.recipe.read();
     if (recipe.support == SupportKind::none) recipe.support = SupportKind::bridges;
     if (!options.quiet) note_unused(options.recipe, recipe);
-    BuiltJob built = build_job(recipe, {.plans = default_plan_folder()});
+    BuiltJob built = build_job(recipe, with_kept_plans(options.quiet));
     recipe.shield.reset();  // not needed here
     const BuiltSupports supports = *finish_with_progress(recipe, built, options, cancel).supports;
     TextOutput out(options.output);

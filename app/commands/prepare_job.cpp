@@ -43,6 +43,14 @@ std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) 
     return recipes;
 }
 
+void announce_pattern(OptimizeOptions& options) {
+    options.on_pattern = [kept = !options.plans.empty()] {
+        std::fputs(kept ? "computing the pattern of the skin, which is kept for later runs\n"
+                        : "computing the pattern of the skin\n",
+                   stderr);
+    };
+}
+
 OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& cancel) {
     OptimizeOptions optimizing;
     optimizing.plans = options.plans;
@@ -53,12 +61,7 @@ OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& c
     optimizing.on_iteration = [display](const TopologyIteration& iteration, int iterations) {
         display->show(static_cast<double>(iteration.index) / iterations);
     };
-    const bool kept = !options.plans.empty();
-    optimizing.on_pattern = [kept] {
-        std::fputs(kept ? "computing the pattern of the skin, which is kept for later runs\n"
-                        : "computing the pattern of the skin\n",
-                   stderr);
-    };
+    announce_pattern(optimizing);
     return optimizing;
 }
 
@@ -76,6 +79,13 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
 }
 
 }  // namespace
+
+OptimizeOptions with_kept_plans(bool quiet) {
+    OptimizeOptions options;
+    options.plans = default_plan_folder();
+    if (!quiet) announce_pattern(options);
+    return options;
+}
 
 SupportStructures finish_with_progress(const Recipe& recipe, BuiltJob& built, const JobOptions& options,
                                        const CancelToken& cancel) {

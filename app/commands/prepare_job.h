@@ -28,6 +28,10 @@ void add_survey_options(CLI::App& command, JobOptions& options);
 /// Adds all options of JobOptions.
 void add_job_options(CLI::App& command, JobOptions& options);
 
+/// Returns the options for building a job whose results are kept in the user's plan folder. Unless quiet, a
+/// line on standard error says when the pattern of a skin is being computed.
+OptimizeOptions with_kept_plans(bool quiet);
+
 struct PreparedJob {
     BuiltJob built;
     StreamOptions stream;  ///< without on_progress
