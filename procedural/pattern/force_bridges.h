@@ -34,6 +34,7 @@ class BridgesByForces : public BridgeChoice {
 
     /// Throws InputError as the loads do, Interrupted when cancelled.
     std::vector<SiteLine> choose(std::span<const float> distances) override;
+    double weakness() const override { return softness_.empty() ? infinity : softness_.back(); }
     /// The mean over the load cases of the compliance, over that of the closed skin, by analysis.
     const std::vector<double>& softness() const { return softness_; }
 

@@ -44,7 +44,8 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
                            BridgeChoice* choice) {
     constexpr int most_rounds = 12;
     constexpr int first_round = 1000;  // of random numbers: grids have the lower ones
-    SoundPattern made;
+    SoundPattern made, best;
+    double least = infinity;
     std::vector<SiteLine> bridges;
     for (int round = 0;; ++round) {
         stop_if_cancelled(synthesis.cancel);
@@ -57,11 +58,15 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
         }
         if (choice != nullptr) {
             std::vector<SiteLine> chosen = choice->choose(made.printed.distance);
+            if (choice->weakness() <= least) {
+                least = choice->weakness();
+                best = made;
+            }
             if (round == most_rounds) chosen.clear();
             made.bridges += chosen.size();
             std::ranges::move(chosen, std::back_inserter(bridges));
         }
-        if (bridges.size() == built) return made;
+        if (bridges.size() == built) return choice != nullptr ? best : made;
         build(level, exemplar, bridges, built, print.strut, first_round + round, synthesis, found);
     }
 }

@@ -15,6 +15,9 @@ class BridgeChoice {
     /// Returns the middle lines of bridges for a pattern in one piece, given by its distances (mm, positive
     /// in the solid); none when it is sound. Asked again once they are built.
     virtual std::vector<SiteLine> choose(std::span<const float> distances) = 0;
+    /// Returns how weak the pattern is that choose() was asked about last: of all, the least weak is kept, of
+    /// those alike the last.
+    virtual double weakness() const { return 0; }
 };
 
 struct SoundPattern {
@@ -28,7 +31,7 @@ struct SoundPattern {
 
 /// Makes a pattern printable, in rounds: bridges that join pieces, and those that are chosen, become fixed,
 /// and the pattern about them is synthesised anew, so that it runs into them. `choice` may be null. Bridges
-/// that are chosen after twelve rounds are not built. Throws as printable_pattern(), Interrupted when
+/// that are chosen after twelve rounds are not built. Of the rounds, that of the least weak pattern counts. Throws as printable_pattern(), Interrupted when
 /// cancelled.
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
                            const SynthesisSettings& synthesis, const PrintSettings& print,

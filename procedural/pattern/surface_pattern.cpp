@@ -159,7 +159,7 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                        .dropped = pattern.printed.dropped};
     if (!softness.empty()) {
         made.softness_before = softness.front();
-        made.softness = softness.back();
+        made.softness = std::ranges::min(softness);
     }
     made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
     const double strut = settings.example.strut / made.spacing, deep = settings.depth / made.spacing;

@@ -19,10 +19,10 @@ TEST_CASE("a sheet is written as a picture that can be an example again", "[patt
     const Folder folder;
     const std::string sheet = folder / "sheet.png", again = folder / "again.png";
     const Outcome made =
-        run_lamella("pattern " + inputs + "net.png --invert --size 30 --sheet 40,30 --json -o " + sheet);
+        run_lamella("pattern " + inputs + "net.png --invert --size 30 --sheet 32,30 --json -o " + sheet);
     REQUIRE(made.code == 0);
     const auto report = nlohmann::json::parse(made.out);
-    CHECK(report["sheet_mm"][0] == Approx(40));
+    CHECK(report["sheet_mm"][0] == Approx(32));
     CHECK(report["sheet_mm"][1].get<double>() == Approx(30).margin(0.4 + 1e-9));
     const double share = report["solid_share"];
     CHECK(share == Approx(report["example_share"].get<double>()).epsilon(0.05));
@@ -31,10 +31,10 @@ TEST_CASE("a sheet is written as a picture that can be an example again", "[patt
     double sum = 0;
     for (const double value : picture.values) sum += value;
     CHECK(sum / static_cast<double>(picture.values.size()) == Approx(share).margin(0.005));
-    CHECK(run_lamella("pattern " + sheet + " --invert --size 40 -o " + again).code == 0);
+    CHECK(run_lamella("pattern " + sheet + " --invert --size 32 --sheet 32,30 -o " + again).code == 0);
     // The same bytes on another number of threads.
     const std::string on_one = folder / "one.png";
-    run_lamella("pattern " + inputs + "net.png --invert --size 30 --sheet 40,30 --threads 1 -o " + on_one);
+    run_lamella("pattern " + inputs + "net.png --invert --size 30 --sheet 32,30 --threads 1 -o " + on_one);
     CHECK(contents(on_one) == contents(sheet));
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("a sheet is written as contours, and reported without a file", "[patte
     REQUIRE(run_lamella("pattern " + inputs + "blobs.png --size 24 --sheet 30,30 -o " + sheet).code == 0);
     CHECK(mentions(contents(sheet), "width=\"30mm\""));
     CHECK(mentions(contents(sheet), "fill-rule=\"evenodd\""));
-    const Outcome told = run_lamella("pattern " + inputs + "bricks.png --size 24 --gap 0.5");
+    const Outcome told = run_lamella("pattern " + inputs + "bricks.png --size 24 --sheet 24,24 --gap 0.5");
     CHECK(told.code == 0);
     CHECK(mentions(told.out, "bridges"));
     CHECK(mentions(told.out, "a larger --size keeps them"));
