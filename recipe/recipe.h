@@ -202,6 +202,7 @@ struct SkinRecipe {
     bool invert = false;  ///< image: solid where it is bright
     double gap = 0;       ///< by-example: least width of gaps, mm; 0: any
     Reinforcement reinforce = Reinforcement::shape;  ///< by-example: how bridges are chosen
+    bool self_supporting = false;                    ///< by-example: struts below what would begin in the air
     dvec3 direction{0};       ///< by-example: where the picture's top points; 0: smooth by itself
     std::int64_t drains = 0;  ///< holes per closed cavity: at its lowest point, and with 2 also at its
                               ///< highest

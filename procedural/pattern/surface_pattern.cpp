@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
@@ -13,6 +14,7 @@
 #include "procedural/pattern/carried_distance.h"
 #include "procedural/pattern/force_bridges.h"
 #include "procedural/pattern/nearest_on_lattice.h"
+#include "procedural/pattern/struts_below.h"
 #include "procedural/texture/body_sites.h"
 
 namespace lamella {
@@ -117,22 +119,42 @@ double element_edge(const Field& shell, double strut) {
     return std::max(0.5 * strut, std::cbrt(size.x * size.y * size.z / most));
 }
 
-SoundPattern reinforced_by_forces(const Example& example, const std::vector<PatternLevel>& levels,
-                                  const SurfacePatternSettings& settings, std::vector<double>& softness) {
-    if (!settings.shell)
-        throw InputError("forces act on the skin of a body; accepted: settings with a shell");
+/// Returns a sound pattern, and of reinforcement by forces the softness before it and after.
+SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>& levels,
+                        const SurfacePatternSettings& settings, std::pair<double, double>& softness) {
     const SurfaceSites& sites = levels.back().sites;
     const SynthesisSettings& synthesis = settings.example.synthesis;
     const BridgeSettings by_shape = bridge_settings(sites, settings.example);
-    const SkinElements elements(*settings.shell, sites, settings.depth,
-                                element_edge(*settings.shell, settings.example.strut), synthesis.cancel);
-    BridgesByForces by_forces(sites, elements, settings.loads,
-                              {.by_shape = by_shape, .thickness = settings.depth});
-    SoundPattern made = synthesise_example(example, levels, settings.example, &by_forces);
-    softness = by_forces.softness();
-    const BridgePlan left = plan_bridges(sites, made.printed.distance, by_shape);
-    made.cut_struts = left.cut_struts;
-    made.detours = left.detours;
+    std::optional<SkinElements> elements;
+    std::optional<BridgesByShape> shape;
+    std::optional<BridgesByForces> forces;
+    BridgeChoice* choice = nullptr;
+    if (settings.example.reinforce == Reinforcement::forces) {
+        if (!settings.shell)
+            throw InputError("forces act on the skin of a body; accepted: settings with a shell");
+        elements.emplace(*settings.shell, sites, settings.depth,
+                         element_edge(*settings.shell, settings.example.strut), synthesis.cancel);
+        choice = &forces.emplace(sites, *elements, settings.loads,
+                                 ForceSettings{.by_shape = by_shape, .thickness = settings.depth});
+    } else if (settings.example.reinforce == Reinforcement::shape) {
+        choice = &shape.emplace(sites, by_shape);
+    }
+    StrutsBelow below(sites, settings.depth, settings.example.strut, choice);
+    SoundPattern made =
+        synthesise_example(example, levels, settings.example, settings.self_supporting ? &below : choice);
+    if (choice != nullptr) {
+        const bool is_known = shape && !settings.self_supporting;
+        const BridgePlan left =
+            is_known ? shape->last() : plan_bridges(sites, made.printed.distance, by_shape);
+        made.cut_struts = left.cut_struts;
+        made.detours = left.detours;
+    }
+    if (forces) {
+        if (settings.self_supporting) forces->choose(made.printed.distance);  // analyses it once more
+        softness = {forces->softness().front(), settings.self_supporting
+                                                    ? forces->softness().back()
+                                                    : std::ranges::min(forces->softness())};
+    }
     return made;
 }
 
@@ -142,10 +164,8 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                                     const SurfacePatternSettings& settings) {
     const Example example = make_example(picture, settings.example);
     const std::vector<PatternLevel> levels = levels_on(body, example, settings);
-    std::vector<double> softness;
-    const SoundPattern pattern = settings.example.reinforce == Reinforcement::forces
-                                     ? reinforced_by_forces(example, levels, settings, softness)
-                                     : synthesise_example(example, levels, settings.example);
+    std::pair<double, double> softness{0, 0};
+    const SoundPattern pattern = reinforced(example, levels, settings, softness);
     SurfaceBricks made{.spacing = example.spacing,
                        .unit = std::max(settings.example.strut, settings.example.gap) / largest_step,
                        .slope = 1,
@@ -156,11 +176,9 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                        .bridges = pattern.bridges,
                        .cut_struts = pattern.cut_struts,
                        .detours = pattern.detours,
-                       .dropped = pattern.printed.dropped};
-    if (!softness.empty()) {
-        made.softness_before = softness.front();
-        made.softness = std::ranges::min(softness);
-    }
+                       .dropped = pattern.printed.dropped,
+                       .softness_before = softness.first,
+                       .softness = softness.second};
     made.bricks = bricks_about(levels.back().sites, pattern.printed.distance, settings.depth, made.unit);
     const double strut = settings.example.strut / made.spacing, deep = settings.depth / made.spacing;
     made.dropped +=

@@ -17,8 +17,9 @@ namespace lamella {
 
 struct SurfacePatternSettings {
     ExampleSettings example;
-    std::optional<dvec3> axis{};  ///< of the pattern's y; smooth by itself if not given
-    double depth = 1;             ///< below the surface, down to which the pattern is wanted, mm
+    std::optional<dvec3> axis{};   ///< of the pattern's y; smooth by itself if not given
+    double depth = 1;              ///< below the surface, down to which the pattern is wanted, mm
+    bool self_supporting = false;  ///< struts go down from where the pattern would begin in the air
     /// Of reinforcement by forces, which needs both: the skin without the pattern, and what loads it.
     FieldPtr shell{};
     SkinLoads loads = squeezed_skin;

@@ -114,6 +114,7 @@ FieldPtr by_example(PatternBuildContext& making) {
     if (skin.threshold >= 0) settings.example.threshold = skin.threshold;
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
     settings.example.synthesis.cancel = making.work.cancel;
+    settings.self_supporting = skin.self_supporting;
     if (skin.direction != dvec3(0)) settings.axis = skin.direction;
     settings.depth = making.depth;
     settings.shell = making.shell;
@@ -154,7 +155,8 @@ std::span<const PatternBuilder> pattern_builders() {
         {{"image", {"image", "image_size", "strut"}, {"threshold", "invert"}}, image},
         {{"by-example",
           {"image", "image_size", "strut"},
-          {"threshold", "invert", "gap", "reinforce", "direction", "seed", "second_image", "second_weight"}},
+          {"threshold", "invert", "gap", "reinforce", "self_supporting", "direction", "seed", "second_image",
+           "second_weight"}},
          by_example}};
     return list;
 }

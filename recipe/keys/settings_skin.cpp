@@ -119,6 +119,10 @@ void add_image_pattern(std::vector<Setting>& t) {
          .help = "How bridges make a pattern by example sounder, beyond joining its pieces: shape: no strut "
                  "alone holds a part, and no way round a gap is long; forces: also where a finite element "
                  "analysis under the loads, or squeezes from all sides, finds them most useful."});
+    add_skin_row<&S::self_supporting>(
+        t, "self_supporting", "--skin-self-supporting",
+        {.fallback = "false",
+         .help = "Put struts below the places where a pattern by example would begin in the air."});
     add_skin_row<&S::direction>(t, "direction", "--skin-direction",
                                 {.limits = {-1e6, 1e6},
                                  .fallback = "as smooth as the surface allows",

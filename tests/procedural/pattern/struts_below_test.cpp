@@ -1,0 +1,84 @@
+// Struts below what would begin in the air: a drawn pattern, and one by example, on a box that stands.
+#include "procedural/pattern/struts_below.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/solids/primitives.h"
+#include "procedural/pattern/pattern_example.h"
+#include "procedural/texture/body_sites.h"
+
+namespace struts_below_test {
+
+using namespace lamella;
+
+namespace {
+
+constexpr double strut = 0.8, depth = 1;
+
+SurfaceSites sites_of(const FieldPtr& body) { return sites_on_surface(*body, 0.25, 1'000'000, nullptr); }
+
+}  // namespace
+
+TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", "[pattern]") {
+    const SurfaceSites sites = sites_of(make_box({dvec3(0), dvec3(10, 10, 14)}));
+    for (const bool is_joined : {true, false}) {
+        std::vector<float> distances;
+        for (const dvec3 p : sites.places) {
+            // Below 4 mm and above 8 mm all is solid; a tongue hangs down to 6 mm, and perhaps a bar joins
+            // both.
+            const bool at_front = p.y<0.1, at_back = p.y> 9.9;
+            const bool tongue = at_front && std::abs(p.x - 5) < 1 && p.z > 6;
+            const bool bar = is_joined && at_back && std::abs(p.x - 5) < 1;
+            distances.push_back(p.z < 4 || p.z > 8 || tongue || bar ? 1.0F : -1.0F);
+        }
+        const std::vector<SiteLine> struts = struts_below(sites, distances, depth, strut);
+        REQUIRE(struts.size() == 1);
+        const SiteLine& line = struts.front();
+        CHECK(line.front().place.z == Approx(6).margin(0.25));
+        CHECK(std::abs(line.front().place.x - 5) < 1.01);
+        CHECK(line.back().place.z == Approx(4).margin(0.25));
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            CHECK(line[i].place.z < line[i - 1].place.z);
+            CHECK(glm::distance(line[i].place, line[i - 1].place) < 1.5 * sites.spacing);
+        }
+    }
+}
+
+TEST_CASE("what begins at the bottom of the body needs supports, not struts", "[pattern]") {
+    // Two legs, each a piece of its own, and a wall between them that ends above.
+    const SurfaceSites sites = sites_of(make_box({dvec3(0), dvec3(10, 10, 8)}));
+    std::vector<float> distances;
+    for (const dvec3 p : sites.places) distances.push_back(p.z > 5 || std::abs(p.x - 5) > 3 ? 1.0F : -1.0F);
+    CHECK(struts_below(sites, distances, depth, strut).empty());
+}
+
+TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]") {
+    const auto body = make_box({dvec3(0), dvec3(20, 16, 18)});
+    ExampleSettings settings;
+    settings.size = 24;
+    const Example example =
+        make_example(read_picture(LAMELLA_SOURCE_DIR "/examples/inputs/bricks.png"), settings);
+    std::vector<PatternLevel> levels;
+    for (int doublings = example.levels - 1; doublings >= 0; --doublings) {
+        PatternLevel level;
+        level.sites = sites_on_surface(*body, example.spacing * (1 << doublings), 1'000'000, nullptr);
+        set_tangents(level.sites, levels.empty() ? nullptr : &levels.back().sites, dvec3(0, 0, 1),
+                     levels.empty() ? 1000 : 5);
+        level.windows = site_windows(level.sites, 9);
+        levels.push_back(std::move(level));
+    }
+    const SurfaceSites& sites = levels.back().sites;
+    const SoundPattern plain = synthesise_example(example, levels, settings, nullptr);
+    StrutsBelow below(sites, depth, strut, nullptr);
+    const SoundPattern held = synthesise_example(example, levels, settings, &below);
+    const auto hanging = [&](const SoundPattern& pattern) {
+        return struts_below(sites, pattern.printed.distance, depth, strut).size();
+    };
+    CAPTURE(hanging(plain), hanging(held), held.bridges);
+    CHECK(hanging(plain) > 5);
+    CHECK(hanging(held) == 0);
+    CHECK(held.bridges >= hanging(plain));
+    CHECK(held.printed.share == Approx(plain.printed.share).margin(0.02));
+}
+
+}  // namespace struts_below_test
