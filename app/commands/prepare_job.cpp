@@ -10,12 +10,12 @@
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
 #include "engine/layers/plate.h"
-#include "procedural/optimization/topology_optimizer.h"
 #include "recipe/build/repair_job.h"
 #include "recipe/layer_range.h"
 #include "recipe/output/job_picture.h"
 #include "recipe/printer_choice.h"
 #include "recipe/read_recipe.h"
+#include "recipe/structure/structure_report.h"
 
 namespace lamella {
 
@@ -58,7 +58,7 @@ OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& c
     optimizing.cancel = &cancel;
     if (options.quiet) return optimizing;
     const auto display = std::make_shared<ProgressDisplay>(false, "optimising: ");
-    optimizing.on_iteration = [display](const TopologyIteration& iteration, int iterations) {
+    optimizing.on_iteration = [display](const OptimizationStep& iteration, int iterations) {
         display->show(static_cast<double>(iteration.index) / iterations);
     };
     announce_pattern(optimizing);
