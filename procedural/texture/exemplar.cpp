@@ -79,7 +79,8 @@ Exemplar stacked(const std::vector<Exemplar>& parts, std::vector<float> weights)
             }
         }
     }
-    const double sites = static_cast<double>(weights.size() / parts.size());
+    const std::size_t count = weights.size() / parts.size();
+    const auto sites = static_cast<double>(count);
     for (std::size_t i = 0; i < weights.size(); ++i)
         all.parts[i % parts.size()].weight += static_cast<double>(weights[i]) / sites;
     all.weights = std::move(weights);
