@@ -62,8 +62,18 @@ void NearestOnLattice::descend(Brick& brick) const {
 }
 
 std::uint32_t NearestOnLattice::site(glm::i64vec3 at) const {
-    const auto found = numbers_.find(brick_of(at));
-    return found == numbers_.end() ? none : bricks_[found->second].sites[place_of(at)];
+    std::size_t hint = 0;
+    return site(at, hint);
+}
+
+std::uint32_t NearestOnLattice::site(glm::i64vec3 at, std::size_t& hint) const {
+    const glm::i64vec3 corner = brick_of(at);
+    if (hint >= bricks_.size() || bricks_[hint].corner != corner) {
+        const auto found = numbers_.find(corner);
+        if (found == numbers_.end()) return none;
+        hint = found->second;
+    }
+    return bricks_[hint].sites[place_of(at)];
 }
 
 std::vector<glm::i64vec3> NearestOnLattice::bricks() const {

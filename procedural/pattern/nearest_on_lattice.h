@@ -23,6 +23,8 @@ class NearestOnLattice {
 
     /// Returns the nearest site of a point, in steps of the lattice; `none` beyond the depth.
     std::uint32_t site(glm::i64vec3 at) const;
+    /// The same, quicker for points near each other: `hint` carries the last point's brick to the next.
+    std::uint32_t site(glm::i64vec3 at, std::size_t& hint) const;
     /// Returns the lowest points, over 8, of the bricks of 8 x 8 x 8 points in which some point has a site.
     std::vector<glm::i64vec3> bricks() const;
 

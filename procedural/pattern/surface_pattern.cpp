@@ -52,8 +52,10 @@ double distance_on_lattice(const SurfaceSites& sites, const CarriedDistance& car
     double distance = carried.at(p, site);
     const double height = glm::dot(p - sites.places[site], normal);
     if (height <= 0 && height >= -depth) return distance;
+    std::size_t hint = 0;
     for (int k = 0; k < 27; ++k) {
-        const std::uint32_t other = nearest.site(at + glm::i64vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+        const std::uint32_t other =
+            nearest.site(at + glm::i64vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1), hint);
         if (other != NearestOnLattice::none && glm::dot(normal, sites.normals[other]) < 0)
             distance = std::min(distance, carried.at(p, other));
     }
