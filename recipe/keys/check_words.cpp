@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -25,6 +26,15 @@ std::string build_volume_text(dvec3 available) {
     return text + " mm";
 }
 
+/// Returns a positive number with three digits, without an exponent: "0.0000156".
+std::string decimal(double number) {
+    const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(number))));
+    std::string text = fmt::format("{:.{}f}", number, decimals);
+    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
 struct Words {
     const char* fault;
     const char* advice;
@@ -37,7 +47,7 @@ const std::array<Words, check_count> table{{
      "Join it to the part, or leave loose pieces of foam out with --drop-islands.",
      [](const PrintLimits& limits) -> std::string {
          if (limits.piece <= 0) return "the part is one piece";
-         return fmt::format("one piece, but for crumbs below {:.3g} mm3", limits.piece);
+         return fmt::format("one piece, but for crumbs below {} mm3", decimal(limits.piece));
      }},
     {"a layer falls into several pieces",
      "Join them in the design, or have bars put between them: --printer-ties join.",

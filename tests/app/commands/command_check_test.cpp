@@ -99,7 +99,7 @@ TEST_CASE("a second piece is told with its volume and place, and decides the exi
     CHECK(failed.code == 1);
     CHECK(mentions(failed.out, "boxes on generic-8k (resin): 1 of 1 checks fail\n"));
     CHECK(
-        mentions(failed.out, "connectivity  one piece, but for crumbs below 1.56e-05 mm3  FAIL  1 place\n"));
+        mentions(failed.out, "connectivity  one piece, but for crumbs below 0.0000156 mm3  FAIL  1 place\n"));
     CHECK(mentions(failed.out, "  50.0 mm3    at ("));
     CHECK(mentions(failed.out, ", layers 0 to 7\n"));
     CHECK(failed.err == "lamella: boxes cannot be printed as it is on generic-8k: connectivity (1 place)\n");
