@@ -50,11 +50,12 @@ GreyImage black_and_white_of(const Volume& picture, const ExampleSettings& setti
     return image;
 }
 
-/// Returns sizes from the largest to the least, at most a fifth apart.
+/// Returns the widths (mm) of the versions of a picture, the largest first, each at most a fifth larger than
+/// the next.
 std::vector<double> versions(const ExampleSettings& settings) {
     if (!settings.graded_size) return {settings.size};
-    const double octaves = logarithm(settings.size / settings.least_size) / logarithm(size_ratio);
-    const int steps = static_cast<int>(std::ceil(octaves - 1e-9));
+    const double ratios = logarithm(settings.size / settings.least_size) / logarithm(size_ratio);
+    const int steps = static_cast<int>(std::ceil(ratios - 1e-9));
     if (steps >= most_sizes)
         throw InputError(fmt::format(
             "pictures {:.4g} to {:.4g} mm wide; accepted: the largest at most {:.2g} times the smallest",
@@ -71,9 +72,9 @@ int width_of(const GreyImage& picture, double size, double spacing) {
     return std::min(static_cast<int>(std::lround(size / spacing)), picture.width);
 }
 
-/// Returns how much something at `place` wants each of `count` neighbours on a line: 1 for the one that it is
-/// at, less for the two that it is between.
-void hats(double place, std::vector<double>& weights) {
+/// Sets the weights of numbers 0, 1, ... for a place between two of them: by linear interpolation. A place
+/// before the first, or none (NaN), counts as the first, and one beyond the last as the last.
+void interpolation_weights(double place, std::vector<double>& weights) {
     const double last = static_cast<double>(weights.size() - 1);
     if (!(place >= 0)) place = 0;
     place = std::min(place, last);
@@ -97,8 +98,9 @@ Exemplar Example::exemplar(const SurfaceSites& sites, int doublings, const Examp
     std::vector<double> by_picture(pictures.size(), 1), by_size(sizes.size(), 1);
     const double step = sizes.size() > 1 ? logarithm(sizes[0] / sizes[1]) : 1;
     for (const dvec3 place : sites.places) {
-        if (pictures.size() > 1) hats(settings.second.weight->at(place), by_picture);
-        if (sizes.size() > 1) hats(logarithm(sizes[0] / settings.graded_size->at(place)) / step, by_size);
+        if (pictures.size() > 1) interpolation_weights(settings.second.weight->at(place), by_picture);
+        if (sizes.size() > 1)
+            interpolation_weights(logarithm(sizes[0] / settings.graded_size->at(place)) / step, by_size);
         for (const double of_picture : by_picture) {
             for (const double of_size : by_size) weights.push_back(static_cast<float>(of_picture * of_size));
         }

@@ -14,18 +14,18 @@
 
 namespace lamella {
 
-/// A second picture, into which a pattern changes.
+/// A second picture, into which a pattern changes; both null, or none.
 struct SecondPicture {
     std::shared_ptr<const Volume> picture;
     GradingPtr weight;  ///< 0 where the pattern looks like the first, 1 where like the second
 };
 
-/// A picture as the example of a pattern.
+/// What a pattern is to look like, and its least widths.
 struct ExampleSettings {
-    double size = 20;                   ///< width of the picture, mm; where it is graded, the largest
-    double least_size = 0;              ///< where it is graded, the smallest
-    GradingPtr graded_size{};           ///< may be null: the same everywhere
-    SecondPicture second{};             ///< may be null
+    double size = 20;                   ///< width of the pictures, mm; if it is graded, the largest
+    double least_size = 0;              ///< if it is graded, the smallest, mm
+    GradingPtr graded_size{};           ///< width by place, mm; null: `size` everywhere
+    SecondPicture second{};             ///< none by default
     double strut = 0.8;                 ///< least width of struts, mm
     double gap = 0;                     ///< least width of gaps, mm; 0: any
     std::optional<double> threshold{};  ///< grey level, 0 to 1; darker is solid; Otsu's if not given
@@ -37,7 +37,7 @@ struct ExampleSettings {
 /// Pictures in black and white, and the grid on which their pattern is synthesised.
 struct Example {
     std::vector<GreyImage> pictures;  ///< one or two, see black_and_white()
-    std::vector<double> sizes;        ///< of which each is a version, mm, the largest first
+    std::vector<double> sizes;        ///< widths of the versions of each picture, mm, the largest first
     double spacing = 0;               ///< of sites, mm: four to a strut, but none narrower than a pixel
     int levels = 1;                   ///< of grids, each half as wide as the one before
 

@@ -12,8 +12,9 @@ namespace lamella {
 ///
 ///     "lamella pattern"     16 bytes with the 0 at the end
 ///     the rest              a zlib stream, whose end is a checksum (Adler-32):
-///       numbers             5 x 8 bytes, double precision: spacing, unit, slope, share, wanted share
-///       counts              4 x 8 bytes: pieces, dropped, lines, bricks
+///       numbers             7 x 8 bytes, double precision: spacing, unit, slope, share, wanted share,
+///                           softness before, softness
+///       counts              7 x 8 bytes: pieces, joins, bridges, cut struts, detours, dropped, bricks
 ///       corners             3 x 8 bytes a brick
 ///       steps               729 x 2 bytes a brick
 ///

@@ -2,7 +2,6 @@
 #include "procedural/pattern/struts_below.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"

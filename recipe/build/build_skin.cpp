@@ -44,7 +44,8 @@ FieldPtr hexagons(PatternBuildContext& making) {
     return cut_by(make_hexagon_windows(*making.body, window_settings(making)), making);
 }
 
-/// Returns a number of a pattern that is the same everywhere; `what` is it, for the message.
+/// Returns a number that has to be the same everywhere; the InputError for one that is not names it as
+/// `what`.
 double constant_number(PatternBuildContext& making, const GradedNumber& number, const char* what) {
     const auto constant = making.gradings.resolve(number)->constant();
     if (!constant) throw InputError(fmt::format("{} is the same everywhere; accepted: a number", what));
