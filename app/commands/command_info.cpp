@@ -89,6 +89,7 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
                 json["joins"] = built.pattern->joins;
                 json["bridges"] = built.pattern->bridges;
                 json["cut_struts"] = built.pattern->cut_struts;
+                json["hanging"] = built.pattern->hanging;
                 json["detours"] = built.pattern->detours;
                 if (built.pattern->softness > 0) {
                     json["softness_before"] = built.pattern->softness_before;
@@ -263,6 +264,7 @@ std::string bridges_text(const Json& skin) {
     if (count("cut_struts") > 0)
         text +=
             fmt::format("; parts that hang on one strut alone, at {}", counted(count("cut_struts"), "place"));
+    if (count("hanging") > 0) text += "; begins in the air at " + counted(count("hanging"), "place");
     if (count("detours") > 0) text += fmt::format("; a long way round {}", counted(count("detours"), "gap"));
     if (skin.contains("softness"))
         text += fmt::format("; {:.3g} times as soft as the closed skin, {:.3g} times by shape alone",

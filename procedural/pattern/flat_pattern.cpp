@@ -15,6 +15,20 @@ namespace {
 
 constexpr double most_sites = 4e6;
 
+SoundPattern sound_sheet(const Example& example, const std::vector<PatternLevel>& levels,
+                         const ExampleSettings& settings) {
+    if (settings.reinforce == Reinforcement::none)
+        return synthesise_example(example, levels, settings, nullptr);
+    if (settings.reinforce != Reinforcement::shape)
+        throw InputError("forces act on the skin of a body; accepted: reinforcement by shape");
+    const SurfaceSites& sites = levels.back().sites;
+    BridgesByShape by_shape(sites, bridge_settings(sites, settings));
+    SoundPattern made = synthesise_example(example, levels, settings, &by_shape);
+    made.cut_struts = by_shape.last().cut_struts;
+    made.detours = by_shape.last().detours;
+    return made;
+}
+
 }  // namespace
 
 FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettings& settings) {
@@ -41,7 +55,7 @@ FlatPattern::FlatPattern(const Volume& picture, dvec2 sheet, const ExampleSettin
         level.sites = flat_sites(width_ >> halvings, height_ >> halvings, spacing_ * (1 << halvings));
         level.windows = site_windows(level.sites, settings.synthesis.window);
     }
-    pattern_ = synthesise_example(example, levels, settings);
+    pattern_ = sound_sheet(example, levels, settings);
 }
 
 double FlatPattern::distance(dvec2 at) const {

@@ -169,18 +169,4 @@ SoundPattern synthesise_example(const Example& example, const std::vector<Patter
     return made;
 }
 
-SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
-                                const ExampleSettings& settings) {
-    if (settings.reinforce == Reinforcement::none)
-        return synthesise_example(example, levels, settings, nullptr);
-    if (settings.reinforce != Reinforcement::shape)
-        throw InputError("forces act on the skin of a body; accepted: reinforcement by shape");
-    const SurfaceSites& sites = levels.back().sites;
-    BridgesByShape by_shape(sites, bridge_settings(sites, settings));
-    SoundPattern made = synthesise_example(example, levels, settings, &by_shape);
-    made.cut_struts = by_shape.last().cut_struts;
-    made.detours = by_shape.last().detours;
-    return made;
-}
-
 }  // namespace lamella

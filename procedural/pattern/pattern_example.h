@@ -63,8 +63,5 @@ BridgeSettings bridge_settings(const SurfaceSites& sites, const ExampleSettings&
 /// printable_pattern(), Interrupted when cancelled.
 SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
                                 const ExampleSettings& settings, BridgeChoice* choice);
-/// The same, with bridges by shape if the settings ask for them. Throws InputError for other reinforcements.
-SoundPattern synthesise_example(const Example& example, const std::vector<PatternLevel>& levels,
-                                const ExampleSettings& settings);
 
 }  // namespace lamella

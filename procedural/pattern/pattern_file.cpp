@@ -47,7 +47,8 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
         packed.write_number(std::array{bricks.spacing, bricks.unit, bricks.slope, bricks.share,
                                        bricks.wanted_share, bricks.softness_before, bricks.softness});
         packed.write_number(std::array{bricks.pieces, bricks.joins, bricks.bridges, bricks.cut_struts,
-                                       bricks.detours, bricks.dropped, std::uint64_t{bricks.bricks.size()}});
+                                       bricks.detours, bricks.hanging, bricks.dropped,
+                                       std::uint64_t{bricks.bricks.size()}});
         for (const PatternBrick& brick : bricks.bricks)
             packed.write_number(std::array{brick.corner.x, brick.corner.y, brick.corner.z});
         for (const PatternBrick& brick : bricks.bricks) packed.write_number(brick.steps);
@@ -58,7 +59,7 @@ void write_surface_bricks(const std::filesystem::path& file, const SurfaceBricks
 SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
     PackedReader packed(in, name, pattern_magic, "a pattern");
     std::array<double, 7> numbers{};
-    std::array<std::uint64_t, 7> counts{};
+    std::array<std::uint64_t, 8> counts{};
     packed.take(&numbers, 1);
     packed.take(&counts, 1);
     SurfaceBricks bricks{.spacing = numbers[0],
@@ -71,13 +72,14 @@ SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
                          .bridges = counts[2],
                          .cut_struts = counts[3],
                          .detours = counts[4],
-                         .dropped = counts[5],
+                         .hanging = counts[5],
+                         .dropped = counts[6],
                          .softness_before = numbers[5],
                          .softness = numbers[6]};
     check_numbers(bricks, name);
     constexpr std::uint64_t most_bricks = std::uint64_t{1} << 40;
-    packed.check_length(std::min(counts[6], most_bricks) * sizeof(PatternBrick::steps));
-    bricks.bricks.resize(counts[6]);
+    packed.check_length(std::min(counts[7], most_bricks) * sizeof(PatternBrick::steps));
+    bricks.bricks.resize(counts[7]);
     for (PatternBrick& brick : bricks.bricks) {
         std::array<std::int64_t, 3> corner{};
         packed.take(&corner, 1);

@@ -14,7 +14,8 @@ namespace lamella {
 ///     the rest              a zlib stream, whose end is a checksum (Adler-32):
 ///       numbers             7 x 8 bytes, double precision: spacing, unit, slope, share, wanted share,
 ///                           softness before, softness
-///       counts              7 x 8 bytes: pieces, joins, bridges, cut struts, detours, dropped, bricks
+///       counts              8 x 8 bytes: pieces, joins, bridges, cut struts, detours, hanging, dropped,
+///                           bricks
 ///       corners             3 x 8 bytes a brick
 ///       steps               729 x 2 bytes a brick
 ///

@@ -25,23 +25,6 @@ constexpr int sweeps_at_the_coarsest = 1000, sweeps_after = 5;
 constexpr int largest_step = 16384;
 constexpr int side = PatternBrick::side;
 
-std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
-                                    const SurfacePatternSettings& settings) {
-    const SynthesisSettings& synthesis = settings.example.synthesis;
-    std::vector<PatternLevel> levels;
-    for (int halvings = example.levels - 1; halvings >= 0; --halvings) {
-        PatternLevel level;
-        level.sites =
-            sites_on_surface(body, example.spacing * (1 << halvings), most_pattern_sites, synthesis.cancel);
-        const bool is_coarsest = levels.empty();
-        set_tangents(level.sites, is_coarsest ? nullptr : &levels.back().sites, settings.axis,
-                     is_coarsest ? sweeps_at_the_coarsest : sweeps_after);
-        level.windows = site_windows(level.sites, synthesis.window);
-        levels.push_back(std::move(level));
-    }
-    return levels;
-}
-
 /// Returns the distance at a point of the lattice, whose nearest site is given. Outside the skin, between two
 /// sides of a slit or of a wall, it is the smaller of theirs: the pattern of neither reaches over to the
 /// other.
@@ -151,6 +134,9 @@ SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>&
         made.cut_struts = left.cut_struts;
         made.detours = left.detours;
     }
+    if (settings.self_supporting)
+        made.hanging =
+            struts_below(sites, made.printed.distance, settings.depth, settings.example.strut).size();
     if (forces) {
         if (settings.self_supporting) forces->choose(made.printed.distance);  // analyses it once more
         softness = {forces->softness().front(), settings.self_supporting
@@ -161,6 +147,23 @@ SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>&
 }
 
 }  // namespace
+
+std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
+                                    const SurfacePatternSettings& settings) {
+    const SynthesisSettings& synthesis = settings.example.synthesis;
+    std::vector<PatternLevel> levels;
+    for (int halvings = example.levels - 1; halvings >= 0; --halvings) {
+        PatternLevel level;
+        level.sites =
+            sites_on_surface(body, example.spacing * (1 << halvings), most_pattern_sites, synthesis.cancel);
+        const bool is_coarsest = levels.empty();
+        set_tangents(level.sites, is_coarsest ? nullptr : &levels.back().sites, settings.axis,
+                     is_coarsest ? sweeps_at_the_coarsest : sweeps_after);
+        level.windows = site_windows(level.sites, synthesis.window);
+        levels.push_back(std::move(level));
+    }
+    return levels;
+}
 
 SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                                     const SurfacePatternSettings& settings) {
@@ -178,6 +181,7 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
                        .bridges = pattern.bridges,
                        .cut_struts = pattern.cut_struts,
                        .detours = pattern.detours,
+                       .hanging = pattern.hanging,
                        .dropped = pattern.printed.dropped,
                        .softness_before = softness.first,
                        .softness = softness.second};

@@ -42,7 +42,7 @@ struct SurfaceBricks {
     double share = 0;         ///< of the surface that is solid
     double wanted_share = 0;  ///< the picture's
     /// As in SoundPattern.
-    std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0;
+    std::uint64_t pieces = 0, joins = 0, bridges = 0, cut_struts = 0, detours = 0, hanging = 0;
     std::uint64_t dropped = 0;  ///< as in PrintablePattern, and crumbs below the surface
     /// Mean compliance under the loads, over that of the closed skin, with bridges by shape alone, and with
     /// all; 0 where no forces were asked for.
@@ -54,6 +54,11 @@ struct SurfaceBricks {
 
 /// The largest number of sites; more are refused.
 inline constexpr std::size_t most_pattern_sites = 4'000'000;
+
+/// Returns the grids of sites on the body's surface, with windows, the coarsest first. Throws InputError as
+/// sites_on_surface(), Interrupted when cancelled.
+std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
+                                    const SurfacePatternSettings& settings);
 
 /// Synthesises a pattern on sites of the body's surface; at every depth it is that of the nearest site. The
 /// same on any number of threads. Throws InputError as sites_on_surface(), make_example() and

@@ -137,6 +137,7 @@ FieldPtr by_example(PatternBuildContext& making) {
     report.joins = made.joins;
     report.bridges = made.bridges;
     report.cut_struts = made.cut_struts;
+    report.hanging = made.hanging;
     report.detours = made.detours;
     report.dropped = made.dropped;
     report.softness_before = made.softness_before;

@@ -25,6 +25,7 @@ struct PatternReport {
     std::size_t joins = 0;       ///< by example: bridges between pieces
     std::size_t bridges = 0;     ///< by example: bridges that make it sounder
     std::size_t cut_struts = 0;  ///< by example: left, as in BridgePlan
+    std::size_t hanging = 0;     ///< by example: places left that begin in the air, if it supports itself
     std::size_t detours = 0;
     std::size_t dropped = 0;     ///< by example: pieces too small to keep
     double softness_before = 0;  ///< by example: as in SurfaceBricks

@@ -2,8 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/solids/primitives.h"
-#include "procedural/pattern/pattern_example.h"
-#include "procedural/texture/body_sites.h"
+#include "procedural/pattern/surface_pattern.h"
 
 namespace body_seams_test {
 
@@ -12,19 +11,6 @@ using namespace lamella;
 namespace {
 
 constexpr int patch = 11, radius = patch / 2;
-
-std::vector<PatternLevel> levels_on(const Field& body, const Example& example) {
-    std::vector<PatternLevel> levels;
-    for (int doublings = example.levels - 1; doublings >= 0; --doublings) {
-        PatternLevel level;
-        level.sites = sites_on_surface(body, example.spacing * (1 << doublings), 1'000'000, nullptr);
-        set_tangents(level.sites, levels.empty() ? nullptr : &levels.back().sites, std::nullopt,
-                     levels.empty() ? 1000 : 5);
-        level.windows = site_windows(level.sites, 9);
-        levels.push_back(std::move(level));
-    }
-    return levels;
-}
 
 /// Returns the least share of pixels in which a patch of sites differs from one of the picture: all are
 /// tried.
@@ -64,7 +50,7 @@ TEST_CASE("a pattern has no seam along the edges of a body", "[pattern]") {
         settings.invert = tried.invert;
         const Example example = make_example(
             read_picture(std::string(LAMELLA_SOURCE_DIR "/examples/inputs/") + tried.file), settings);
-        const std::vector<PatternLevel> levels = levels_on(*body, example);
+        const std::vector<PatternLevel> levels = levels_on(*body, example, {.example = settings});
         const auto exemplar = [&](const SurfaceSites& sites, int doublings) {
             return example.exemplar(sites, doublings, settings);
         };

@@ -28,6 +28,7 @@ SurfaceBricks two_bricks() {
                          .bridges = 9,
                          .cut_struts = 1,
                          .detours = 2,
+                         .hanging = 4,
                          .dropped = 3};
     for (const glm::i64vec3 corner : {glm::i64vec3(0, 0, 0), glm::i64vec3(-3, 2, 1)}) {
         PatternBrick& brick = bricks.bricks.emplace_back();
@@ -55,6 +56,7 @@ void check_equal(const SurfaceBricks& a, const SurfaceBricks& b) {
     CHECK(a.joins == b.joins);
     CHECK(a.bridges == b.bridges);
     CHECK(a.cut_struts == b.cut_struts);
+    CHECK(a.hanging == b.hanging);
     CHECK(a.detours == b.detours);
     REQUIRE(a.bricks.size() == b.bricks.size());
     for (std::size_t i = 0; i < a.bricks.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/solids/primitives.h"
-#include "procedural/pattern/pattern_example.h"
+#include "procedural/pattern/surface_pattern.h"
 #include "procedural/texture/body_sites.h"
 
 namespace struts_below_test {
@@ -58,15 +58,8 @@ TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]
     settings.size = 24;
     const Example example =
         make_example(read_picture(LAMELLA_SOURCE_DIR "/examples/inputs/bricks.png"), settings);
-    std::vector<PatternLevel> levels;
-    for (int doublings = example.levels - 1; doublings >= 0; --doublings) {
-        PatternLevel level;
-        level.sites = sites_on_surface(*body, example.spacing * (1 << doublings), 1'000'000, nullptr);
-        set_tangents(level.sites, levels.empty() ? nullptr : &levels.back().sites, dvec3(0, 0, 1),
-                     levels.empty() ? 1000 : 5);
-        level.windows = site_windows(level.sites, 9);
-        levels.push_back(std::move(level));
-    }
+    const std::vector<PatternLevel> levels =
+        levels_on(*body, example, {.example = settings, .axis = dvec3(0, 0, 1)});
     const SurfaceSites& sites = levels.back().sites;
     const SoundPattern plain = synthesise_example(example, levels, settings, nullptr);
     StrutsBelow below(sites, depth, strut, nullptr);
