@@ -41,6 +41,7 @@ PrintLimits filament_limits(const PrinterProfile& profile) {
                    {Check::gaps, warn}});
     const double nozzle = profile.filament.nozzle;
     limits.piece = 0.5 * nozzle * nozzle * nozzle;  // by practice: a dot, half as high as it is wide
+    limits.island = nozzle * nozzle;                // by practice: a dot
     limits.thickness = nozzle;                      // by practice: one bead as wide as the nozzle
     limits.gap = nozzle;                            // by practice: beads side by side fuse
     limits.neck = 2 * profile.filament.line_width;  // [5] walls are safe from two beads on
@@ -66,6 +67,7 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
     const bool has_pixels = find_backend(profile.backend).content == LayerContent::pixels;
     if (has_pixels) limits.piece = pixel * pixel * pixel;          // what is smaller hardens nowhere
     limits.thickness = std::max(0.4, has_pixels ? 2 * pixel : 0);  // [1] walls held at two sides
+    limits.island = 0.25 * limits.thickness * limits.thickness;    // by practice: half as thick as a wall
     limits.gap = std::max(0.5, has_pixels ? 2 * pixel : 0);        // [1] holes and clearances
     limits.neck = 0.6;                                             // [1] walls held at one side
     limits.cavity = 1;                                             // by practice
@@ -149,6 +151,7 @@ PrintLimits process_limits(const PrinterProfile& profile) {
     PrintLimits limits = default_limits(process_of(profile), profile);
     const CheckProfile& check = profile.check;
     limits.piece = chosen(check.min_piece, limits.piece);
+    limits.island = chosen(check.min_island, limits.island);
     limits.thickness = chosen(check.min_thickness, limits.thickness);
     limits.thickness_up = chosen(check.min_thickness_up, limits.thickness_up);
     limits.gap = chosen(check.min_gap, limits.gap);

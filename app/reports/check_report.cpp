@@ -80,6 +80,8 @@ Json limits_mm_json(const PrintLimits& limits) {
             {"build_volume", std::move(build_volume)}};
 }
 
+Json limits_mm2_json(const PrintLimits& limits) { return {{"island", limits.island}}; }
+
 Json limits_mm3_json(const PrintLimits& limits) {
     return {{"piece", limits.piece},
             {"large_part", limits.large_part},
@@ -185,6 +187,7 @@ nlohmann::ordered_json check_json(const CheckOutcome& outcome, const Job& job) {
               {"pitch_mm", outcome.plan.options.pitch},
               {"volume_mm3", outcome.report.volume},
               {"limits_mm", limits_mm_json(outcome.plan.options.limits)},
+              {"limits_mm2", limits_mm2_json(outcome.plan.options.limits)},
               {"limits_mm3", limits_mm3_json(outcome.plan.options.limits)}};
     if (!outcome.plan.notes.empty()) json["notes"] = outcome.plan.notes;
     json["checks"] = Json::array();

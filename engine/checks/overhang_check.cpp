@@ -13,6 +13,7 @@ namespace {
 
 constexpr double rows_of_slope = 8;  // a slope is followed until the outline may have moved by so many rows
 constexpr std::size_t max_slope_layers = 64;
+constexpr double max_island_layers = 64;
 constexpr std::size_t max_kept_words = std::size_t{2} << 20;  // words of all layers' cells, 16 MB
 
 bool any_floats(const std::vector<std::uint8_t>& floats) {
@@ -120,6 +121,11 @@ std::size_t layers_of_slope(const CheckGrid& grid, const PrintLimits& limits) {
     return std::clamp<std::size_t>(layers, 1, max_slope_layers);
 }
 
+std::size_t layers_of_small_island(const CheckGrid& grid, const PrintLimits& limits) {
+    const double layers = std::sqrt(limits.island) / grid.layer_height;
+    return limits.island > 0 ? static_cast<std::size_t>(std::clamp(layers, 1.0, max_island_layers)) : 0;
+}
+
 }  // namespace
 
 OverhangCheck::OverhangCheck(const CheckContext& context)
@@ -130,6 +136,7 @@ OverhangCheck::OverhangCheck(const CheckContext& context)
       step_(limits_.overhang / grid_.band.along_pitch),
       slope_layers_(follows_overhangs_ ? layers_of_slope(grid_, limits_) : 0),
       support_layers_(1 + layers_in(limits_.support_gap, grid_.layer_height)),
+      unheld_layers_(layers_of_small_island(grid_, limits_)),
       supports_(grid_, limits_.support_spacing, limits_.support_gap),
       islands_(context.max_faults),
       overhangs_(context.max_faults),
@@ -171,19 +178,30 @@ void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitma
     add_overhang(standing_out(layer, united(bad, steep)), index);
 }
 
-/// Returns the islands of a layer and adds them to the faults.
+/// Returns the islands of a layer, and adds those that matter to the faults.
 RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledLayer& printed,
                                     const RowsIn& rows_in, int index) {
     std::vector<std::uint8_t> floats(printed.components.size(), 1);
-    sink_touching(printed, below_.back().rows.printed(), floats);
+    RunRows held;
+    const RunRows* below = &below_.back().rows.printed();
+    for (const RunRows& islands : unheld_) {
+        if (islands.runs().empty()) continue;
+        held = without(*below, islands);
+        below = &held;
+    }
+    sink_touching(printed, *below, floats);
     const std::size_t oldest = below_.size() - std::min(below_.size(), support_layers_);
     for (std::size_t k = oldest; k < below_.size(); ++k)
         sink_touching(printed, below_[k].rows.supports, floats);
     if (any_floats(floats)) sink_tips(printed, grid_, rows_in, floats);
-    if (!any_floats(floats)) return empty_rows(layer.printed().lines());
+    if (!any_floats(floats)) {
+        unheld_.clear();
+        return empty_rows(layer.printed().lines());
+    }
     RunRows floating = rows_of(layer.printed(), printed, floats);
     StreamingComponents one_layer;
-    one_layer.add(label_layer(floating, index, Growth{}), index, {}, ended_);
+    one_layer.add(label_layer(without(floating, keep_small(layer, printed, floats)), index, Growth{}), index,
+                  {}, ended_);
     one_layer.finish(ended_);
     for (const EndedComponent& ended : ended_) {
         Fault fault = grid_.fault(ended.component);
@@ -192,6 +210,39 @@ RunRows OverhangCheck::find_islands(const LayerFootprint& layer, const LabelledL
     }
     ended_.clear();
     return floating;
+}
+
+/// Returns for each component that floats how many layers of small islands are below it.
+std::vector<std::size_t> OverhangCheck::layers_below(const LabelledLayer& printed,
+                                                     const std::vector<std::uint8_t>& floats) const {
+    std::vector<std::size_t> layers(floats.size(), 0);
+    for (std::size_t k = 0; k < unheld_.size(); ++k) {
+        std::vector<std::uint8_t> apart = floats;
+        sink_touching(printed, unheld_[k], apart);
+        for (std::size_t c = 0; c < floats.size(); ++c) {
+            if (floats[c] != 0 && apart[c] == 0) layers[c] = k + 1;
+        }
+    }
+    return layers;
+}
+
+/// Keeps the components that float and are too small to be faults in `unheld_`, and returns them.
+RunRows OverhangCheck::keep_small(const LayerFootprint& layer, const LabelledLayer& printed,
+                                  const std::vector<std::uint8_t>& floats) {
+    const std::vector<std::size_t> layers = layers_below(printed, floats);
+    RunRows all = empty_rows(layer.printed().lines());
+    std::vector<RunRows> kept;
+    for (std::size_t k = 0; k < unheld_layers_; ++k) {
+        std::vector<std::uint8_t> chosen(floats.size(), 0);
+        for (std::size_t c = 0; c < floats.size(); ++c) {
+            const bool is_small = grid_.area(printed.components[c].length) < limits_.island;
+            chosen[c] = floats[c] != 0 && layers[c] == k && is_small ? 1 : 0;
+        }
+        kept.push_back(rows_of(layer.printed(), printed, chosen));
+        all = united(all, kept.back());
+    }
+    unheld_ = std::move(kept);
+    return all;
 }
 
 /// Returns the points that stand out too far over several layers, except those above regions that may hang.

@@ -13,7 +13,9 @@ namespace lamella {
 /// Compares each layer with the layers below it. The first layer lies on the bed.
 ///
 /// An island is a piece of a layer that touches neither the layer below nor a support within the gap that
-/// supports keep. A piece that only one row meets is sampled in closer rows first.
+/// supports keep. A piece that only one row meets is sampled in closer rows first. An island is no fault if
+/// it joins what is held before it has the area `PrintLimits::island` and before it is as high as the side of
+/// a square of that area, or a layer; until then it holds nothing.
 ///
 /// A region hangs if it stands out over the layer below by more than `overhang` and a pitch. Slopes are
 /// followed over several layers, so that a slope is found if its tangent exceeds the limit by a quarter. A
@@ -42,6 +44,10 @@ class OverhangCheck : public LayerCheck {
                           Below& next, int index);
     RunRows find_islands(const LayerFootprint& layer, const LabelledLayer& printed, const RowsIn& rows_in,
                          int index);
+    std::vector<std::size_t> layers_below(const LabelledLayer& printed,
+                                          const std::vector<std::uint8_t>& floats) const;
+    RunRows keep_small(const LayerFootprint& layer, const LabelledLayer& printed,
+                       const std::vector<std::uint8_t>& floats);
     RunRows too_steep(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& hangs) const;
     RunRows judge_regions(const LayerFootprint& layer, const RunRows& hanging, int index);
     RunRows standing_out(const LayerFootprint& layer, const RunRows& found) const;
@@ -49,11 +55,13 @@ class OverhangCheck : public LayerCheck {
 
     CheckGrid grid_;
     PrintLimits limits_;
-    bool follows_overhangs_;      // false: looks for islands only
-    double step_;                 // allowed overhang from layer to layer, pitches
-    std::size_t slope_layers_;    // number of layers over which a slope is followed
-    std::size_t support_layers_;  // number of layers below whose supports may carry an island
-    std::deque<Below> below_;     // newest last
+    bool follows_overhangs_;       // false: looks for islands only
+    double step_;                  // allowed overhang from layer to layer, pitches
+    std::size_t slope_layers_;     // number of layers over which a slope is followed
+    std::size_t support_layers_;   // number of layers below whose supports may carry an island
+    std::deque<Below> below_;      // newest last
+    std::size_t unheld_layers_;    // number of layers that an island may have and be no fault
+    std::vector<RunRows> unheld_;  // such islands of the layer below, by the layers that they have below it
     SupportHold supports_;
     StreamingComponents hanging_;
     std::vector<EndedComponent> ended_;

@@ -38,6 +38,7 @@ enum class Severity : unsigned char { off, warn, fail };
 struct PrintLimits {
     std::array<Severity, check_count> verdicts{};  ///< by Check, what a fault of it comes to
     double piece = 0;                              ///< volume from which a loose piece matters, mm^3
+    double island = 0;                             ///< area from which an island matters, mm^2
     double thickness = 0.4;                        ///< least of walls and struts, within layers
     double thickness_up = 0;                       ///< the same upright; 0: layers are looked at one by one
     double gap = 0.4;                              ///< least width of void, within layers

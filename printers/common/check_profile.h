@@ -25,6 +25,7 @@ struct CheckProfile {
     double pitch = 0;              ///< distance between sampled rows; 0: chosen from the other limits
     int places = 10;               ///< number of faults of each kind that are listed
     double min_piece = -1;         ///< least volume of a loose piece that matters, mm^3
+    double min_island = -1;        ///< least area of an island that matters, mm^2
     double min_thickness = -1;     ///< thickness of walls and struts, within layers
     double min_thickness_up = -1;  ///< thickness along z; 0: layers are checked one by one
     double min_gap = -1;           ///< width of gaps, within layers

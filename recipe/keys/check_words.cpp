@@ -54,7 +54,10 @@ const std::array<Words, check_count> table{{
      [](const PrintLimits&) -> std::string { return "each layer is one piece"; }},
     {"something begins with nothing below it",
      "Supports hold it (--support bridges or pillars), or another way up needs none.",
-     [](const PrintLimits&) -> std::string { return "nothing begins in the air"; }},
+     [](const PrintLimits& limits) -> std::string {
+         if (limits.island <= 0) return "nothing begins in the air";
+         return fmt::format("nothing in the air but specks below {:.3g} mm2", limits.island);
+     }},
     {"a layer stands out too far over the one below",
      "Supports hold it (--support bridges or pillars), or a gentler slope or thinner layers need none.",
      [](const PrintLimits& limits) {

@@ -26,11 +26,11 @@ void add_check_row(std::vector<Setting>& t, const char* key, const char* flag, S
 
 /// Adds a size. A negative value selects the default, which `usual` describes.
 template <auto member>
-void add_size(std::vector<Setting>& t, const char* key, const char* flag, bool is_volume,
+void add_size(std::vector<Setting>& t, const char* key, const char* flag, const std::string& unit,
               const std::string& what, const std::string& usual) {
     add_check_row<member>(t, key, flag,
-                          {.unit = is_volume ? "mm3" : "mm",
-                           .limits = is_volume ? volume_limits : size_limits,
+                          {.unit = unit,
+                           .limits = unit == "mm" ? size_limits : volume_limits,
                            .help = what + "; negative: the default, " + usual + "."});
 }
 
@@ -51,31 +51,37 @@ void add_concerns(std::vector<Setting>& t, std::index_sequence<checks...> /*all*
 
 void add_sizes(std::vector<Setting>& t) {
     using C = CheckProfile;
-    add_size<&C::min_piece>(t, "least_piece", "--check-least-piece", true,
+    add_size<&C::min_piece>(t, "least_piece", "--check-least-piece", "mm3",
                             "Minimum volume of a loose piece that is a fault",
                             "a dot of the nozzle for filament, a cube of a pixel's side for resin, 0.001 for "
                             "powder, else 0");
+    add_size<&C::min_island>(
+        t, "least_island", "--check-least-island", "mm2",
+        "Minimum area of an island that is a fault, unless it is higher than it is wide; a "
+        "smaller one joins the part above",
+        "a square of the nozzle's width for filament, of half the least thickness for "
+        "resin, else 0");
     add_size<&C::min_thickness>(
-        t, "least_thickness", "--check-least-thickness", false,
+        t, "least_thickness", "--check-least-thickness", "mm",
         "Minimum thickness of walls and struts within layers",
         "the nozzle's width for filament, 0.4 or two pixels for resin, 0.8 for powder, 1 for sheets");
-    add_size<&C::min_thickness_up>(t, "least_thickness_up", "--check-least-thickness-up", false,
+    add_size<&C::min_thickness_up>(t, "least_thickness_up", "--check-least-thickness-up", "mm",
                                    "Minimum thickness along z; 0: each layer is checked alone",
                                    "0.8 for powder, else 0");
-    add_size<&C::min_gap>(t, "least_gap", "--check-least-gap", false, "Minimum width of gaps within layers",
+    add_size<&C::min_gap>(t, "least_gap", "--check-least-gap", "mm", "Minimum width of gaps within layers",
                           "the nozzle's width for filament, 0.5 or two pixels for resin, 0.5 for powder, the "
                           "kerf or 0.2 for sheets");
-    add_size<&C::min_gap_up>(t, "least_gap_up", "--check-least-gap-up", false,
+    add_size<&C::min_gap_up>(t, "least_gap_up", "--check-least-gap-up", "mm",
                              "Minimum width of gaps along z; 0: each layer is checked alone",
                              "0.5 for powder, else 0");
-    add_size<&C::min_neck>(t, "least_neck", "--check-least-neck", false,
+    add_size<&C::min_neck>(t, "least_neck", "--check-least-neck", "mm",
                            "Minimum thickness of necks between large parts",
                            "two lines for filament, 0.6 for resin, 2 for powder and sheets");
-    add_size<&C::large_part>(t, "large_part", "--check-large-part", true, "Minimum volume of a large part",
+    add_size<&C::large_part>(t, "large_part", "--check-large-part", "mm3", "Minimum volume of a large part",
                              "1000");
-    add_size<&C::min_cavity>(t, "least_cavity", "--check-least-cavity", true,
+    add_size<&C::min_cavity>(t, "least_cavity", "--check-least-cavity", "mm3",
                              "Minimum volume of a closed void that is a fault", "1");
-    add_size<&C::min_cup>(t, "least_cup", "--check-least-cup", true,
+    add_size<&C::min_cup>(t, "least_cup", "--check-least-cup", "mm3",
                           "Minimum volume of a suction cup that is a fault", "10");
 }
 

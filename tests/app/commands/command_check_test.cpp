@@ -218,6 +218,25 @@ TEST_CASE("a loose piece smaller than a pixel is no fault unless asked for", "[c
     CHECK(mentions(all.out, "the part is one piece"));
 }
 
+TEST_CASE("a tip below a roof is an island if it is large or high", "[check]") {
+    const Folder folder;
+    const auto check = [&](double width, double height, const std::string& more) {
+        write(folder / "roof.obj", boxes_obj({{dvec3(0), dvec3(1, 4, 3)},
+                                              {dvec3(0, 0, 3), dvec3(4, 4, 4)},
+                                              {dvec3(2, 2, 3 - height), dvec3(2 + width, 2 + width, 3)}}));
+        return run_lamella(fmt::format("check -q {} --layer-height 0.05 --check-pitch 0.02 {} {}",
+                                       folder / "roof.obj", only({"islands"}), more));
+    };
+    CHECK(check(0.15, 0.1, "").code == 0);
+    CHECK(mentions(check(0.15, 0.1, "").out, "nothing in the air but specks below 0.04 mm2"));
+    CHECK(check(0.25, 0.1, "").code == 1);
+    CHECK(check(0.25, 0.1, "--check-least-island 0.1").code == 0);
+    CHECK(mentions(check(0.15, 0.5, "").out, " mm, layer 54\n"));  // four layers above its tip
+    const Outcome all = check(0.15, 0.1, "--check-least-island 0");
+    CHECK(all.code == 1);
+    CHECK(mentions(all.out, "nothing begins in the air"));
+}
+
 TEST_CASE("slice --check writes the bytes of a run without it, and tells what it found", "[check]") {
     const Folder folder;
     const std::string part = boxes(folder, two_blocks());
