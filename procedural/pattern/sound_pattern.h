@@ -27,7 +27,7 @@ struct SoundPattern {
     std::size_t bridges = 0;                  ///< that were chosen
     double wanted_share = 0;                  ///< the picture's
     std::size_t cut_struts = 0, detours = 0;  ///< left, as in BridgePlan; 0 where nobody looked
-    std::size_t hanging = 0;                  ///< left, as many as struts_below(); 0 where nobody looked
+    std::size_t hanging = 0;                  ///< left, with solid below; 0 where nobody looked
 };
 
 /// Makes a pattern printable, in rounds: bridges that join pieces, and those that are chosen, become fixed,

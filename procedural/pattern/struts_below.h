@@ -4,30 +4,35 @@
 #include <span>
 #include <vector>
 
+#include "procedural/pattern/hanging_pieces.h"
 #include "procedural/pattern/sound_pattern.h"
 
 namespace lamella {
 
-/// Returns the middle lines of struts, down the surface to the solid below: from each place where the solid
-/// of a skin `depth` mm thick begins, unless it meets solid that began lower within a spacing of height, on a
-/// roof within its thickness as well.
+/// Returns the middle lines of struts, down the surface to the solid below, from the sites where pieces hang.
 /// Where nothing of the surface is lower, there is no strut: only supports can hold that. Struts returned
 /// together begin at least `apart` mm from each other.
-std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const float> distances, double depth,
-                                   double apart);
+std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const float> distances,
+                                   std::span<const std::uint32_t> hanging, double apart);
 
-/// Asks another choice, which may be null, until it has no more bridges, and then chooses struts_below().
+/// Asks another choice, which may be null, until it has no more bridges, and then chooses struts below the
+/// pieces of the pattern that hang.
 class StrutsBelow : public BridgeChoice {
   public:
     /// Sites and the other choice have to outlive the object.
     StrutsBelow(const SurfaceSites& sites, double depth, double apart, BridgeChoice* other)
-        : sites_(sites), depth_(depth), apart_(apart), other_(other) {}
+        : sites_(sites), pieces_(sites, depth), apart_(apart), other_(other) {}
     std::vector<SiteLine> choose(std::span<const float> distances) override;
+    /// Returns struts below what hangs, whatever the other choice wants.
+    std::vector<SiteLine> missing(std::span<const float> distances) const {
+        return struts_below(sites_, distances, pieces_.find(distances), apart_);
+    }
     double weakness() const override { return other_ != nullptr ? other_->weakness() : 0; }
 
   private:
     const SurfaceSites& sites_;
-    double depth_, apart_;
+    HangingPieces pieces_;
+    double apart_;
     BridgeChoice* other_;  ///< null once it is done
 };
 

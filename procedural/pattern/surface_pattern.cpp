@@ -124,9 +124,9 @@ SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>&
     } else if (settings.example.reinforce == Reinforcement::shape) {
         choice = &shape.emplace(sites, by_shape);
     }
-    StrutsBelow below(sites, settings.depth, settings.example.strut, choice);
-    SoundPattern made =
-        synthesise_example(example, levels, settings.example, settings.self_supporting ? &below : choice);
+    std::optional<StrutsBelow> below;
+    if (settings.self_supporting) below.emplace(sites, settings.depth, settings.example.strut, choice);
+    SoundPattern made = synthesise_example(example, levels, settings.example, below ? &*below : choice);
     if (choice != nullptr) {
         const bool is_known = shape && !settings.self_supporting;
         const BridgePlan left =
@@ -134,9 +134,7 @@ SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>&
         made.cut_struts = left.cut_struts;
         made.detours = left.detours;
     }
-    if (settings.self_supporting)
-        made.hanging =
-            struts_below(sites, made.printed.distance, settings.depth, settings.example.strut).size();
+    if (below) made.hanging = below->missing(made.printed.distance).size();
     if (forces) {
         if (settings.self_supporting) forces->choose(made.printed.distance);  // analyses it once more
         softness = {forces->softness().front(), settings.self_supporting

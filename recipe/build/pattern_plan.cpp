@@ -8,6 +8,13 @@
 
 namespace lamella {
 
+namespace {
+
+/// Raised whenever the same recipe makes another pattern, so that plans of older versions are not taken.
+constexpr const char* synthesis_version = "2";
+
+}  // namespace
+
 std::string pattern_hash(const Recipe& recipe, double depth) {
     Recipe kept;
     kept.part = recipe.part;
@@ -29,6 +36,7 @@ std::string pattern_hash(const Recipe& recipe, double depth) {
     }
     kept.material = recipe.material;
     Fnv128 hash;
+    hash.add(synthesis_version);
     hash.add(job_identity(kept));
     hash.add(format_value(depth));
     return hash.hex();

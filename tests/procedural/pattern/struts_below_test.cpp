@@ -15,7 +15,15 @@ namespace {
 
 constexpr double strut = 0.8, depth = 1;
 
-SurfaceSites sites_of(const FieldPtr& body) { return sites_on_surface(*body, 0.25, 1'000'000, nullptr); }
+std::vector<SiteLine> struts_of(const SurfaceSites& sites, std::span<const float> distances) {
+    return struts_below(sites, distances, HangingPieces(sites, depth).find(distances), strut);
+}
+
+SurfaceSites sites_of(const FieldPtr& body) {
+    SurfaceSites sites = sites_on_surface(*body, 0.25, 1'000'000, nullptr);
+    set_tangents(sites, nullptr, dvec3(0, 0, 1), 0);
+    return sites;
+}
 
 }  // namespace
 
@@ -31,7 +39,7 @@ TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", 
             const bool bar = is_joined && at_back && std::abs(p.x - 5) < 1;
             distances.push_back(p.z < 4 || p.z > 8 || tongue || bar ? 1.0F : -1.0F);
         }
-        const std::vector<SiteLine> struts = struts_below(sites, distances, depth, strut);
+        const std::vector<SiteLine> struts = struts_of(sites, distances);
         REQUIRE(struts.size() == 1);
         const SiteLine& line = struts.front();
         CHECK(line.front().place.z == Approx(6).margin(0.25));
@@ -49,7 +57,7 @@ TEST_CASE("what begins at the bottom of the body needs supports, not struts", "[
     const SurfaceSites sites = sites_of(make_box({dvec3(0), dvec3(10, 10, 8)}));
     std::vector<float> distances;
     for (const dvec3 p : sites.places) distances.push_back(p.z > 5 || std::abs(p.x - 5) > 3 ? 1.0F : -1.0F);
-    CHECK(struts_below(sites, distances, depth, strut).empty());
+    CHECK(struts_of(sites, distances).empty());
 }
 
 TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]") {
@@ -65,7 +73,7 @@ TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]
     StrutsBelow below(sites, depth, strut, nullptr);
     const SoundPattern held = synthesise_example(example, levels, settings, &below);
     const auto hanging = [&](const SoundPattern& pattern) {
-        return struts_below(sites, pattern.printed.distance, depth, strut).size();
+        return struts_of(sites, pattern.printed.distance).size();
     };
     CAPTURE(hanging(plain), hanging(held), held.bridges);
     CHECK(hanging(plain) > 5);
