@@ -42,7 +42,7 @@ void build(const PatternLevel& level, const Exemplar& exemplar, std::span<const 
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
                            const SynthesisSettings& synthesis, const PrintSettings& print,
                            BridgeChoice* choice) {
-    constexpr int most_rounds = 12;
+    constexpr int most_rounds = 16;
     constexpr int first_round = 1000;  // of random numbers: grids have the lower ones
     SoundPattern made, best;
     double least = infinity;

@@ -32,7 +32,7 @@ struct SoundPattern {
 
 /// Makes a pattern printable, in rounds: bridges that join pieces, and those that are chosen, become fixed,
 /// and the pattern about them is synthesised anew, so that it runs into them. `choice` may be null. Bridges
-/// that are chosen after twelve rounds are not built. Of the rounds, that of the least weak pattern counts.
+/// that are chosen after sixteen rounds are not built. Of the rounds, that of the least weak pattern counts.
 /// Throws as printable_pattern(), Interrupted when cancelled.
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
                            const SynthesisSettings& synthesis, const PrintSettings& print,

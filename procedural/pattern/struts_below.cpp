@@ -44,11 +44,12 @@ std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const fl
 }
 
 std::vector<SiteLine> StrutsBelow::choose(std::span<const float> distances) {
-    if (other_ != nullptr) {
+    constexpr int most = 5;  // struts need the other rounds of sound_pattern()
+    if (other_ != nullptr && asked_++ < most) {
         std::vector<SiteLine> chosen = other_->choose(distances);
         if (!chosen.empty()) return chosen;
-        other_ = nullptr;
     }
+    other_ = nullptr;
     return missing(distances);
 }
 

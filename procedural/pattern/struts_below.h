@@ -15,8 +15,8 @@ namespace lamella {
 std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const float> distances,
                                    std::span<const std::uint32_t> hanging, double apart);
 
-/// Asks another choice, which may be null, until it has no more bridges, and then chooses struts below the
-/// pieces of the pattern that hang.
+/// Asks another choice, which may be null, until it has no more bridges, at most five times, and then chooses
+/// struts below the pieces of the pattern that hang.
 class StrutsBelow : public BridgeChoice {
   public:
     /// Sites and the other choice have to outlive the object.
@@ -34,6 +34,7 @@ class StrutsBelow : public BridgeChoice {
     HangingPieces pieces_;
     double apart_;
     BridgeChoice* other_;  ///< null once it is done
+    int asked_ = 0;        ///< how often
 };
 
 }  // namespace lamella
