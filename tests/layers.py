@@ -13,7 +13,7 @@ ORDER = """
 engine/base engine/runs engine/field engine/solids engine/formula engine/contours engine/mesh engine/layers
 engine/morphology engine/io engine/checks engine/surveys
 procedural/grading procedural/volume procedural/voronoi procedural/scaffold procedural/foam procedural/skin
-procedural/elasticity procedural/optimization procedural/appearance procedural/texture
+procedural/elasticity procedural/optimization procedural/appearance procedural/texture procedural/elements
 procedural/pattern procedural/lattice
 printers/common printers/polygons printers/readers printers/archive printers/toolpath printers/masks printers/vector
 printers/gcode printers/serial printers

@@ -16,4 +16,16 @@ template <std::size_t Dim>
 std::vector<double> von_mises(const ElasticBody<Dim>& body, double poisson,
                               const NodalVector<Dim, double>& displacements);
 
+/// A principal stress and its direction, a unit vector.
+struct PrincipalStress {
+    double stress = 0;
+    dvec3 way{1, 0, 0};
+};
+
+/// Returns the principal stress of greatest magnitude at the centre of each element, by element number, in
+/// the unit of von_mises().
+template <std::size_t Dim>
+std::vector<PrincipalStress> greatest_principal_stresses(const ElasticBody<Dim>& body, double poisson,
+                                                         const NodalVector<Dim, double>& displacements);
+
 }  // namespace lamella

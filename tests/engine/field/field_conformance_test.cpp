@@ -14,6 +14,7 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "engine/solids/shell.h"
+#include "procedural/elements/element_field.h"
 #include "procedural/foam/closed_foam.h"
 #include "procedural/foam/voronoi_foam.h"
 #include "procedural/grading/field_slope.h"
@@ -153,6 +154,22 @@ class ForMany : public Field {
     FieldPtr solid_;
 };
 
+/// A stick, a ring and a concave outline, placed, turned and scaled; about z alone if they are upright.
+FieldPtr placed_elements(std::optional<Interval> upright) {
+    const std::vector<ElementShapePtr> shapes{
+        make_stick(3, 0.7), make_ring(2.4, 0.6),
+        make_outline({{{-1, -1}, {1.1, -0.8}, {0.2, 0}, {1, 1.2}, {-0.9, 0.8}}}, 0.8)};
+    std::vector<PlacedElement> elements;
+    for (std::uint32_t k = 0; k < 12; ++k) {
+        PlacedElement element{.shape = k % 3,
+                              .at = {1.7 * (k % 4) - 2.4, 1.5 * (k / 4) - 1.6, 0.2 * (k % 5) - 0.5}};
+        element.scale = 0.7 + 0.05 * k;
+        const dvec3 rotation(upright ? 0 : 0.3 * k, upright ? 0 : 0.2 * k - 1, 0.5 * k);
+        elements.push_back(turned(element, rotation));
+    }
+    return make_element_field(shapes, elements, upright);
+}
+
 FieldPtr for_many(FieldPtr solid) { return std::make_shared<ForMany>(std::move(solid)); }
 
 std::vector<Named> all_fields() {
@@ -203,6 +220,8 @@ std::vector<Named> all_fields() {
         {"Schwarz D network of graded period", tpms(TpmsKind::schwarz_d, true, steep_slope, slope), true},
         {"gyroid in a ball", make_intersection({gyroid(2.2, 0.3), sphere})},
         {"mesh", mesh},
+        {"placed elements", placed_elements(std::nullopt)},
+        {"upright elements", placed_elements(Interval{-1.2, 1.7})},
         {"grown mesh", make_offset(mesh, 0.35)},
         {"shrunk mesh", make_offset(mesh, -0.35)},
         {"mesh shell", make_intersection({mesh, make_shell(mesh, 0.4)})},

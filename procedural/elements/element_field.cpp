@@ -1,0 +1,186 @@
+// A tree of boxes for values, an index over heights for slices, and cuts in the frames of the shapes.
+#include "procedural/elements/element_field.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/field/slice_context.h"
+#include "engine/mesh/halving_tree.h"
+#include "engine/runs/interval_index.h"
+#include "engine/solids/closed_slice.h"
+#include "engine/solids/plane_index.h"
+#include "engine/solids/primitives.h"
+
+namespace lamella {
+
+namespace {
+
+class ElementField : public Field {
+  public:
+    ElementField(std::vector<ElementShapePtr> shapes, std::vector<PlacedElement> elements,
+                 std::optional<Interval> upright);
+
+    double value(dvec3 p) const override { return value_within(p, infinity); }
+    double value_within(dvec3 p, double limit) const override;
+    Metric metric() const override { return Metric::bound; }
+    const SliceField& slice(SliceContext& context, double z) const override;
+    Box bounds() const override { return nodes_.front().box; }
+
+    const Box& box(std::uint32_t element) const { return boxes_[element]; }
+    /// Appends the intervals of t in which the line p + t * way of a plane lies inside an element.
+    void cut(std::uint32_t element, dvec3 p, dvec3 way, std::vector<Interval>& inside) const {
+        const PlacedElement& placed = elements_[element];
+        dvec3 from = placed.local(p);
+        if (upright_) from.z = 0;
+        shapes_[placed.shape]->cut(from, placed.local_direction(way), inside);
+    }
+
+  private:
+    struct Node {
+        Box box;
+        std::uint32_t first, count;
+    };
+    Box box_of(const PlacedElement& element) const;
+    double distance(std::uint32_t element, dvec3 p) const;
+
+    std::vector<ElementShapePtr> shapes_;
+    std::vector<PlacedElement> elements_;
+    std::optional<Interval> upright_;
+    std::vector<Box> boxes_;
+    IntervalIndex by_height_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+class ElementSlice : public SampledSlice {
+  public:
+    ElementSlice(const ElementField& field, std::vector<std::uint32_t> elements, double z)
+        : SampledSlice(field, z), field_(field), elements_(std::move(elements)), z_(z) {
+        std::vector<Rect> rects;
+        for (const std::uint32_t element : elements_) rects.push_back(field_.box(element).rect());
+        sections_ = PlaneIndex(std::move(rects));
+    }
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
+    Rect bounds() const override { return sections_.bounds(); }
+
+  private:
+    const ElementField& field_;
+    std::vector<std::uint32_t> elements_;
+    double z_;
+    PlaneIndex sections_;
+};
+
+/// An element's first run on each line goes into one piece of the collector, further ones into their own.
+void ElementSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
+    scratch.collector.clear();
+    std::vector<Interval> inside;
+    std::vector<Run> firsts;
+    const dvec3 way = band.axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    sections_.visit(band, {0, band.lines()}, [&](std::uint32_t i, const LineRange& lines) {
+        firsts.assign(static_cast<std::size_t>(lines.last - lines.first), {0, 0});
+        for (int line = lines.first; line < lines.last; ++line) {
+            inside.clear();
+            const dvec3 from(on_plane(band.axis, 0, band.line(line)), z_);
+            field_.cut(elements_[i], from, way, inside);
+            for (std::size_t k = 0; k < inside.size(); ++k) {
+                const double p = band.coordinate(inside[k].lo), q = band.coordinate(inside[k].hi);
+                const Run run{round_run(std::min(p, q)), round_run(std::max(p, q))};
+                if (k == 0) {
+                    firsts[static_cast<std::size_t>(line - lines.first)] = run;
+                } else {
+                    const RunCollector::Segment further = scratch.collector.add(line, 1);
+                    *further.begin = run.begin;
+                    *further.end = run.end;
+                }
+            }
+        }
+        const RunCollector::Segment piece = scratch.collector.add(lines.first, lines.last - lines.first);
+        for (std::size_t k = 0; k < firsts.size(); ++k) {
+            piece.begin[k] = firsts[k].begin;
+            piece.end[k] = firsts[k].end;
+        }
+    });
+    scratch.collector.merge(band, out);
+}
+
+ElementField::ElementField(std::vector<ElementShapePtr> shapes, std::vector<PlacedElement> elements,
+                           std::optional<Interval> upright)
+    : shapes_(std::move(shapes)), elements_(std::move(elements)), upright_(upright) {
+    std::vector<Interval> heights;
+    std::vector<dvec3> centres;
+    for (const PlacedElement& element : elements_) {
+        boxes_.push_back(box_of(element));
+        heights.push_back({boxes_.back().lo.z, boxes_.back().hi.z});
+        centres.push_back(boxes_.back().center());
+        order_.push_back(static_cast<std::uint32_t>(order_.size()));
+    }
+    by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
+    const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
+        Node node{{}, first, last - first};
+        for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
+        return node;
+    };
+    build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(elements_.size()), centres, leaf);
+}
+
+Box ElementField::box_of(const PlacedElement& element) const {
+    const Box local = shapes_[element.shape]->bounds();
+    const dvec3 half = 0.5 * element.scale * local.size();
+    const glm::dmat3 turn = glm::mat3_cast(element.turn);
+    const dvec3 centre = element.at + turn * (element.scale * local.center());
+    dvec3 reach(0);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) reach[row] += std::abs(turn[column][row]) * half[column];
+    }
+    Box box{centre - reach, centre + reach};
+    if (upright_) {
+        box.lo.z = upright_->lo;
+        box.hi.z = upright_->hi;
+    }
+    return box;
+}
+
+double ElementField::distance(std::uint32_t element, dvec3 p) const {
+    const PlacedElement& placed = elements_[element];
+    dvec3 local = placed.local(p);
+    if (!upright_) return placed.scale * shapes_[placed.shape]->distance(local);
+    local.z = 0;
+    const double in_plane = placed.scale * shapes_[placed.shape]->distance(local);
+    const double up = std::max(upright_->lo - p.z, p.z - upright_->hi);
+    return in_plane > 0 && up > 0 ? length(dvec2(in_plane, up)) : std::max(in_plane, up);
+}
+
+double ElementField::value_within(dvec3 p, double limit) const {
+    double best = limit;
+    visit_nearest_first(
+        nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
+        // Inside overlapping boxes the smallest distance counts, so do not prune them.
+        [&](double near) { return near < best || near == 0; },
+        [&](const Node& node) {
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+                best = std::min(best, distance(order_[k], p));
+        });
+    return best;
+}
+
+const SliceField& ElementField::slice(SliceContext& context, double z) const {
+    std::vector<std::uint32_t> meeting;
+    if (!upright_ || (upright_->lo <= z && z < upright_->hi)) by_height_.query({z, z}, meeting);
+    return context.make<ElementSlice>(*this, std::move(meeting), z);
+}
+
+}  // namespace
+
+FieldPtr make_element_field(std::vector<ElementShapePtr> shapes, std::vector<PlacedElement> elements,
+                            std::optional<Interval> upright) {
+    if (elements.empty()) return make_empty();
+    for (const PlacedElement& element : elements) {
+        if (element.shape >= shapes.size())
+            throw InputError("an element names shape " + std::to_string(element.shape) + ", and there are " +
+                             std::to_string(shapes.size()) + "; accepted: numbers below that");
+    }
+    return std::make_shared<ElementField>(std::move(shapes), std::move(elements), upright);
+}
+
+}  // namespace lamella

@@ -1,0 +1,213 @@
+// Pairs by a lattice of cubes, overlaps by samples, pieces by union-find.
+#include "procedural/elements/element_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "engine/base/disjoint_sets.h"
+#include "engine/base/parallel.h"
+#include "procedural/texture/lattice_hash.h"
+
+namespace lamella {
+
+namespace {
+
+double distance_of(const PlacedElement& element, std::span<const ElementShapePtr> shapes, dvec3 p,
+                   bool is_flat) {
+    dvec3 local = element.local(p);
+    if (is_flat) local.z = 0;
+    return element.scale * shapes[element.shape]->distance(local);
+}
+
+double reach_of(const PlacedElement& element, std::span<const ElementShapePtr> shapes) {
+    const Box box = shapes[element.shape]->bounds();
+    return element.scale * length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+}
+
+/// Pairs of elements whose balls come within a distance of each other, by number.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(std::span<const PlacedElement> elements,
+                                                                std::span<const ElementShapePtr> shapes,
+                                                                double distance) {
+    double largest = 0;
+    for (const PlacedElement& element : elements) largest = std::max(largest, reach_of(element, shapes));
+    const double side = 2 * largest + distance;
+    std::unordered_multimap<glm::i64vec3, std::uint32_t, LatticeHash> cubes;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::uint32_t k = 0; k < elements.size(); ++k) {
+        const glm::i64vec3 cube(glm::floor(elements[k].at / side));
+        for (int n = 0; n < 27; ++n) {
+            const auto [begin, end] =
+                cubes.equal_range(cube + glm::i64vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+            for (auto other = begin; other != end; ++other) {
+                const double apart = length(elements[k].at - elements[other->second].at);
+                if (apart <=
+                    reach_of(elements[k], shapes) + reach_of(elements[other->second], shapes) + distance)
+                    pairs.emplace_back(other->second, k);
+            }
+        }
+        cubes.emplace(cube, k);
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+/// Elements, which of them hold together, and how far apart the others are.
+class Pieces {
+  public:
+    Pieces(std::vector<PlacedElement> elements, std::span<const ElementShapePtr> shapes,
+           const JoinSettings& settings)
+        : elements_(std::move(elements)), shapes_(shapes), settings_(settings) {}
+
+    /// Returns the representative of each element's piece; what is held is one piece.
+    std::vector<std::uint32_t> pieces() {
+        pairs_ = near_pairs(elements_, shapes_, settings_.reach);
+        overlaps_.resize(pairs_.size());
+        parallel_for(pairs_.size(), [&](std::size_t i) {
+            overlaps_[i] = overlap_of(elements_[pairs_[i].first], elements_[pairs_[i].second], shapes_,
+                                      settings_.reach, settings_.is_flat);
+        });
+        DisjointSets sets(elements_.size());
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            if (overlaps_[i].depth >= settings_.hold) sets.join(pairs_[i].first, pairs_[i].second);
+        }
+        std::optional<std::uint32_t> first_held;
+        for (std::uint32_t k = 0; k < settings_.held.size(); ++k) {
+            if (settings_.held[k] == 0) continue;
+            if (first_held) sets.join(*first_held, k);
+            first_held = first_held.value_or(k);
+        }
+        std::vector<std::uint32_t> piece;
+        for (std::uint32_t k = 0; k < elements_.size(); ++k) piece.push_back(sets.find(k));
+        return piece;
+    }
+    std::optional<std::size_t> narrowest_gap(std::span<const std::uint32_t> piece, std::uint32_t main,
+                                             std::span<const std::uint8_t> is_idle) const;
+    /// Moves the piece that is not the main one until both hold together; returns the number of elements.
+    std::size_t close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main);
+    const std::vector<PlacedElement>& elements() const { return elements_; }
+
+  private:
+    std::vector<PlacedElement> elements_;
+    std::span<const ElementShapePtr> shapes_;
+    const JoinSettings& settings_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    std::vector<Overlap> overlaps_;
+};
+
+/// Returns the pair of an element of the main piece and one of another, neither idle, that are nearest; none
+/// out of reach.
+std::optional<std::size_t> Pieces::narrowest_gap(std::span<const std::uint32_t> piece, std::uint32_t main,
+                                                 std::span<const std::uint8_t> is_idle) const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        const auto [a, b] = pairs_[i];
+        const bool is_between = (piece[a] == main) != (piece[b] == main);
+        if (!is_between || is_idle[a] != 0 || is_idle[b] != 0) continue;
+        if (-2 * overlaps_[i].depth > settings_.reach) continue;
+        if (!best || overlaps_[i].depth > overlaps_[*best].depth) best = i;
+    }
+    return best;
+}
+
+std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main) {
+    auto [still, loose] = pairs_[pair];
+    if (piece[still] != main) std::swap(still, loose);
+    // Towards the main piece, against the slope of its distance where the two are nearest.
+    const dvec3 at = overlaps_[pair].at;
+    const double step = 1e-3 * reach_of(elements_[still], shapes_);
+    dvec3 slope(0);
+    for (int axis = 0; axis < (settings_.is_flat ? 2 : 3); ++axis) {
+        dvec3 aside(0);
+        aside[axis] = step;
+        slope[axis] = distance_of(elements_[still], shapes_, at + aside, settings_.is_flat) -
+                      distance_of(elements_[still], shapes_, at - aside, settings_.is_flat);
+    }
+    const double steep = length(slope);
+    const dvec3 way = steep > 0 ? slope / steep : dvec3(1, 0, 0);
+    constexpr double deeper = 1.5;  // than asked: slopes are those of one point
+    const dvec3 shift = -2 * (deeper * settings_.hold - overlaps_[pair].depth) * way;
+    std::size_t moved = 0;
+    const std::uint32_t number = piece[loose];
+    for (std::uint32_t k = 0; k < elements_.size(); ++k) {
+        if (piece[k] != number) continue;
+        elements_[k].at += shift;
+        ++moved;
+    }
+    return moved;
+}
+
+}  // namespace
+
+Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
+                   double reach, bool is_flat) {
+    const double reach_a = reach_of(a, shapes), reach_b = reach_of(b, shapes);
+    // Within both balls, grown by half of the reach.
+    const Box box{glm::max(a.at - reach_a, b.at - reach_b) - 0.5 * reach,
+                  glm::min(a.at + reach_a, b.at + reach_b) + 0.5 * reach};
+    const bool is_apart = box.lo.x > box.hi.x || box.lo.y > box.hi.y || (!is_flat && box.lo.z > box.hi.z);
+    if (is_apart) return {};
+    const auto depth = [&](dvec3 p) {
+        return -std::max(distance_of(a, shapes, p, is_flat), distance_of(b, shapes, p, is_flat));
+    };
+    constexpr int samples = 12;
+    Overlap best;
+    for (int k = 0; k < samples * samples * (is_flat ? 1 : samples); ++k) {
+        const dvec3 share(k % samples, k / samples % samples, k / samples / samples);
+        dvec3 p = box.lo + box.size() * (share + 0.5) / static_cast<double>(samples);
+        if (is_flat) p.z = a.at.z;
+        if (const double here = depth(p); here > best.depth) best = {here, p};
+    }
+    const dvec3 size = box.size();
+    double step = std::max({size.x, size.y, is_flat ? 0 : size.z}) / samples;
+    const double finest = 1e-3 * std::min(reach_a, reach_b);
+    while (step > finest) {
+        bool is_better = false;
+        for (int k = 0; k < (is_flat ? 9 : 27); ++k) {
+            const dvec3 p = best.at + step * dvec3(k % 3 - 1, k / 3 % 3 - 1, is_flat ? 0 : k / 9 - 1);
+            if (const double here = depth(p); here > best.depth) {
+                best = {here, p};
+                is_better = true;
+            }
+        }
+        if (!is_better) step *= 0.5;
+    }
+    return best;
+}
+
+JoinedElements join_elements(std::vector<PlacedElement> elements, std::span<const double> loads,
+                             std::span<const ElementShapePtr> shapes, const JoinSettings& settings) {
+    JoinedElements joined;
+    const std::size_t all = elements.size();
+    Pieces pieces(std::move(elements), shapes, settings);
+    std::vector<std::uint32_t> piece = pieces.pieces();
+    std::vector<double> load(all, 0.0), busiest(all, 0.0);
+    for (std::uint32_t k = 0; k < all; ++k) {
+        joined.pieces += piece[k] == k ? 1 : 0;
+        load[piece[k]] += loads[k];
+        busiest[piece[k]] = std::max(busiest[piece[k]], loads[k]);
+    }
+    // Pieces are told by their lowest number, which joining changes: an element tells the main one.
+    const auto in_main = static_cast<std::size_t>(std::ranges::max_element(load) - load.begin());
+    std::vector<std::uint8_t> is_idle;
+    for (std::uint32_t k = 0; k < all; ++k)
+        is_idle.push_back(piece[k] != piece[in_main] && busiest[piece[k]] < settings.idle ? 1 : 0);
+    for (std::size_t round = 0; round < all; ++round) {
+        const std::uint32_t main = piece[in_main];
+        const auto gap = pieces.narrowest_gap(piece, main, is_idle);
+        if (!gap) break;
+        joined.moved += pieces.close(*gap, piece, main);
+        piece = pieces.pieces();
+    }
+    for (std::uint32_t k = 0; k < all; ++k) {
+        if (piece[k] == piece[in_main]) {
+            joined.elements.push_back(pieces.elements()[k]);
+        } else {
+            ++joined.dropped;
+        }
+    }
+    return joined;
+}
+
+}  // namespace lamella

@@ -1,0 +1,45 @@
+// Which elements hold together, and how loose ones are joined or dropped.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "procedural/elements/element_shape.h"
+#include "procedural/elements/placed_element.h"
+
+namespace lamella {
+
+/// How deep two solids lie in each other, and where.
+struct Overlap {
+    double depth = -infinity;  ///< mm; negative: half of the gap between them
+    dvec3 at{0};
+};
+
+/// Returns the largest of min(-a, -b) over space, of two elements' distances a and b: sampled in the boxes of
+/// both, and refined to a thousandth of the smaller one. Elements whose boxes are farther than `reach` mm
+/// apart have a depth of -infinity. In the plane, at z = 0 of their frames.
+Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
+                   double reach, bool is_flat);
+
+struct JoinSettings {
+    double hold = 0.1;   ///< depth from which two elements hold together, mm
+    double reach = 2;    ///< widest gap that is closed by moving a piece, mm
+    double idle = 0.01;  ///< load below which an element carries nothing; the mean is 1
+    bool is_flat = false;
+    std::vector<std::uint8_t>
+        held{};  ///< elements that touch what is solid anyway, which is one piece; or none
+};
+
+struct JoinedElements {
+    std::vector<PlacedElement> elements;  ///< one piece
+    std::size_t pieces = 0;               ///< before
+    std::size_t moved = 0, dropped = 0;   ///< elements
+};
+
+/// Makes elements one piece: that of the greatest load. Pieces all of whose elements are idle are dropped,
+/// the others moved up to it, the nearest first, or dropped if they are out of reach. Loads are by element.
+JoinedElements join_elements(std::vector<PlacedElement> elements, std::span<const double> loads,
+                             std::span<const ElementShapePtr> shapes, const JoinSettings& settings);
+
+}  // namespace lamella

@@ -1,0 +1,76 @@
+// Numbers in their shortest exact form, a line each.
+#include "procedural/elements/element_plan.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "engine/base/complete_file.h"
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+
+namespace lamella {
+
+namespace {
+
+constexpr std::string_view title = "lamella elements 1";
+
+/// Returns the numbers of a line, which has to have `count` of them.
+std::vector<double> numbers_of(std::istream& in, std::size_t count, const std::string& name) {
+    std::string line;
+    std::getline(in, line);
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        const auto number = parse_double(std::string_view(line).substr(begin, end - begin));
+        if (!number || !std::isfinite(*number)) break;
+        numbers.push_back(*number);
+        begin = end + 1;
+    }
+    if (!in || numbers.size() != count)
+        throw InputError(name + ": damaged or cut off; accepted: a plan of elements as Lamella writes it");
+    return numbers;
+}
+
+}  // namespace
+
+void write_elements(std::ostream& out, const std::vector<PlacedElement>& elements) {
+    for (const PlacedElement& e : elements)
+        out << fmt::format("{},{},{},{},{},{},{},{},{}\n", e.shape, e.at.x, e.at.y, e.at.z, e.turn.w,
+                           e.turn.x, e.turn.y, e.turn.z, e.scale);
+}
+
+void write_element_plan(const std::filesystem::path& file, const ElementPlan& plan) {
+    write_complete_file(file, [&](std::ostream& out) {
+        out << title << '\n';
+        out << fmt::format("{},{},{},{},{},{},{},{}\n", plan.elements.size(), plan.pieces, plan.moved,
+                           plan.dropped, plan.volume, plan.compliance, plan.full_compliance, plan.optimum);
+        write_elements(out, plan.elements);
+    });
+}
+
+ElementPlan read_element_plan(std::istream& in, const std::string& name) {
+    std::string first;
+    std::getline(in, first);
+    if (first != title) throw InputError(name + ": no plan of elements; accepted: one that Lamella wrote");
+    const std::vector<double> known = numbers_of(in, 8, name);
+    ElementPlan plan{.elements = {},
+                     .pieces = static_cast<std::size_t>(known[1]),
+                     .moved = static_cast<std::size_t>(known[2]),
+                     .dropped = static_cast<std::size_t>(known[3]),
+                     .volume = known[4],
+                     .compliance = known[5],
+                     .full_compliance = known[6],
+                     .optimum = known[7]};
+    for (double k = 0; k < known[0]; ++k) {
+        const std::vector<double> n = numbers_of(in, 9, name);
+        plan.elements.push_back({.shape = static_cast<std::uint32_t>(n[0]),
+                                 .at = {n[1], n[2], n[3]},
+                                 .turn = {n[4], n[5], n[6], n[7]},
+                                 .scale = n[8]});
+    }
+    return plan;
+}
+
+}  // namespace lamella

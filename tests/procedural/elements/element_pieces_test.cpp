@@ -1,0 +1,61 @@
+// Overlaps against closed forms; pieces that are joined, moved and dropped.
+#include "procedural/elements/element_pieces.h"
+
+#include <catch2/catch.hpp>
+
+#include "procedural/elements/element_start.h"
+
+namespace element_pieces_test {
+
+using namespace lamella;
+
+namespace {
+
+PlacedElement upright_at(double x, double y) {
+    return {.shape = 0, .at = {x, y, 0}, .turn = turn_to(dvec3(0, 1, 0))};
+}
+
+}  // namespace
+
+TEST_CASE("overlaps are as deep as closed forms say", "[elements]") {
+    const std::vector<ElementShapePtr> shapes{make_stick(10, 2), make_ring(8, 2)};
+    for (const bool is_flat : {true, false}) {
+        // Side by side, end to end, and a stick through a ring's hole.
+        for (const double apart : {1.2, 1.9, 2.5}) {
+            const Overlap beside = overlap_of(upright_at(0, 0), upright_at(apart, 0), shapes, 2, is_flat);
+            CHECK(beside.depth == Approx(1 - apart / 2).margin(0.01));
+            const Overlap ends = overlap_of(upright_at(0, 0), upright_at(0, 8 + apart), shapes, 2, is_flat);
+            CHECK(ends.depth == Approx(1 - apart / 2).margin(0.01));
+        }
+        CHECK(overlap_of(upright_at(0, 0), upright_at(40, 0), shapes, 2, is_flat).depth == -infinity);
+    }
+    PlacedElement through{.shape = 0, .at = {0, 0, 0}, .turn = turn_to(dvec3(0, 0, 1))};
+    const Overlap linked = overlap_of({.shape = 1, .at = {0, 0, 0}}, through, shapes, 2, false);
+    CHECK(linked.depth == Approx(-0.5).margin(0.02));  // from 1 to 2 mm off the axis
+}
+
+TEST_CASE("loose elements are moved to the others or dropped", "[elements]") {
+    const std::vector<ElementShapePtr> shapes{make_stick(10, 2)};
+    const std::vector<PlacedElement> elements{upright_at(0, 0), upright_at(0, 9),     upright_at(2.6, 4),
+                                              upright_at(9, 9), upright_at(2.7, -12), upright_at(4.2, -12)};
+    //                                        two end to end, one 0.6 mm beside,
+    //                                        one too far away, two together that carry nothing
+    const std::vector<double> loads{1, 1.2, 0.4, 0.3, 0, 0.001};
+    const JoinSettings settings{.hold = 0.2, .reach = 1, .idle = 0.01, .is_flat = true};
+    const JoinedElements joined = join_elements(elements, loads, shapes, settings);
+    CHECK(joined.pieces == 4);
+    CHECK(joined.moved == 1);
+    CHECK(joined.dropped == 3);
+    REQUIRE(joined.elements.size() == 3);
+    CHECK(joined.elements[0] == elements[0]);
+    CHECK(joined.elements[2].at.x < 1.7);
+    CHECK(joined.elements[2].at.x > 1.0);
+    CHECK(joined.elements[2].at.y == Approx(4).margin(0.01));
+    CHECK(overlap_of(joined.elements[0], joined.elements[2], shapes, 1, true).depth >= 0.2);
+    // Both ends of what is held are one piece already.
+    JoinSettings held = settings;
+    held.held = {1, 0, 0, 1, 0, 0};
+    CHECK(join_elements(elements, loads, shapes, held).elements.size() == 4);
+}
+
+}  // namespace element_pieces_test
