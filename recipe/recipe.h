@@ -15,6 +15,7 @@
 #include "printers/common/profile.h"
 #include "procedural/grading/attractors.h"
 #include "procedural/pattern/reinforcement.h"
+#include "recipe/elements_recipe.h"
 #include "recipe/number_rows.h"
 #include "recipe/optimize_recipe.h"
 
@@ -282,6 +283,8 @@ struct Recipe {
     std::vector<LoadRecipe> loads;
     std::vector<AnchorRecipe> anchors;
     std::optional<OptimizeRecipe> optimize;
+    std::vector<ElementRecipe> element_shapes;
+    std::optional<ElementsRecipe> elements;
     std::optional<FoamRecipe> foam;
     std::optional<MaterialRecipe> material;
     std::optional<FrameRecipe> frame;

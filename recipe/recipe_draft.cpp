@@ -39,7 +39,7 @@ std::vector<std::string> keys_of(const Kind& kind) {
 std::vector<std::string> needs_of_list(std::string_view section) {
     if (section == "hole") return {"at", "radius"};
     if (section == "load") return {"force|pressure"};
-    if (section == "region" || section == "anchor") return {};
+    if (section == "region" || section == "anchor" || section == "element") return {};
     return {"name"};
 }
 
@@ -353,8 +353,11 @@ Recipe RecipeDraft::assemble() {
     for (std::size_t i = 0; i < recipe.loads.size(); ++i) recipe.loads[i].where = where_begins("load", i);
     for (std::size_t i = 0; i < recipe.anchors.size(); ++i)
         recipe.anchors[i].where = where_begins("anchor", i);
+    for (std::size_t i = 0; i < recipe.element_shapes.size(); ++i)
+        recipe.element_shapes[i].where = where_begins("element", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
     if (count(*find_section("optimize")) > 0 && !recipe.optimize) recipe.optimize.emplace();
+    if (count(*find_section("elements")) > 0 && !recipe.elements) recipe.elements.emplace();
     if (recipe.optimize && recipe.optimize->kind == OptimizeKind::lightness && !entry("optimize", "volume"))
         recipe.optimize->volume = OptimizeRecipe::whole_part;
     if (recipe.optimize && recipe.optimize->kind == OptimizeKind::appearance) {
@@ -401,6 +404,7 @@ Recipe RecipeDraft::finish() {
         for (std::string& mistake : formula_mistakes(recipe)) refuse(0, std::move(mistake));
         for (std::string& mistake : region_mistakes(recipe)) refuse(0, std::move(mistake));
         check_problem(recipe);
+        check_elements(recipe);
     } else if (knows_all_gradings()) {
         for (std::string& mistake : formula_text_mistakes(recipe)) refuse(0, std::move(mistake));
     }

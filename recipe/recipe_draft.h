@@ -147,6 +147,10 @@ class RecipeDraft {
     void check_result_entries(const Recipe& recipe);
     void check_driven_foam(const Recipe& recipe);
 
+    // Discrete elements: recipe_elements.cpp.
+    void check_elements(const Recipe& recipe);
+    void check_element(const Recipe& recipe, std::size_t number);
+
     std::map<Place, Entry> entries_;
     std::map<Part, std::string> sections_;  ///< sections in the file, with the places where they begin
     std::map<std::string, HostGiven<FieldPtr>> host_fields_;

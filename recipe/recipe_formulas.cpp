@@ -300,6 +300,7 @@ std::string unused_entries(const Recipe& recipe) {
     for (const RegionRecipe& region : recipe.regions) solids.insert(region.field);
     for (const LoadRecipe& load : recipe.loads) solids.insert(load.field);
     for (const AnchorRecipe& anchor : recipe.anchors) solids.insert(anchor.field);
+    for (const ElementRecipe& element : recipe.element_shapes) solids.insert(element.field);
     for (const FieldRecipe& field : recipe.fields) {
         if (solids.contains(field.name)) {
             open.push_back(&field.formula);

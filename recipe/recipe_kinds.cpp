@@ -51,6 +51,13 @@ const std::vector<KindSection>& kind_sections() {
            {"image", "image_size"},
            {"volume_min", "compliance", "invert", "threshold", "neighbourhood", "exponent", "spread",
             "levels"}}}},
+        {"element",
+         "kind",
+         "stick",
+         {{"stick", {"length", "width"}, {}},
+          {"ring", {"diameter", "width"}, {}},
+          {"outline", {"corners"}, {"thickness"}},
+          {"field", {"field"}, {}}}},
         {"foam", "kind", "voronoi", keys_of(foam_builders())},
         {"skin", "pattern", "closed", keys_of(pattern_builders())}};
     return list;

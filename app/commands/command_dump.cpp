@@ -1,9 +1,10 @@
-// `lamella dump`: prints the foam's seeds or beams in a box as lines of numbers.
+// `lamella dump`: prints seeds, beams or elements as lines of numbers.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
@@ -69,9 +70,26 @@ void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& opt
     std::fputs((lattice_text(options.output, report) + "\n").c_str(), stderr);
 }
 
+/// Writes the discrete elements of the part.
+void dump_elements(const Recipe& recipe, const DumpOptions& options) {
+    if (!recipe.elements)
+        throw InputError("elements: the recipe has none; accepted: a recipe with [[element]] and [elements]");
+    if (!options.box.empty() || options.format != "csv")
+        throw InputError(
+            "--box, --format: elements are written all, as csv; accepted: `dump elements` without them");
+    const BuiltJob built = build_job(recipe, with_kept_plans(false));
+    TextOutput out(options.output);
+    if (options.header) out.write("shape,x,y,z,qw,qx,qy,qz,scale\n");
+    std::ostringstream lines;
+    write_elements(lines, built.elements->elements);
+    out.write(lines.str());
+    out.close();
+}
+
 void run(const DumpOptions& options) {
-    const Recipe recipe = options.recipe.read(false);
+    const Recipe recipe = options.recipe.read(options.what == "elements");
     note_unused(options.recipe, recipe);
+    if (options.what == "elements") return dump_elements(recipe, options);
     if (!recipe.foam)
         throw InputError(
             "foam: the recipe has no foam; accepted: --cell and --beam, or a recipe with [foam]");
@@ -107,11 +125,14 @@ void run(const DumpOptions& options) {
 
 void add_dump_command(CLI::App& root) {
     auto options = std::make_shared<DumpOptions>();
-    CLI::App& command =
-        *root.add_subcommand("dump", "Write the foam's seeds in a box or the beams that touch it");
-    command.add_option("WHAT", options->what, "seeds (x,y,z) or beams (x0,y0,z0,r0,x1,y1,z1,r1), mm")
+    CLI::App& command = *root.add_subcommand(
+        "dump", "Write the foam's seeds in a box, the beams that touch it, or the elements");
+    command
+        .add_option("WHAT", options->what,
+                    "seeds (x,y,z), beams (x0,y0,z0,r0,x1,y1,z1,r1), or elements "
+                    "(shape,x,y,z,qw,qx,qy,qz,scale), mm")
         ->required()
-        ->check(CLI::IsMember({"seeds", "beams"}))
+        ->check(CLI::IsMember({"seeds", "beams", "elements"}))
         ->type_name("");
     options->recipe.add_to(command);
     command.add_option("--box", options->box, "Corners in mm, part coordinates; default: the part's bounds")
@@ -126,7 +147,8 @@ void add_dump_command(CLI::App& root) {
     finish_command(command,
                    "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
                    "  lamella dump beams insole.toml --format 3mf -o foam.3mf\n"
-                   "  lamella dump seeds insole.toml --header -o seeds.csv");
+                   "  lamella dump seeds insole.toml --header -o seeds.csv\n"
+                   "  lamella dump elements bracket.toml > elements.csv");
     command.callback([options] { run(*options); });
 }
 

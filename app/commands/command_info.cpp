@@ -11,6 +11,7 @@
 #include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
+#include "app/reports/element_report.h"
 #include "app/reports/foam_statistics.h"
 #include "app/reports/grading_report.h"
 #include "app/reports/island_report.h"
@@ -159,6 +160,7 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
               {"layers", job.layer_count}};
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
+    if (built.elements) info["elements"] = elements_json(*built.elements);
     if (recipe.skin) info["skin"] = skin_json(*recipe.skin, built);
     if (built.drains) info["drains"] = drains_json(*built.drains);
     if (built.cavities) info["cavities"] = cavities_json(*built.cavities);
@@ -304,6 +306,7 @@ std::string as_text(const Json& info, const BuiltJob& built) {
                         info["layer_height_mm"].get<double>());
     if (info.contains("mesh")) text += mesh_text(info["mesh"]);
     if (info.contains("foam")) text += foam_text(info["foam"]);
+    if (built.elements) text += fmt::format("elements  {}\n", elements_text(*built.elements));
     if (info.contains("skin")) text += skin_text(info["skin"]);
     if (drains) text += fmt::format("drains    {}\n", drains_text(*drains));
     if (built.cavities) text += fmt::format("cavities  {}\n", cavities_text(*built.cavities));

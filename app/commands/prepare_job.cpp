@@ -61,6 +61,10 @@ OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& c
     optimizing.on_iteration = [display](const OptimizationStep& iteration, int iterations) {
         display->show(static_cast<double>(iteration.index) / iterations);
     };
+    optimizing.on_elements = [shown = std::make_shared<ProgressDisplay>(false, "placing elements: ")](
+                                 const ElementIteration& iteration, int iterations) {
+        shown->show(static_cast<double>(iteration.index) / iterations);
+    };
     announce_pattern(optimizing);
     return optimizing;
 }

@@ -90,6 +90,14 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         if (foam && built.optimized->foam_sizes)
             drive_foam(recipe.optimize->result, *built.optimized, *foam, gradings);
     }
+    if (recipe.elements) {
+        PlacedElements placed =
+            place_elements(recipe, built.body, built.regions, gradings,
+                           {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_elements});
+        built.body = placed.shape;
+        built.elements = std::move(placed.plan);
+        gradings.set_body(built.body);
+    }
     if (foam) built.foam = build_foam(*foam, job.bounds, gradings);
     set_layers(recipe, job);
     job.part = with_regions(

@@ -17,6 +17,7 @@
 #include "recipe/build/place_drains.h"
 #include "recipe/recipe.h"
 #include "recipe/structure/optimize_part.h"
+#include "recipe/structure/place_elements.h"
 
 namespace lamella {
 
@@ -31,6 +32,7 @@ struct BuiltJob {
     Job designed;                            ///< before [process]; its layers correspond to those of `job`
     FieldPtr body;                           ///< the part without foam and skin
     std::optional<OptimizedPart> optimized;  ///< empty unless the recipe optimises
+    std::optional<ElementPlan> elements;     ///< empty unless the part is built of elements
     FieldPtr outside;                        ///< the body, including a skin outside it
     std::optional<BuiltFoam> foam;           ///< empty without foam
     std::optional<ModulusReport> modulus;    ///< empty when the foam's stiffness is unknown

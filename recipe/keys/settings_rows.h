@@ -22,6 +22,7 @@ const std::vector<std::string>& choice_names(RegionMake);
 const std::vector<std::string>& choice_names(OptimizeKind);
 const std::vector<std::string>& choice_names(OptimizeResult);
 const std::vector<std::string>& choice_names(OptimizeMethod);
+const std::vector<std::string>& choice_names(ElementKind);
 const std::vector<std::string>& choice_names(ImageFormat);
 const std::vector<std::string>& choice_names(Antialiasing);
 const std::vector<std::string>& choice_names(CliFormat);
@@ -43,6 +44,10 @@ void add_region_settings(std::vector<Setting>& table);
 void add_load_settings(std::vector<Setting>& table);
 void add_anchor_settings(std::vector<Setting>& table);
 void add_optimize_settings(std::vector<Setting>& table);
+
+/// The rows of the [[element]] and [elements] sections.
+void add_element_settings(std::vector<Setting>& table);
+void add_elements_settings(std::vector<Setting>& table);
 
 /// The rows of the [foam] section about stiffness, and of the [material] section.
 void add_stiffness_settings(std::vector<Setting>& table);

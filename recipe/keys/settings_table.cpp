@@ -328,6 +328,8 @@ std::vector<Setting> make_table() {
     add_load_settings(table);
     add_anchor_settings(table);
     add_optimize_settings(table);
+    add_element_settings(table);
+    add_elements_settings(table);
     add_cavity_settings(table);
     add_layers(table);
     add_process_settings(table);
@@ -400,6 +402,10 @@ std::span<const Section> sections() {
         {"optimize",
          "the best shape within the part, or its best foam, under the loads; without this section the part "
          "stays as it is"},
+        {"element", "a shape of which the part is built, with [elements]",
+         [](const Recipe& r) { return r.element_shapes.size(); }},
+        {"elements",
+         "the part built of copies of shapes that bear the loads together; without this section it is not"},
         {"cavity",
          "cavities inside the part whose roofs print without supports; without this section there are none"},
         {"layers", "how the part is cut into layers"},

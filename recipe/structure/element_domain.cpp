@@ -29,24 +29,29 @@ double edge_of(const OptimizeRecipe& optimize, dvec3 size) {
     return longest / (optimize.elements > 0 ? optimize.elements : standard);
 }
 
-void check_size(const OptimizeRecipe& optimize, glm::ivec3 size, std::size_t cases, double edge) {
+/// Returns the section that asks for finite elements.
+std::string section_of(const Recipe& recipe) { return recipe.elements ? "elements" : "optimize"; }
+
+void check_size(const Recipe& recipe, glm::ivec3 size, double edge) {
+    const std::string section = section_of(recipe);
+    const std::size_t cases = std::max<std::size_t>(recipe.loads.size(), 1);
     for (int k = 0; k < 3; ++k) {
         if (size[k] <= most_along) continue;
         throw InputError(
-            fmt::format("optimize.element / --optimize-element: {:.4g} mm cuts the part into {} elements "
-                        "along a side; accepted: at most {}",
-                        edge, size[k], most_along));
+            fmt::format("{0}.element / --{0}-element: {1:.4g} mm cuts the part into {2} finite elements "
+                        "along a side; accepted: at most {3}",
+                        section, edge, size[k], most_along));
     }
     const double elements = static_cast<double>(size.x) * size.y * size.z;
     const double needed = elements * (bytes_an_element + bytes_a_case * static_cast<double>(cases));
     const double memory =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (needed <= memory || memory <= 0) return;
-    const double suited = edge * std::pow(needed / memory, 1.0 / optimize.dimensions);
+    const double suited = edge * std::pow(needed / memory, 1.0 / (size.z == 1 ? 2 : 3));
     throw InputError(
-        fmt::format("optimize: {:.3g} million elements of {:.4g} mm need about {:.3g} GB of memory, "
-                    "and this machine has {:.3g} GB; accepted: optimize.element of {:.2g} mm or more",
-                    elements / 1e6, edge, needed / 1e9, memory / 1e9, suited));
+        fmt::format("{0}: {1:.3g} million elements of {2:.4g} mm need about {3:.3g} GB of memory, "
+                    "and this machine has {4:.3g} GB; accepted: {0}.element of {5:.2g} mm or more",
+                    section, elements / 1e6, edge, needed / 1e9, memory / 1e9, suited));
 }
 
 /// Turns elements that are kept from free ones into another use.
@@ -84,9 +89,9 @@ void classify(const Recipe& recipe, const Field& body, const BuiltRegions& regio
         domain.use.push_back(inside != 0 ? ElementUse::free : ElementUse::outside);
     if (domain.elements() == 0)
         throw InputError(
-            fmt::format("optimize: no element of {:.4g} mm has its centre in the part; accepted: smaller "
-                        "elements, by optimize.element",
-                        domain.longest_edge()));
+            fmt::format("{0}: no element of {1:.4g} mm has its centre in the part; accepted: smaller "
+                        "elements, by {0}.element",
+                        section_of(recipe), domain.longest_edge()));
     prescribe_skin(recipe, body, domain);
     for (const BuiltRegion& region : regions.list) {
         if (region.make != RegionMake::solid && region.make != RegionMake::empty) continue;
@@ -133,7 +138,7 @@ ElementDomain element_domain(const Recipe& recipe, const Field& body, const Buil
         return std::max(1, static_cast<int>(std::round(std::min(bounds.size()[axis] / edge, 1e9))));
     };
     domain.size = {along(0), along(1), optimize.dimensions == 2 ? 1 : along(2)};
-    check_size(optimize, domain.size, std::max<std::size_t>(recipe.loads.size(), 1), edge);
+    check_size(recipe, domain.size, edge);
     domain.edges = dvec3(edge);
     for (int axis = 0; axis < optimize.dimensions && !optimize.overhang; ++axis) {
         const double fitting = bounds.size()[axis] / domain.size[axis];
