@@ -1,4 +1,5 @@
-// A tree of boxes for values, an index over heights for slices, and cuts in the frames of the shapes.
+// A tree of boxes for values, an index over heights for slices, beams where shapes are beams, else cuts in
+// their frames.
 #include "procedural/elements/element_field.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "engine/field/slice_context.h"
 #include "engine/mesh/halving_tree.h"
 #include "engine/runs/interval_index.h"
+#include "engine/solids/beam_slice.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/plane_index.h"
 #include "engine/solids/primitives.h"
@@ -27,6 +29,17 @@ class ElementField : public Field {
     const SliceField& slice(SliceContext& context, double z) const override;
     Box bounds() const override { return nodes_.front().box; }
 
+    /// Returns the beam that an element is, if its shape is one, as it meets the plane at height z.
+    std::optional<Beam> beam(std::uint32_t element, double z) const {
+        const PlacedElement& placed = elements_[element];
+        const auto shape = shapes_[placed.shape]->beam();
+        if (!shape) return std::nullopt;
+        const auto at = [&](dvec3 p) {
+            p = placed.at + placed.turn * (placed.scale * p);
+            return upright_ ? dvec3(p.x, p.y, z) : p;
+        };
+        return Beam{at(shape->a), placed.scale * shape->ra, at(shape->b), placed.scale * shape->rb};
+    }
     const Box& box(std::uint32_t element) const { return boxes_[element]; }
     /// Appends the intervals of t in which the line p + t * way of a plane lies inside an element.
     void cut(std::uint32_t element, dvec3 p, dvec3 way, std::vector<Interval>& inside) const {
@@ -55,25 +68,36 @@ class ElementField : public Field {
 
 class ElementSlice : public SampledSlice {
   public:
-    ElementSlice(const ElementField& field, std::vector<std::uint32_t> elements, double z)
-        : SampledSlice(field, z), field_(field), elements_(std::move(elements)), z_(z) {
+    ElementSlice(const ElementField& field, const std::vector<std::uint32_t>& elements, double z)
+        : SampledSlice(field, z), field_(field), z_(z) {
         std::vector<Rect> rects;
-        for (const std::uint32_t element : elements_) rects.push_back(field_.box(element).rect());
+        std::vector<Beam> beams;
+        for (const std::uint32_t element : elements) {
+            if (const auto beam = field.beam(element, z)) {
+                beams.push_back(*beam);
+            } else {
+                cut_.push_back(element);
+                rects.push_back(field.box(element).rect());
+            }
+        }
+        beams_ = BeamRows(beams, z);
         sections_ = PlaneIndex(std::move(rects));
     }
     void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
-    Rect bounds() const override { return sections_.bounds(); }
+    Rect bounds() const override { return unite(sections_.bounds(), beams_.bounds()); }
 
   private:
     const ElementField& field_;
-    std::vector<std::uint32_t> elements_;
     double z_;
-    PlaneIndex sections_;
+    BeamRows beams_;
+    std::vector<std::uint32_t> cut_;  ///< elements that are no beams
+    PlaneIndex sections_;             ///< theirs
 };
 
 /// An element's first run on each line goes into one piece of the collector, further ones into their own.
 void ElementSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
     scratch.collector.clear();
+    beams_.collect(band, scratch.collector);
     std::vector<Interval> inside;
     std::vector<Run> firsts;
     const dvec3 way = band.axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
@@ -82,7 +106,7 @@ void ElementSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) con
         for (int line = lines.first; line < lines.last; ++line) {
             inside.clear();
             const dvec3 from(on_plane(band.axis, 0, band.line(line)), z_);
-            field_.cut(elements_[i], from, way, inside);
+            field_.cut(cut_[i], from, way, inside);
             for (std::size_t k = 0; k < inside.size(); ++k) {
                 const double p = band.coordinate(inside[k].lo), q = band.coordinate(inside[k].hi);
                 const Run run{round_run(std::min(p, q)), round_run(std::max(p, q))};
@@ -167,7 +191,7 @@ double ElementField::value_within(dvec3 p, double limit) const {
 const SliceField& ElementField::slice(SliceContext& context, double z) const {
     std::vector<std::uint32_t> meeting;
     if (!upright_ || (upright_->lo <= z && z < upright_->hi)) by_height_.query({z, z}, meeting);
-    return context.make<ElementSlice>(*this, std::move(meeting), z);
+    return context.make<ElementSlice>(*this, meeting, z);
 }
 
 }  // namespace

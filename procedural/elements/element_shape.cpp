@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/solids/beam.h"
 #include "engine/solids/primitives.h"
 
 namespace lamella {
@@ -39,6 +38,7 @@ class Stick : public ElementShape {
             inside.push_back({found->lo / speed, found->hi / speed});
     }
     Box bounds() const override { return lamella::bounds(beam_); }
+    std::optional<Beam> beam() const override { return beam_; }
 
   private:
     Beam beam_;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/field/field.h"
+#include "engine/solids/beam.h"
 
 namespace lamella {
 
@@ -18,6 +20,8 @@ class ElementShape {
     /// need not have unit length.
     virtual void cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const = 0;
     virtual Box bounds() const = 0;
+    /// Returns the beam that the shape is, if it is one: its runs cost a tenth of what cuts do.
+    virtual std::optional<Beam> beam() const { return std::nullopt; }
 };
 using ElementShapePtr = std::shared_ptr<const ElementShape>;
 

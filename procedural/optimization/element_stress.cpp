@@ -67,7 +67,7 @@ PrincipalStress principal_of(const std::array<std::array<double, 3>, 3>& g, doub
         }
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(stress);
-    const Eigen::Vector3d values = solver.eigenvalues();  // ascending
+    const Eigen::Vector3d& values = solver.eigenvalues();  // ascending
     const int greatest = std::abs(values[0]) > std::abs(values[2]) ? 0 : 2;
     const Eigen::Vector3d way = solver.eigenvectors().col(greatest);
     return {values[greatest], {way[0], way[1], way[2]}};

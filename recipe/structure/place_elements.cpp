@@ -255,8 +255,8 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
                    z = static_cast<int>(i) / grid_.size.x / grid_.size.y;
         int inside = 0;
         for (int k = 0; k < parts * parts * along_z; ++k) {
-            const dvec3 share((k % parts + 0.5) / parts, (k / parts % parts + 0.5) / parts,
-                              (k / parts / parts + 0.5) / along_z);
+            const glm::ivec3 part(k % parts, k / parts % parts, k / (parts * parts));
+            const dvec3 share = (dvec3(part) + 0.5) / dvec3(parts, parts, along_z);
             if (field->value(grid_.corner + (dvec3(x, y, z) + share) * grid_.edges) < 0) ++inside;
         }
         density[i] = inside / static_cast<double>(parts * parts * along_z);
@@ -311,6 +311,7 @@ ElementPlan searched(const Recipe& recipe, const Field& body, const BuiltRegions
     std::vector<ElementShapePtr> shapes = shapes_of(recipe, body.bounds(), gradings);
     const auto tables_with = [&](double margin) {
         std::vector<DistanceTable> tables;
+        tables.reserve(shapes.size());
         for (const ElementShapePtr& shape : shapes)
             tables.emplace_back(*shape, margin, Dim == 2 ? table_samples_2d : table_samples_3d, Dim == 2);
         return tables;
