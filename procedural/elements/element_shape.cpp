@@ -114,6 +114,11 @@ void Outline::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const
 }
 
 class FieldShape : public ElementShape {
+    /// A place along a line, and the distance there.
+    struct Crossing {
+        double t, value;
+    };
+
   public:
     explicit FieldShape(FieldPtr field)
         : field_(std::move(field)), bounds_(field_->bounds()), least_step_(1e-4 * length(bounds_.size())) {}
@@ -122,18 +127,36 @@ class FieldShape : public ElementShape {
     Box bounds() const override { return bounds_; }
 
   private:
-    double border(dvec3 p, dvec3 way, double outside, double inside) const {
-        for (int k = 0; k < 40; ++k) {
-            const double middle = 0.5 * (outside + inside);
-            (field_->value(p + middle * way) < 0 ? inside : outside) = middle;
-        }
-        return inside;
-    }
+    double border(dvec3 p, dvec3 way, Crossing outside, Crossing inside) const;
 
     FieldPtr field_;
     Box bounds_;
     double least_step_;
 };
+
+/// The Illinois variant of the false position (Dowell and Jarratt 1971), which a straight border ends at
+/// once.
+double FieldShape::border(dvec3 p, dvec3 way, Crossing outside, Crossing inside) const {
+    constexpr int most = 40;
+    const double enough = 1e-5 * least_step_;
+    int last_side = 0;
+    for (int k = 0; k < most && std::abs(outside.t - inside.t) > enough; ++k) {
+        const double share = inside.value / (inside.value - outside.value);
+        const double t = inside.t + (outside.t - inside.t) * share;
+        const double value = field_->value(p + t * way);
+        const int side = value < 0 ? -1 : 1;
+        if (side < 0) {
+            inside = {t, value};
+            if (last_side == side) outside.value *= 0.5;
+        } else {
+            outside = {t, value};
+            if (last_side == side) inside.value *= 0.5;
+        }
+        last_side = side;
+        if (std::abs(value) < enough) break;
+    }
+    return inside.t;
+}
 
 /// No surface is nearer than the distance tells: steps of its length miss nothing but what a least step does.
 void FieldShape::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const {
@@ -142,16 +165,18 @@ void FieldShape::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) co
     const Box about{bounds_.lo - least_step_, bounds_.hi + least_step_};
     const Interval whole = cut_box(about, p, way);
     if (whole.empty()) return;
-    double last = whole.lo, begin = 0;
+    Crossing last{whole.lo, 0};
+    double begin = 0;
     bool was_inside = false;
     for (double t = whole.lo;;) {
         const double value = field_->value(p + t * way);
         const bool is_inside = value < 0 && t < whole.hi;
-        if (is_inside && !was_inside) begin = border(p, way, last, t);
-        if (!is_inside && was_inside) inside.push_back({begin / speed, border(p, way, t, last) / speed});
+        const Crossing here{t, value};
+        if (is_inside && !was_inside) begin = border(p, way, last, here);
+        if (!is_inside && was_inside) inside.push_back({begin / speed, border(p, way, here, last) / speed});
         if (t >= whole.hi) return;
         was_inside = is_inside;
-        last = t;
+        last = here;
         t = std::min(t + std::max(std::abs(value), least_step_), whole.hi);
     }
 }
