@@ -13,10 +13,11 @@ enum class ElementKind : unsigned char { stick, ring, outline, field };
 struct ElementRecipe {
     std::string where;  ///< where the entry begins, for messages
     ElementKind kind = ElementKind::stick;
-    double length = 0;     ///< of a stick, mm
+    double length = 0;     ///< of a stick; of an outline the longer side, 0: as it is given; mm
     double diameter = 0;   ///< of a ring, outside, mm
     double width = 0;      ///< of a stick, or of a ring's tube, mm
-    NumberRows corners;    ///< of an outline, mm
+    NumberRows corners;    ///< of an outline, mm; empty: from the file
+    std::string file;      ///< path of an SVG drawing with an outline
     double thickness = 0;  ///< of an outline, mm
     std::string field;     ///< name of a [[field]], whose origin is the middle of the copies
 };

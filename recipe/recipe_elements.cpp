@@ -58,7 +58,7 @@ void RecipeDraft::check_element(const Recipe& recipe, std::size_t number) {
                            "more than twice the width");
             break;
         case ElementKind::outline:
-            if (element.corners.size() < 3)
+            if (element.file.empty() && element.corners.size() < 3)
                 refuse_key("corners", fmt::format("{} corners enclose nothing", element.corners.size()),
                            "three or more");
             if (recipe.elements->dimensions == 3 && element.thickness == 0)

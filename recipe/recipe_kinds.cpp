@@ -56,7 +56,7 @@ const std::vector<KindSection>& kind_sections() {
          "stick",
          {{"stick", {"length", "width"}, {}},
           {"ring", {"diameter", "width"}, {}},
-          {"outline", {"corners"}, {"thickness"}},
+          {"outline", {"corners|file"}, {"length", "thickness"}},
           {"field", {"field"}, {}}}},
         {"foam", "kind", "voronoi", keys_of(foam_builders())},
         {"skin", "pattern", "closed", keys_of(pattern_builders())}};

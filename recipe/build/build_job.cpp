@@ -103,7 +103,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
     job.part = with_regions(
         fill_body(recipe, built, gradings,
                   {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_pattern}),
-        built.body, recipe.foam || recipe.skin, built.regions);
+        built.body, recipe.foam || recipe.skin || recipe.optimize || recipe.elements, built.regions);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});

@@ -82,8 +82,9 @@ void add_element_search(std::vector<Setting>& t) {
 void add_element_settings(std::vector<Setting>& t) {
     t.push_back(list_row<&Recipe::element_shapes, &ElementRecipe::kind>(
         "element", "kind", {.fallback = "stick", .help = "Kind of the shape."}));
-    add_element_length<&ElementRecipe::length>(t, "length", "stick",
-                                               "Length of a stick with round ends, in all.");
+    add_element_length<&ElementRecipe::length>(
+        t, "length", "stick; outlines are as large as they are given",
+        "Length of a stick with round ends, in all, or of the longer side of an outline.");
     add_element_length<&ElementRecipe::diameter>(t, "diameter", "ring", "Outer diameter of a ring.");
     add_element_length<&ElementRecipe::width>(t, "width", "stick, ring",
                                               "Thickness of a stick or of a ring's tube.");
@@ -92,8 +93,13 @@ void add_element_settings(std::vector<Setting>& t) {
         {.unit = "mm",
          .limits = place_limits,
          .shape = {2, 0, "points [[x, y], ...]"},
-         .fallback = "required by outline",
+         .fallback = "an outline has corners or a file",
          .help = "Corners of a closed outline about the copy's middle; the last is joined to the first."}));
+    t.push_back(list_row<&Recipe::element_shapes, &ElementRecipe::file>(
+        "element", "file",
+        {.fallback = "an outline has corners or a file",
+         .help = "SVG drawing whose filled shapes are the outline, relative to the recipe's folder.",
+         .is_path = true}));
     add_element_length<&ElementRecipe::thickness>(
         t, "thickness", "outline", "Thickness of an outline; in two dimensions the part's height.");
     t.push_back(list_row<&Recipe::element_shapes, &ElementRecipe::field>(

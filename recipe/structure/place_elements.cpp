@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/io/svg_outline.h"
 #include "engine/solids/csg.h"
 #include "procedural/elements/element_field.h"
 #include "procedural/elements/element_pieces.h"
@@ -49,10 +50,23 @@ Recipe elements_problem(const Recipe& recipe) {
     return kept;
 }
 
+/// Returns the outline of corners or of a drawing, its longer side as long as the recipe says.
 ElementShapePtr outline_of(const ElementRecipe& element, double thickness) {
-    std::vector<dvec2> corners;
-    for (const auto& row : element.corners) corners.emplace_back(row[0], row[1]);
-    return make_outline({corners}, thickness);
+    constexpr double tolerance = 0.01;  // mm
+    std::vector<std::vector<dvec2>> polygons(1);
+    for (const auto& row : element.corners) polygons[0].emplace_back(row[0], row[1]);
+    if (!element.file.empty()) polygons = read_svg_outlines(element.file, tolerance);
+    Rect bounds;
+    for (const auto& polygon : polygons) {
+        for (const dvec2 p : polygon) bounds = {glm::min(bounds.lo, p), glm::max(bounds.hi, p)};
+    }
+    const double longer = std::max(bounds.size().x, bounds.size().y);
+    if (element.length > 0 && longer > 0) {
+        for (auto& polygon : polygons) {
+            for (dvec2& p : polygon) p *= element.length / longer;
+        }
+    }
+    return make_outline(std::move(polygons), thickness);
 }
 
 ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings) {
