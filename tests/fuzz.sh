@@ -15,7 +15,7 @@ targets=("$@")
 cmake --build $build --target "${targets[@]/#/fuzz_}" | tail -n 1
 export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
 # What tests read already is where the fuzzers begin, beside small files made for them.
-declare -A seeds=([stl]='*.stl' [obj]='*.obj' [ply]='*.ply' [3mf]='*.3mf' [attribute]='*.ply' [picture]='*.png' [recipe]='*.toml')
+declare -A seeds=([stl]='*.stl' [obj]='*.obj' [ply]='*.ply' [3mf]='*.3mf' [attribute]='*.ply' [picture]='*.png' [recipe]='*.toml' [svg]='*.svg')
 declare -A words=([attribute]=ply [volumetric]=model)
 python3 tests/fuzz/seeds.py $build/seeds
 for target in "${!seeds[@]}"; do

@@ -210,6 +210,20 @@ def patterns():
         put("pattern", name + "_file", b"\0lamella pattern\0" + zlib.compress(packed))
 
 
+def drawings():
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="18mm" height="6mm" viewBox="-9 -3 18 6">'
+    for i, shape in enumerate(['<path d="M -9 0 C -3 -4.2 3 -3.6 9 0 S 3 3.6 -9 0 Z"/>',
+                               '<g transform="translate(1 2) rotate(30 1 1)"><rect x="1" width="4mm" height="3"/></g>',
+                               '<path d="m0 0h4v3q1 1 2 2t-3-1a2 2 0 10-3-4z" style="fill:#000"/>',
+                               '<circle r="2"/><ellipse cx="1" rx="3" ry="2" transform="matrix(1 0 .5 1 0 0)"/>',
+                               '<polygon points="0,0 4,0 4,3" transform="scale(2) skewX(10)"/>']):
+        put("svg", f"{i}.svg", head + shape + "</svg>")
+
+
+def elements():
+    put("elements", "two", "2,3,1,0,0.25,12.5,3,6\n1,0.1,2,-3,0.6,0,0.8,0,1.5\n0,1,0,0,1,0,0,0,1\n")
+
+
 def formulas():
     texts = ["x^2 + y*z - 3.5e-1", "min(x, y, max(z, 1)) < 2 ? sin(x) : cos(y)", "mod(x, 2) + atan2(y, x) - pow(z, 3)",
              "not (x < 1 and y >= 2) or z != 3", "clamp(x, -1, 1) * smoothstep(0, 1, y) / length(x, y, z)",
@@ -311,6 +325,6 @@ def requests():
     put("requests", "all", "\n".join(json.dumps(line) for line in lines))
 
 
-for write in (meshes, models, pictures, volumes, bricks, patterns, formulas, jobs, shards_and_journals, replies, recipes, tables,
+for write in (meshes, models, pictures, volumes, bricks, patterns, drawings, elements, formulas, jobs, shards_and_journals, replies, recipes, tables,
               requests):
     write()
