@@ -201,8 +201,8 @@ def bricks():
 
 def patterns():
     """The first byte is that of tests/fuzz/pattern_fuzz.cpp: whether the rest is packed there."""
-    def payload(corners, steps, numbers=(0.2, 5e-5, 1.7, 0.4, 0.5)):
-        return (struct.pack("<5d4Q", *numbers, 2, 1, 1, len(corners)) + b"".join(struct.pack("<3q", *c) for c in corners) +
+    def payload(corners, steps, numbers=(0.2, 5e-5, 1.7, 0.4, 0.5, 9, 3)):
+        return (struct.pack("<7d8Q", *numbers, 2, 1, 3, 0, 1, 0, 1, len(corners)) + b"".join(struct.pack("<3q", *c) for c in corners) +
                 b"".join(struct.pack("<729h", *s) for s in steps))
     for name, packed in (("none", payload([], [])), ("flat", payload([(0, 0, 0)], [[100] * 729])),
                          ("two", payload([(0, 0, 0), (-1, 2, 3)], [[k % 90 - 45 for k in range(729)], [-32768] * 700 + [7] * 29]))):
@@ -325,6 +325,6 @@ def requests():
     put("requests", "all", "\n".join(json.dumps(line) for line in lines))
 
 
-for write in (meshes, models, pictures, volumes, bricks, patterns, drawings, elements, formulas, jobs, shards_and_journals, replies, recipes, tables,
-              requests):
+for write in (meshes, models, pictures, volumes, bricks, patterns, drawings, elements, formulas, jobs,
+              shards_and_journals, replies, recipes, tables, requests):
     write()
