@@ -51,6 +51,14 @@ void announce_pattern(OptimizeOptions& options) {
     };
 }
 
+void announce_elements(OptimizeOptions& options) {
+    options.on_elements = [kept = !options.plans.empty()](const ElementIteration& iteration,
+                                                          int /*iterations*/) {
+        if (iteration.index > 0) return;
+        std::fputs(kept ? "placing elements, which are kept for later runs\n" : "placing elements\n", stderr);
+    };
+}
+
 OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& cancel) {
     OptimizeOptions optimizing;
     optimizing.plans = options.plans;
@@ -87,7 +95,9 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
 OptimizeOptions with_kept_plans(bool quiet) {
     OptimizeOptions options;
     options.plans = default_plan_folder();
-    if (!quiet) announce_pattern(options);
+    if (quiet) return options;
+    announce_pattern(options);
+    announce_elements(options);
     return options;
 }
 

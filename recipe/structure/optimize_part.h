@@ -32,7 +32,7 @@ struct OptimizeOptions {
     const CancelToken* cancel = nullptr;
     /// Called before the pattern of a skin is synthesised, which may take minutes; may be empty.
     std::function<void()> on_pattern{};
-    /// Called after each iteration of a search for elements with the number of iterations; may be empty.
+    /// As in PlaceElementsOptions::on_iteration.
     std::function<void(const ElementIteration&, int iterations)> on_elements{};
     SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
 };

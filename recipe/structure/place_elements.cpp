@@ -355,6 +355,7 @@ PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const 
     std::optional<ElementPlan> kept;
     if (!file.empty()) kept = read_kept(file, read_element_plan);
     if (!kept) {
+        if (options.on_iteration) options.on_iteration({}, problem.elements->iterations);
         ThreadArena arena(options.threads);
         kept = arena.execute([&] {
             return is_flat ? searched<2>(problem, *body, regions, gradings, options)

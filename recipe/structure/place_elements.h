@@ -11,7 +11,8 @@ struct PlaceElementsOptions {
     std::filesystem::path plans{};        ///< folder for results; empty: none are read or kept
     int threads = 0;                      ///< 0: one per core
     const CancelToken* cancel = nullptr;  ///< may be null
-    /// Called after each iteration with the number of iterations; may be empty.
+    /// Called before the search with iteration 0, and after each iteration; with the number of iterations.
+    /// May be empty.
     std::function<void(const ElementIteration&, int iterations)> on_iteration{};
 };
 
