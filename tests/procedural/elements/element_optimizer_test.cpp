@@ -114,6 +114,66 @@ TEST_CASE("a beam of sticks is one piece and nearly as stiff as the free optimum
     CHECK(beam.true_compliance() < 1.8);
 }
 
+TEST_CASE("the gradient of the compliance is that of differences, once elements carry", "[elements]") {
+    const SticksBeam beam(30, 3, 20);
+    const auto compliance_of = [&](const std::vector<PlacedElement>& elements, ElementRaster& raster) {
+        raster.set(elements);
+        Compliance<2> analysis(beam.problem, {.tolerance = 1e-12, .max_iterations = 20000});
+        return analysis.evaluate(raster.densities());
+    };
+    ElementRaster raster(beam.grid, beam.problem.use, beam.tables, 1.5, 0.25);
+    const std::vector<PlacedElement>& elements = beam.joined.elements;
+    const auto found = compliance_of(elements, raster);
+    const std::vector<ElementGradient> gradients = raster.gradients(found.gradient, 0);
+    constexpr double step = 1e-6;  // short of the kinks where densities reach 1
+    double largest = 0;
+    for (std::size_t k = 0; k < elements.size(); k += 7) {
+        const auto slope = [&](const auto& change) {
+            std::vector<PlacedElement> more = elements, less = elements;
+            change(more[k], step);
+            change(less[k], -step);
+            ElementRaster other = raster;
+            return (compliance_of(more, other).total - compliance_of(less, other).total) / (2 * step);
+        };
+        const double x = slope([](PlacedElement& e, double by) { e.at.x += by; });
+        const double y = slope([](PlacedElement& e, double by) { e.at.y += by; });
+        const double turn = slope([](PlacedElement& e, double by) { e = turned(e, {0, 0, by}); });
+        const double margin = 1e-5 * found.total;
+        CHECK(gradients[k].at.x == Approx(x).epsilon(1e-5).margin(margin));
+        CHECK(gradients[k].at.y == Approx(y).epsilon(1e-5).margin(margin));
+        CHECK(gradients[k].turn.z == Approx(turn).epsilon(1e-5).margin(margin));
+        largest = std::max({largest, std::abs(x), std::abs(y), std::abs(turn)});
+    }
+    CHECK(largest > 100 * 1e-5 * found.total);
+}
+
+TEST_CASE("a problem that is turned with its elements is as stiff", "[elements]") {
+    constexpr int nx = 48, ny = 30, at_y = 9;
+    const std::vector<DistanceTable> tables{DistanceTable(*make_stick(14, 4), 4, 160, true)};
+    TopologyProblem<2> upright = plane_cantilever(nx, ny, 0.5, at_y),
+                       turned_left = free_box<2>({ny, nx, 1}, 0.5, 0);
+    for (int x = 0; x <= ny; ++x) turned_left.body.fixed[turned_left.body.grid.number(x, 0, 0)] = 3;
+    turned_left.cases[0].forces.along[0][turned_left.body.grid.number(ny - at_y, nx, 0)] = 1;
+    upright.law = turned_left.law = element_law();
+    const std::vector<double> even(upright.use.size(), 1.0);
+    const std::vector<PlacedElement> elements =
+        sampled_elements(squares(nx, ny), even, {}, {.count = 40, .seed = 4});
+    std::vector<PlacedElement> moved = elements;
+    for (PlacedElement& e : moved) {
+        e.at = {ny - e.at.y, e.at.x, e.at.z};
+        e.turn = turn_to(dvec3(0, 1, 0)) * e.turn;
+    }
+    const auto compliance_of = [&](const TopologyProblem<2>& problem, const CellGrid& grid,
+                                   const std::vector<PlacedElement>& placed) {
+        ElementRaster raster(grid, problem.use, tables, 1.5, 0.25);
+        raster.set(placed);
+        Compliance<2> analysis(problem, {.tolerance = 1e-9, .max_iterations = 20000});
+        return analysis.evaluate(raster.densities()).total;
+    };
+    CHECK(compliance_of(turned_left, squares(ny, nx), moved) ==
+          Approx(compliance_of(upright, squares(nx, ny), elements)).epsilon(1e-4));
+}
+
 TEST_CASE("elements do not depend on threads", "[elements]") {
     std::vector<PlacedElement> one;
     for (const int threads : {1, 3}) {
