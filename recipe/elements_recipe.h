@@ -26,7 +26,7 @@ struct ElementRecipe {
 struct ElementsRecipe {
     int count = 100;
     double scale_min = 1, scale_max = 1;
-    double overlap = 0.2;  ///< share of the copies' volume that lies in others or outside the body, at most
+    double overlap = 0.3;  ///< share of the copies' volume that lies in others or outside the body, at most
     bool turns = true;     ///< whether copies may turn
     std::int64_t seed = 1;
     double element = 0;  ///< edge of the finite elements, mm; 0: a third of the thinnest shape

@@ -10,6 +10,7 @@
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
 #include "engine/layers/plate.h"
+#include "procedural/elements/element_optimizer.h"
 #include "recipe/build/repair_job.h"
 #include "recipe/layer_range.h"
 #include "recipe/output/job_picture.h"

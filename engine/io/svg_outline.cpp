@@ -120,6 +120,7 @@ class Drawing {
     void add_shape(const pugi::xml_node& node, const Map& map);
     void add(const std::vector<dvec2>& points, const Map& map) {
         std::vector<dvec2> polygon;
+        polygon.reserve(points.size());
         for (const dvec2 p : points) polygon.push_back(map(p));
         if (polygon.size() > 2) polygons_.push_back(std::move(polygon));
     }

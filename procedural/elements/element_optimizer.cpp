@@ -106,7 +106,10 @@ void ElementOptimizer<Dim>::accept(const ElementRaster& raster,
     std::vector<double> by_density = found.gradient;
     for (double& slope : by_density) slope /= found.total;
     slopes_ = raster.gradients(by_density, 0);
-    constraints_ = {overlap_bound(raster)};
+    // As large as they are: thinner ones would overlap less than they may.
+    ElementRaster whole(grid_, problem_.use, shapes_, width_in_cells * grid_.edge(), 0);
+    whole.set(elements_);
+    constraints_ = {overlap_bound(whole)};
     if (settings_.scale.width() > 0) constraints_.push_back(content_bound());
     measure_loads(raster, by_density);
 }

@@ -12,6 +12,7 @@
 #include "recipe/build/build_process.h"
 #include "recipe/build/fill_body.h"
 #include "recipe/identity.h"
+#include "recipe/structure/place_elements.h"
 
 namespace lamella {
 

@@ -7,6 +7,7 @@
 #include "engine/layers/layer.h"
 #include "engine/surveys/island_survey.h"
 #include "engine/surveys/piece_joins.h"
+#include "procedural/elements/element_plan.h"
 #include "recipe/build/build_body.h"
 #include "recipe/build/build_enclosure.h"
 #include "recipe/build/build_foam.h"
@@ -17,7 +18,6 @@
 #include "recipe/build/place_drains.h"
 #include "recipe/recipe.h"
 #include "recipe/structure/optimize_part.h"
-#include "recipe/structure/place_elements.h"
 
 namespace lamella {
 
