@@ -52,7 +52,7 @@ expect "PART2.STL folder part.toml two words.toml" check --layer-height 0.2 ""
 expect "part.toml" slice p
 expect "ready.gcode" print r
 expect "folder" extract job.sl1 -o fold
-expect "beams seeds" dump ""
+expect "beams elements seeds" dump ""
 expect "part.toml" dump seeds p
 expect "csv" dump seeds part.toml --format c
 expect "svg" section part.toml --format s
