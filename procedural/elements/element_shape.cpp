@@ -156,7 +156,8 @@ class Ring : public ElementShape {
 };
 
 void Ring::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const {
-    const double speed = length(direction), outside = large_ + small_;
+    // A little more than the ball around it, which it touches along its equator.
+    const double speed = length(direction), outside = (large_ + small_) * (1 + 1e-6);
     const dvec3 way = direction / speed;
     const double nearest = -dot(p, way);
     const dvec3 middle = p + nearest * way;
