@@ -1,5 +1,4 @@
-// A tree of boxes for values, an index over heights for slices, beams where shapes are beams, else cuts in
-// their frames.
+// A tree of boxes; beams where shapes are beams, else cuts in their frames.
 #include "procedural/elements/element_field.h"
 
 #include <algorithm>
@@ -7,8 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/field/slice_context.h"
-#include "engine/mesh/halving_tree.h"
-#include "engine/runs/interval_index.h"
+#include "engine/mesh/box_tree.h"
 #include "engine/solids/beam_slice.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/plane_index.h"
@@ -27,7 +25,7 @@ class ElementField : public Field {
     double value_within(dvec3 p, double limit) const override;
     Metric metric() const override { return Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override;
-    Box bounds() const override { return nodes_.front().box; }
+    Box bounds() const override { return tree_.bounds(); }
 
     /// Returns the beam that an element is, if its shape is one, as it meets the plane at height z.
     std::optional<Beam> beam(std::uint32_t element, double z) const {
@@ -50,10 +48,7 @@ class ElementField : public Field {
     }
 
   private:
-    struct Node {
-        Box box;
-        std::uint32_t first, count;
-    };
+    std::vector<Box> boxes() const;
     Box box_of(const PlacedElement& element) const;
     double distance(std::uint32_t element, dvec3 p) const;
 
@@ -61,9 +56,7 @@ class ElementField : public Field {
     std::vector<PlacedElement> elements_;
     std::optional<Interval> upright_;
     std::vector<Box> boxes_;
-    IntervalIndex by_height_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    BoxTree tree_;
 };
 
 class ElementSlice : public SampledSlice {
@@ -130,22 +123,17 @@ void ElementSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) con
 
 ElementField::ElementField(std::vector<ElementShapePtr> shapes, std::vector<PlacedElement> elements,
                            std::optional<Interval> upright)
-    : shapes_(std::move(shapes)), elements_(std::move(elements)), upright_(upright) {
-    std::vector<Interval> heights;
-    std::vector<dvec3> centres;
-    for (const PlacedElement& element : elements_) {
-        boxes_.push_back(box_of(element));
-        heights.push_back({boxes_.back().lo.z, boxes_.back().hi.z});
-        centres.push_back(boxes_.back().center());
-        order_.push_back(static_cast<std::uint32_t>(order_.size()));
-    }
-    by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
-    const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
-        Node node{{}, first, last - first};
-        for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
-        return node;
-    };
-    build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(elements_.size()), centres, leaf);
+    : shapes_(std::move(shapes)),
+      elements_(std::move(elements)),
+      upright_(upright),
+      boxes_(boxes()),
+      tree_(boxes_) {}
+
+std::vector<Box> ElementField::boxes() const {
+    std::vector<Box> boxes;
+    boxes.reserve(elements_.size());
+    for (const PlacedElement& element : elements_) boxes.push_back(box_of(element));
+    return boxes;
 }
 
 Box ElementField::box_of(const PlacedElement& element) const {
@@ -176,21 +164,12 @@ double ElementField::distance(std::uint32_t element, dvec3 p) const {
 }
 
 double ElementField::value_within(dvec3 p, double limit) const {
-    double best = limit;
-    visit_nearest_first(
-        nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
-        // Inside overlapping boxes the smallest distance counts, so do not prune them.
-        [&](double near) { return near < best || near == 0; },
-        [&](const Node& node) {
-            for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
-                best = std::min(best, distance(order_[k], p));
-        });
-    return best;
+    return tree_.least(p, limit, [&](std::uint32_t element) { return distance(element, p); });
 }
 
 const SliceField& ElementField::slice(SliceContext& context, double z) const {
     std::vector<std::uint32_t> meeting;
-    if (!upright_ || (upright_->lo <= z && z < upright_->hi)) by_height_.query({z, z}, meeting);
+    if (!upright_ || (upright_->lo <= z && z < upright_->hi)) meeting = tree_.at_height(z);
     return context.make<ElementSlice>(*this, meeting, z);
 }
 

@@ -1,12 +1,10 @@
-// A bounding-volume tree for values, an interval index over heights for slices, and two kinds of pieces:
-// beams and prisms.
+// A tree of boxes, and two kinds of pieces: beams and prisms.
 #include "procedural/scaffold/scaffold_field.h"
 
 #include <array>
 
 #include "engine/field/slice_context.h"
-#include "engine/mesh/halving_tree.h"
-#include "engine/runs/interval_index.h"
+#include "engine/mesh/box_tree.h"
 #include "engine/solids/beam_slice.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/primitives.h"
@@ -19,43 +17,14 @@ namespace {
 class Pieces {
   public:
     Pieces(std::vector<Prism> uprights, std::vector<Beam> beams)
-        : uprights_(std::move(uprights)), beams_(std::move(beams)) {
-        std::vector<Interval> heights;
-        std::vector<dvec3> centers;
-        for (std::size_t i = 0; i < size(); ++i) {
-            boxes_.push_back(i < uprights_.size() ? bounds(uprights_[i])
-                                                  : lamella::bounds(beams_[i - uprights_.size()]));
-            heights.push_back({boxes_[i].lo.z, boxes_[i].hi.z});
-            centers.push_back(boxes_[i].center());
-            order_.push_back(static_cast<std::uint32_t>(i));
-        }
-        by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
-        const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
-            Node node{{}, first, last - first};
-            for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes_[order_[k]]);
-            return node;
-        };
-        build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(size()), centers, leaf);
-    }
+        : uprights_(std::move(uprights)), beams_(std::move(beams)), tree_(boxes()) {}
 
-    const Box& box() const { return nodes_.front().box; }
+    const Box& box() const { return tree_.bounds(); }
     double distance(dvec3 p, double limit) const {
-        double best = limit;
-        visit_nearest_first(
-            nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
-            // Inside overlapping boxes the smallest distance counts, so do not prune them.
-            [&](double near) { return near < best || near == 0; },
-            [&](const Node& node) {
-                for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-                    best = std::min(best, signed_distance(order_[k], p));
-                }
-            });
-        return best;
+        return tree_.least(p, limit, [&](std::uint32_t i) { return signed_distance(i, p); });
     }
     void at_height(double z, std::vector<Prism>& uprights, std::vector<Beam>& beams) const {
-        std::vector<std::uint32_t> numbers;
-        by_height_.query({z, z}, numbers);
-        for (const std::uint32_t i : numbers) {
+        for (const std::uint32_t i : tree_.at_height(z)) {
             if (i >= uprights_.size()) {
                 beams.push_back(beams_[i - uprights_.size()]);
             } else if (const Prism& upright = uprights_[i]; upright.lo <= z && z < upright.hi) {
@@ -65,22 +34,19 @@ class Pieces {
     }
 
   private:
-    struct Node {
-        Box box;
-        std::uint32_t first;
-        std::uint32_t count;
-    };
-    std::size_t size() const { return uprights_.size() + beams_.size(); }
+    std::vector<Box> boxes() const {
+        std::vector<Box> boxes;
+        for (const Prism& upright : uprights_) boxes.push_back(bounds(upright));
+        for (const Beam& beam : beams_) boxes.push_back(lamella::bounds(beam));
+        return boxes;
+    }
     double signed_distance(std::uint32_t i, dvec3 p) const {
         return i < uprights_.size() ? lamella::signed_distance(uprights_[i], p)
                                     : lamella::signed_distance(beams_[i - uprights_.size()], p);
     }
     std::vector<Prism> uprights_;
     std::vector<Beam> beams_;
-    std::vector<Box> boxes_;
-    IntervalIndex by_height_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    BoxTree tree_;
 };
 
 class ScaffoldSlice : public SampledSlice {

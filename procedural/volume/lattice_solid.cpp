@@ -1,11 +1,10 @@
-// A bounding-volume tree for values, an interval index over heights for slices.
+// Pieces in a tree of boxes.
 #include "procedural/volume/lattice_solid.h"
 
 #include <array>
 
 #include "engine/field/slice_context.h"
-#include "engine/mesh/halving_tree.h"
-#include "engine/runs/interval_index.h"
+#include "engine/mesh/box_tree.h"
 #include "engine/solids/beam_slice.h"
 #include "engine/solids/plane_index.h"
 #include "engine/solids/primitives.h"
@@ -74,12 +73,6 @@ class LatticeSlice : public SampledSlice {
 
 /// Pieces by index: beams first, then those with a flat side.
 class LatticeSolid : public Field {
-    struct Node {
-        Box box;
-        std::uint32_t first;
-        std::uint32_t count;
-    };
-
     template <typename Take>
     auto visit(std::size_t i, const Take& take) const {
         return i < pieces_.beams.size() ? take(pieces_.beams[i])
@@ -87,28 +80,11 @@ class LatticeSolid : public Field {
     }
 
   public:
-    explicit LatticeSolid(LatticePieces pieces) : pieces_(std::move(pieces)) {
-        std::vector<Interval> heights;
-        std::vector<dvec3> centers;
-        std::vector<Box> boxes;
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            boxes.push_back(visit(i, [](const auto& piece) { return lamella::bounds(piece); }));
-            heights.push_back({boxes[i].lo.z, boxes[i].hi.z});
-            centers.push_back(boxes[i].center());
-            order_.push_back(static_cast<std::uint32_t>(i));
-        }
-        by_height_ = IntervalIndex(heights, std::vector<double>(heights.size(), 0.0));
-        const auto leaf = [&](std::uint32_t first, std::uint32_t last) {
-            Node node{{}, first, last - first};
-            for (std::uint32_t k = first; k < last; ++k) node.box = unite(node.box, boxes[order_[k]]);
-            return node;
-        };
-        build_by_halving(nodes_, order_, 0, static_cast<std::uint32_t>(boxes.size()), centers, leaf);
-    }
+    explicit LatticeSolid(LatticePieces pieces) : pieces_(std::move(pieces)), tree_(boxes()) {}
 
     double value(dvec3 p) const override { return distance(p, infinity); }
     double value_within(dvec3 p, double limit) const override { return distance(p, limit); }
-    Box bounds() const override { return nodes_.front().box; }
+    Box bounds() const override { return tree_.bounds(); }
 
     /// Radii grow by d. Flat sides would get round edges, and eroded joints have no closed form.
     FieldPtr offset(double d) const override {
@@ -122,11 +98,9 @@ class LatticeSolid : public Field {
     }
 
     const SliceField& slice(SliceContext& context, double z) const override {
-        std::vector<std::uint32_t> numbers;
-        by_height_.query({z, z}, numbers);
         std::vector<Beam> beams;
         std::vector<FlatPiece> flat;
-        for (const std::uint32_t i : numbers) {
+        for (const std::uint32_t i : tree_.at_height(z)) {
             if (i < pieces_.beams.size()) {
                 beams.push_back(pieces_.beams[i]);
             } else {
@@ -137,25 +111,20 @@ class LatticeSolid : public Field {
     }
 
   private:
+    std::vector<Box> boxes() const {
+        std::vector<Box> boxes;
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+            boxes.push_back(visit(i, [](const auto& piece) { return lamella::bounds(piece); }));
+        return boxes;
+    }
     double distance(dvec3 p, double limit) const {
-        double best = limit;
-        visit_nearest_first(
-            nodes_, [&](const Node& node) { return lamella::distance(node.box, p); },
-            // Inside overlapping boxes the smallest distance counts, so do not prune them.
-            [&](double near) { return near < best || near == 0; },
-            [&](const Node& node) {
-                for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-                    best = std::min(
-                        best, visit(order_[k], [&](const auto& piece) { return signed_distance(piece, p); }));
-                }
-            });
-        return best;
+        return tree_.least(p, limit, [&](std::uint32_t i) {
+            return visit(i, [&](const auto& piece) { return signed_distance(piece, p); });
+        });
     }
 
     LatticePieces pieces_;
-    IntervalIndex by_height_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    BoxTree tree_;
 };
 
 /// Adds the cap of a beam at one of its ends; `away` points out of the beam there, and is 0 for one without
