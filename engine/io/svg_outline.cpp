@@ -120,6 +120,9 @@ class Drawing {
     void add_shape(const pugi::xml_node& node, const Map& map);
     void add(const std::vector<dvec2>& points, const Map& map) {
         std::vector<dvec2> polygon;
+        count_ += points.size();
+        if (count_ > most_svg_points)
+            throw InputError(path_ + ": has more than a million points; accepted: a simpler drawing");
         polygon.reserve(points.size());
         for (const dvec2 p : points) polygon.push_back(map(p));
         if (polygon.size() > 2) polygons_.push_back(std::move(polygon));
@@ -128,6 +131,7 @@ class Drawing {
     const std::string& path_;
     double tolerance_;
     std::string text_;
+    std::size_t count_ = 0;  ///< points of all polygons
     std::vector<std::vector<dvec2>> polygons_;
 };
 

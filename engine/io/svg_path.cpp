@@ -12,7 +12,6 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t most_points = 1'000'000;
 constexpr int most_chords = 1000;  // of a curve
 
 /// Returns into how many chords an arc of this angle (radians) is cut.
@@ -78,7 +77,7 @@ class PathReader {
     }
     void add(dvec2 p) {
         if (points_.empty()) points_.push_back(now_);
-        if (++count_ > most_points) refuse("has more than a million points");
+        if (++count_ > most_svg_points) refuse("has more than a million points");
         points_.push_back(p);
         now_ = p;
     }

@@ -9,6 +9,9 @@
 
 namespace lamella {
 
+/// Most points of a path, and of a drawing: a few bytes of a curve become many.
+inline constexpr std::size_t most_svg_points = 1'000'000;
+
 /// A subpath, flattened.
 struct SvgSubpath {
     std::vector<dvec2> points;  ///< without a repeated last point if it is closed
