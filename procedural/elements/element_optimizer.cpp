@@ -59,18 +59,11 @@ double ElementOptimizer<Dim>::content(const PlacedElement& element) const {
 template <std::size_t Dim>
 ElementIteration ElementOptimizer<Dim>::iterate() {
     const bool is_late = progress() >= late;
-    const ElementRaster raster = [&] {
-        ElementRaster made(grid_, problem_.use, shapes_, width_in_cells * grid_.edge(),
-                           is_late ? thinner_at_last : thinner_at_first);
-        made.set(trial_);
-        return made;
-    }();
+    ElementRaster raster(grid_, problem_.use, shapes_, width_in_cells * grid_.edge(),
+                         is_late ? thinner_at_last : thinner_at_first);
+    raster.set(trial_);
     const auto found = compliance_.evaluate(raster.densities());
-    ElementIteration done{.index = iteration_ + 1,
-                          .compliance = found.total,
-                          .overlap = raster.overlap() / content_,
-                          .moved = 0,
-                          .solver_iterations = found.iterations};
+    ElementIteration done{.index = iteration_ + 1, .compliance = found.total};
     if (is_late && !was_late_) is_new_ = true;  // thinner elements are not to be compared
     was_late_ = is_late;
     constexpr double slack = 1.01, widen = 1.3, narrow = 0.5, narrowest = 1e-3;

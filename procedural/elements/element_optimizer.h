@@ -20,9 +20,7 @@ struct ElementSettings {
 struct ElementIteration {
     int index = 0;          ///< from 1
     double compliance = 0;  ///< weighted sum over cases, of the step that it tried
-    double overlap = 0;     ///< share of the elements' content
     std::size_t moved = 0;  ///< idle elements that went elsewhere
-    int solver_iterations = 0;
 };
 
 /// Minimises the compliance of placed elements by steps of the method of moving asymptotes within limits that
@@ -43,7 +41,7 @@ class ElementOptimizer {
     /// changed.
     ElementIteration iterate();
     bool is_finished() const { return iteration_ >= settings_.iterations; }
-    /// Returns the stiffest elements so far.
+    /// Returns the elements that were taken last.
     const std::vector<PlacedElement>& elements() const { return elements_; }
     /// Returns how much of the strain energy each of them has, over its content, such that the mean over the
     /// content is 1.

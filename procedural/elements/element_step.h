@@ -40,7 +40,11 @@ class ElementStep {
     /// Says that the last step was taken: the next call of from() compares directions with it.
     void take() { taken_ = last_; }
     /// Forgets directions and reaches.
-    void forget() { reaches_.clear(), taken_.clear(), last_.clear(); }
+    void forget() {
+        reaches_.clear();
+        taken_.clear();
+        last_.clear();
+    }
 
   private:
     enum class Kind : std::uint8_t { middle, near_end, far_end, roll, scale };
