@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,13 @@ namespace lamella {
 
 namespace {
 
+/// Its number is raised whenever the same recipe places elements otherwise, so that plans of older versions
+/// are not taken.
 constexpr std::string_view title = "lamella elements 1";
+
+[[noreturn]] void refuse(const std::string& name) {
+    throw InputError(name + ": damaged or cut off; accepted: a plan of elements as Lamella writes it");
+}
 
 /// Returns the numbers of a line, which has to have `count` of them.
 std::vector<double> numbers_of(std::istream& in, std::size_t count, const std::string& name) {
@@ -28,9 +35,14 @@ std::vector<double> numbers_of(std::istream& in, std::size_t count, const std::s
         numbers.push_back(*number);
         begin = end + 1;
     }
-    if (!in || numbers.size() != count)
-        throw InputError(name + ": damaged or cut off; accepted: a plan of elements as Lamella writes it");
+    if (!in || numbers.size() != count) refuse(name);
     return numbers;
+}
+
+std::size_t count_of(double number, const std::string& name) {
+    constexpr double most = 1e9;
+    if (!(number >= 0 && number <= most) || number != std::floor(number)) refuse(name);
+    return static_cast<std::size_t>(number);
 }
 
 }  // namespace
@@ -56,18 +68,21 @@ ElementPlan read_element_plan(std::istream& in, const std::string& name) {
     if (first != title) throw InputError(name + ": no plan of elements; accepted: one that Lamella wrote");
     const std::vector<double> known = numbers_of(in, 8, name);
     ElementPlan plan{.elements = {},
-                     .pieces = static_cast<std::size_t>(known[1]),
-                     .moved = static_cast<std::size_t>(known[2]),
-                     .dropped = static_cast<std::size_t>(known[3]),
+                     .pieces = count_of(known[1], name),
+                     .moved = count_of(known[2], name),
+                     .dropped = count_of(known[3], name),
                      .volume = known[4],
                      .compliance = known[5],
                      .full_compliance = known[6],
                      .optimum = known[7]};
-    for (double k = 0; k < known[0]; ++k) {
+    const std::size_t count = count_of(known[0], name);
+    for (std::size_t k = 0; k < count; ++k) {
         const std::vector<double> n = numbers_of(in, 9, name);
-        plan.elements.push_back({.shape = static_cast<std::uint32_t>(n[0]),
+        const glm::dquat turn(n[4], n[5], n[6], n[7]);
+        if (!(std::abs(glm::dot(turn, turn) - 1) < 1e-9) || !(n[8] > 0)) refuse(name);
+        plan.elements.push_back({.shape = static_cast<std::uint32_t>(count_of(n[0], name)),
                                  .at = {n[1], n[2], n[3]},
-                                 .turn = {n[4], n[5], n[6], n[7]},
+                                 .turn = turn,
                                  .scale = n[8]});
     }
     return plan;
