@@ -60,30 +60,26 @@ class Pieces {
            const JoinSettings& settings)
         : elements_(std::move(elements)), shapes_(shapes), settings_(settings) {}
 
-    /// Returns the representative of each element's piece; what is held is one piece.
+    /// Returns the representative of the piece of each element, and then of each solid.
     std::vector<std::uint32_t> pieces() {
         pairs_ = near_pairs(elements_, shapes_, settings_.reach);
         overlaps_.resize(pairs_.size());
         parallel_for(pairs_.size(), [&](std::size_t i) {
             overlaps_[i] = overlap_of(elements_[pairs_[i].first], elements_[pairs_[i].second], shapes_,
-                                      settings_.reach, settings_.is_flat);
+                                      settings_.reach, settings_.is_flat, settings_.body);
         });
-        DisjointSets sets(elements_.size());
+        const auto count = static_cast<std::uint32_t>(elements_.size());
+        DisjointSets sets(count + settings_.solids);
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             if (overlaps_[i].depth >= settings_.hold) sets.join(pairs_[i].first, pairs_[i].second);
         }
-        std::optional<std::uint32_t> first_held;
-        for (std::uint32_t k = 0; k < settings_.held.size(); ++k) {
-            if (settings_.held[k] == 0) continue;
-            if (first_held) sets.join(*first_held, k);
-            first_held = first_held.value_or(k);
-        }
+        for (const Touch& touch : settings_.touches) sets.join(touch.element, count + touch.solid);
         std::vector<std::uint32_t> piece;
-        for (std::uint32_t k = 0; k < elements_.size(); ++k) piece.push_back(sets.find(k));
+        for (std::uint32_t k = 0; k < sets.size(); ++k) piece.push_back(sets.find(k));
         return piece;
     }
     std::optional<std::size_t> narrowest_gap(std::span<const std::uint32_t> piece, std::uint32_t main,
-                                             std::span<const std::uint8_t> is_idle) const;
+                                             std::span<const std::uint8_t> stays) const;
     /// Moves the piece that is not the main one until both hold together; returns the number of elements.
     std::size_t close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main);
     const std::vector<PlacedElement>& elements() const { return elements_; }
@@ -96,15 +92,15 @@ class Pieces {
     std::vector<Overlap> overlaps_;
 };
 
-/// Returns the pair of an element of the main piece and one of another, neither idle, that are nearest; none
-/// out of reach.
+/// Returns the pair of an element of the main piece and one of another, which does not stay where it is, that
+/// are nearest; none out of reach.
 std::optional<std::size_t> Pieces::narrowest_gap(std::span<const std::uint32_t> piece, std::uint32_t main,
-                                                 std::span<const std::uint8_t> is_idle) const {
+                                                 std::span<const std::uint8_t> stays) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
         const auto [a, b] = pairs_[i];
         const bool is_between = (piece[a] == main) != (piece[b] == main);
-        if (!is_between || is_idle[a] != 0 || is_idle[b] != 0) continue;
+        if (!is_between || stays[piece[a] == main ? b : a] != 0) continue;
         if (-2 * overlaps_[i].depth > settings_.reach) continue;
         if (!best || overlaps_[i].depth > overlaps_[*best].depth) best = i;
     }
@@ -141,36 +137,39 @@ std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece
 }  // namespace
 
 Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
-                   double reach, bool is_flat) {
+                   double reach, bool is_flat, const Field* body) {
     const double reach_a = reach_of(a, shapes), reach_b = reach_of(b, shapes);
     // Within both balls, grown by half of the reach.
     const Box box{glm::max(a.at - reach_a, b.at - reach_b) - 0.5 * reach,
                   glm::min(a.at + reach_a, b.at + reach_b) + 0.5 * reach};
     const bool is_apart = box.lo.x > box.hi.x || box.lo.y > box.hi.y || (!is_flat && box.lo.z > box.hi.z);
     if (is_apart) return {};
-    const auto depth = [&](dvec3 p) {
-        return -std::max(distance_of(a, shapes, p, is_flat), distance_of(b, shapes, p, is_flat));
-    };
     constexpr int samples = 12;
     Overlap best;
+    const auto try_at = [&](dvec3 p) {
+        const double a_depth = -distance_of(a, shapes, p, is_flat);
+        if (!(a_depth > best.depth)) return false;
+        double depth = std::min(a_depth, -distance_of(b, shapes, p, is_flat));
+        // The body's value may cost more than all else.
+        if (body != nullptr && depth > best.depth) depth = std::min(depth, -body->value(p));
+        if (!(depth > best.depth)) return false;
+        best = {depth, p};
+        return true;
+    };
     for (int k = 0; k < samples * samples * (is_flat ? 1 : samples); ++k) {
         const dvec3 share(k % samples, k / samples % samples, k / samples / samples);
         dvec3 p = box.lo + box.size() * (share + 0.5) / static_cast<double>(samples);
         if (is_flat) p.z = a.at.z;
-        if (const double here = depth(p); here > best.depth) best = {here, p};
+        try_at(p);
     }
     const dvec3 size = box.size();
     double step = std::max({size.x, size.y, is_flat ? 0 : size.z}) / samples;
     const double finest = 1e-3 * std::min(reach_a, reach_b);
     while (step > finest) {
+        const dvec3 middle = best.at;
         bool is_better = false;
-        for (int k = 0; k < (is_flat ? 9 : 27); ++k) {
-            const dvec3 p = best.at + step * dvec3(k % 3 - 1, k / 3 % 3 - 1, is_flat ? 0 : k / 9 - 1);
-            if (const double here = depth(p); here > best.depth) {
-                best = {here, p};
-                is_better = true;
-            }
-        }
+        for (int k = 0; k < (is_flat ? 9 : 27); ++k)
+            is_better |= try_at(middle + step * dvec3(k % 3 - 1, k / 3 % 3 - 1, is_flat ? 0 : k / 9 - 1));
         if (!is_better) step *= 0.5;
     }
     return best;
@@ -182,31 +181,35 @@ JoinedElements join_elements(std::vector<PlacedElement> elements, std::span<cons
     const std::size_t all = elements.size();
     Pieces pieces(std::move(elements), shapes, settings);
     std::vector<std::uint32_t> piece = pieces.pieces();
-    std::vector<double> load(all, 0.0), busiest(all, 0.0);
-    for (std::uint32_t k = 0; k < all; ++k) {
-        joined.pieces += piece[k] == k ? 1 : 0;
+    std::vector<double> load(piece.size(), 0.0), busiest(piece.size(), 0.0);
+    std::vector<std::uint8_t> is_counted(piece.size(), 0), touches_solid(piece.size(), 0);
+    for (std::size_t k = 0; k < all; ++k) {
+        joined.pieces += is_counted[piece[k]] == 0 ? 1 : 0;
+        is_counted[piece[k]] = 1;
         load[piece[k]] += loads[k];
         busiest[piece[k]] = std::max(busiest[piece[k]], loads[k]);
     }
+    for (std::size_t k = all; k < piece.size(); ++k) touches_solid[piece[k]] = 1;
     // Pieces are told by their lowest number, which joining changes: an element tells the main one.
     const auto in_main = static_cast<std::size_t>(std::ranges::max_element(load) - load.begin());
-    std::vector<std::uint8_t> is_idle;
-    for (std::uint32_t k = 0; k < all; ++k)
-        is_idle.push_back(piece[k] != piece[in_main] && busiest[piece[k]] < settings.idle ? 1 : 0);
+    std::vector<std::uint8_t> stays;
+    for (std::size_t k = 0; k < all; ++k)
+        stays.push_back(busiest[piece[k]] < settings.idle || touches_solid[piece[k]] != 0 ? 1 : 0);
     for (std::size_t round = 0; round < all; ++round) {
         const std::uint32_t main = piece[in_main];
-        const auto gap = pieces.narrowest_gap(piece, main, is_idle);
+        const auto gap = pieces.narrowest_gap(piece, main, stays);
         if (!gap) break;
         joined.moved += pieces.close(*gap, piece, main);
         piece = pieces.pieces();
     }
-    for (std::uint32_t k = 0; k < all; ++k) {
+    for (std::size_t k = 0; k < all; ++k) {
         if (piece[k] == piece[in_main]) {
             joined.elements.push_back(pieces.elements()[k]);
         } else {
             ++joined.dropped;
         }
     }
+    for (std::size_t k = all; k < piece.size(); ++k) joined.apart += piece[k] != piece[in_main] ? 1 : 0;
     return joined;
 }
 

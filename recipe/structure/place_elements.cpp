@@ -9,16 +9,16 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/io/svg_outline.h"
 #include "engine/solids/csg.h"
 #include "procedural/elements/element_field.h"
 #include "procedural/elements/element_pieces.h"
 #include "procedural/elements/element_start.h"
+#include "procedural/optimization/density_shape.h"
 #include "procedural/optimization/element_stress.h"
 #include "procedural/optimization/topology_optimizer.h"
-#include "recipe/build/build_fields.h"
 #include "recipe/build/kept_plan.h"
 #include "recipe/identity.h"
+#include "recipe/structure/build_elements.h"
 #include "recipe/structure/design_settings.h"
 #include "recipe/structure/structural_problem.h"
 #include "recipe/structure/structure_report.h"
@@ -50,72 +50,25 @@ Recipe elements_problem(const Recipe& recipe) {
     return kept;
 }
 
-/// Returns the outline of corners or of a drawing, its longer side as long as the recipe says.
-ElementShapePtr outline_of(const ElementRecipe& element, double thickness) {
-    constexpr double tolerance = 0.01;  // mm
-    std::vector<std::vector<dvec2>> polygons(1);
-    for (const auto& row : element.corners) polygons[0].emplace_back(row[0], row[1]);
-    if (!element.file.empty()) polygons = read_svg_outlines(element.file, tolerance);
-    Rect bounds;
-    for (const auto& polygon : polygons) {
-        for (const dvec2 p : polygon) bounds = {glm::min(bounds.lo, p), glm::max(bounds.hi, p)};
-    }
-    const double longer = std::max(bounds.size().x, bounds.size().y);
-    if (element.length > 0 && longer > 0) {
-        for (auto& polygon : polygons) {
-            for (dvec2& p : polygon) p *= element.length / longer;
-        }
-    }
-    return make_outline(std::move(polygons), thickness);
-}
-
-ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings) {
-    for (const FieldRecipe& field : gradings.recipe().fields) {
-        if (field.name != element.field) continue;
-        std::optional<MeshReport> mesh;
-        return make_field_shape(build_field(field, gradings, std::nullopt, mesh));
-    }
-    throw InputError(element.where + ".field: there is no [[field]] of that name");
-}
-
-/// Returns the shapes of the recipe. In the plane, outlines are as thick as makes no difference.
-std::vector<ElementShapePtr> shapes_of(const Recipe& recipe, const Box& bounds, Gradings& gradings) {
-    std::vector<ElementShapePtr> shapes;
-    for (const ElementRecipe& element : recipe.element_shapes) {
-        try {
-            switch (element.kind) {
-                case ElementKind::stick:
-                    shapes.push_back(make_stick(element.length, element.width));
-                    break;
-                case ElementKind::ring:
-                    shapes.push_back(make_ring(element.diameter, element.width));
-                    break;
-                case ElementKind::outline:
-                    shapes.push_back(outline_of(element, recipe.elements->dimensions == 2
-                                                             ? 2 * length(bounds.size())
-                                                             : element.thickness));
-                    break;
-                case ElementKind::field:
-                    shapes.push_back(field_shape_of(element, gradings));
-                    break;
-            }
-        } catch (const InputError& error) {
-            throw InputError(element.where + ": " + error.what());
-        }
-    }
-    return shapes;
+/// Returns the thickness of the thinnest copy, mm.
+double thinnest_of(const ElementsRecipe& elements, std::span<const DistanceTable> tables) {
+    double thinnest = infinity;
+    for (const DistanceTable& table : tables) thinnest = std::min(thinnest, table.thickness());
+    return thinnest * elements.scale_min;
 }
 
 /// One search, in the plane or in space.
 template <std::size_t Dim>
 class ElementSearch {
   public:
-    ElementSearch(const Recipe& recipe, ElementDomain domain, std::vector<ElementShapePtr> shapes,
-                  std::vector<DistanceTable> tables, Gradings& gradings, const PlaceElementsOptions& options)
+    ElementSearch(const Recipe& recipe, const Field& body, ElementDomain domain,
+                  const std::vector<ElementShapePtr>& shapes, std::vector<DistanceTable> tables,
+                  Gradings& gradings, const PlaceElementsOptions& options)
         : elements_(*recipe.elements),
+          body_(body),
           options_(options),
           domain_(std::move(domain)),
-          shapes_(std::move(shapes)),
+          shapes_(shapes),
           tables_(std::move(tables)),
           problem_(structural_problem<Dim>(recipe, domain_, gradings, material_poisson)),
           grid_{domain_.size, domain_.box.lo, domain_.edges, Dim == 2} {
@@ -137,6 +90,12 @@ class ElementSearch {
         plan.pieces = joined.pieces;
         plan.moved = joined.moved;
         plan.dropped = joined.dropped;
+        if (joined.apart > 0)
+            throw InputError(
+                fmt::format("elements: {} pieces of solid regions stand apart from the others; accepted: "
+                            "regions that elements "
+                            "reach, more elements, or a region that joins them",
+                            joined.apart));
         judge(plan);
         return plan;
     }
@@ -145,6 +104,10 @@ class ElementSearch {
     double cell_volume() const { return Dim == 2 ? grid_.edges.x * grid_.edges.y : domain_.element_volume(); }
     double middle_scale() const { return 0.5 * (elements_.scale_min + elements_.scale_max); }
     double volume() const;
+    double solid_volume() const {
+        return static_cast<double>(std::ranges::count(domain_.use, ElementUse::solid)) /
+               static_cast<double>(domain_.elements());
+    }
     void check_volume() const;
     ElementSettings settings() const;
     std::vector<PlacedElement> start(ElementPlan& plan);
@@ -152,9 +115,10 @@ class ElementSearch {
     void judge(ElementPlan& plan) const;
 
     const ElementsRecipe& elements_;
+    const Field& body_;
     const PlaceElementsOptions& options_;
     ElementDomain domain_;
-    std::vector<ElementShapePtr> shapes_;
+    const std::vector<ElementShapePtr>& shapes_;
     std::vector<DistanceTable> tables_;
     StructuralProblem<Dim> problem_;
     CellGrid grid_;
@@ -172,15 +136,14 @@ double ElementSearch<Dim>::volume() const {
 
 template <std::size_t Dim>
 void ElementSearch<Dim>::check_volume() const {
-    constexpr double most = 0.95, least = 0.005;
-    const double share = volume();
+    constexpr double least = 0.005;
+    const double most = 0.95 - solid_volume(), share = volume();
     if (share > least && share < most) return;
-    throw InputError(
-        fmt::format("elements.count / --elements-count: {} elements of these shapes fill {:.3g} of the part; "
-                    "accepted: {} "
-                    "to {}, or {} shapes",
-                    elements_.count, share, std::ceil(least / share * elements_.count),
-                    std::floor(most / share * elements_.count), share > most ? "smaller" : "larger"));
+    throw InputError(fmt::format(
+        "elements.count / --elements-count: {} elements of these shapes have {:.3g} times the part's volume; "
+        "accepted: {} to {}, or {} shapes",
+        elements_.count, share, std::ceil(least / share * elements_.count),
+        std::floor(std::max(most, 0.0) / share * elements_.count), share < most ? "larger" : "smaller"));
 }
 
 template <std::size_t Dim>
@@ -197,7 +160,7 @@ ElementSettings ElementSearch<Dim>::settings() const {
 template <std::size_t Dim>
 std::vector<PlacedElement> ElementSearch<Dim>::start(ElementPlan& plan) {
     TopologyProblem<Dim>& topology = problem_.topology;
-    topology.volume = volume();
+    topology.volume = volume() + solid_volume();
     TopologySettings settings;
     settings.density.radius = 1.5;
     settings.iterations = 60;
@@ -236,20 +199,28 @@ std::vector<PlacedElement> ElementSearch<Dim>::start(ElementPlan& plan) {
 
 template <std::size_t Dim>
 JoinSettings ElementSearch<Dim>::join_settings(const ElementOptimizer<Dim>& search) const {
-    double thinnest = infinity;
-    for (const DistanceTable& table : tables_) thinnest = std::min(thinnest, table.thickness());
-    thinnest *= elements_.scale_min;
+    const double thinnest = thinnest_of(elements_, tables_);
     constexpr double held_share = 0.08;  // of the thinnest shape
     JoinSettings settings{.hold = held_share * thinnest,
                           .reach = elements_.reach > 0 ? elements_.reach : thinnest,
                           .is_flat = Dim == 2};
-    if (std::ranges::count(domain_.use, ElementUse::solid) == 0) return settings;
-    std::vector<double> solid(domain_.use.size(), 0.0);
-    for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = domain_.use[i] == ElementUse::solid ? 1 : 0;
+    settings.body = &body_;
+    const auto is_solid = [&](std::size_t i) { return domain_.use[i] == ElementUse::solid; };
+    const std::vector<std::int32_t> solid = pieces_by_faces(grid_.size, is_solid);
+    settings.solids = static_cast<std::uint32_t>(std::ranges::max(solid) + 1);
     ElementRaster raster(grid_, domain_.use, tables_, grid_.edge(), 0);
     raster.set(search.elements());
-    constexpr double enough = 0.5;  // of a cell's worth of element in solid cells
-    for (const double share : raster.shares(solid)) settings.held.push_back(share > enough ? 1 : 0);
+    std::vector<double> mask(solid.size());
+    for (std::uint32_t piece = 0; piece < settings.solids; ++piece) {
+        std::ranges::transform(solid, mask.begin(), [&](std::int32_t p) {
+            return p == static_cast<std::int32_t>(piece) ? 1.0 : 0.0;
+        });
+        const std::vector<double> shares = raster.shares(mask);
+        constexpr double enough = 0.5;  // of a cell's worth of element in solid cells
+        for (std::uint32_t k = 0; k < shares.size(); ++k) {
+            if (shares[k] > enough) settings.touches.push_back({k, piece});
+        }
+    }
     return settings;
 }
 
@@ -292,16 +263,13 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
 
 /// Returns the edge of the finite elements, mm.
 double cell_edge(const ElementsRecipe& elements, std::span<const DistanceTable> tables) {
-    double thinnest = infinity;
-    for (const DistanceTable& table : tables) thinnest = std::min(thinnest, table.thickness());
-    thinnest *= elements.scale_min;
+    const double thinnest = thinnest_of(elements, tables);
     if (elements.element == 0) return thinnest / cells_a_thickness;
     if (least_cells * elements.element > thinnest)
-        throw InputError(
-            fmt::format("elements.element / --elements-element: {} mm is too coarse for shapes {:.3g} mm "
-                        "thick, which would "
-                        "look like void; accepted: at most {:.3g} mm",
-                        elements.element, thinnest, thinnest / least_cells));
+        throw InputError(fmt::format(
+            "elements.element / --elements-element: {} mm is too coarse for shapes {:.3g} mm thick, "
+            "which would look like void; accepted: at most {:.3g} mm",
+            elements.element, thinnest, thinnest / least_cells));
     return elements.element;
 }
 
@@ -321,8 +289,7 @@ void check_element_sizes(const Recipe& recipe, std::span<const DistanceTable> ta
 
 template <std::size_t Dim>
 ElementPlan searched(const Recipe& recipe, const Field& body, const BuiltRegions& regions, Gradings& gradings,
-                     const PlaceElementsOptions& options) {
-    std::vector<ElementShapePtr> shapes = shapes_of(recipe, body.bounds(), gradings);
+                     const std::vector<ElementShapePtr>& shapes, const PlaceElementsOptions& options) {
     const auto tables_with = [&](double margin) {
         std::vector<DistanceTable> tables;
         tables.reserve(shapes.size());
@@ -339,8 +306,7 @@ ElementPlan searched(const Recipe& recipe, const Field& body, const BuiltRegions
     ElementDomain domain = element_domain(with_grid, body, regions, options.cancel);
     // As far as the smooth border of an element reaches.
     tables = tables_with(2 * domain.longest_edge() / recipe.elements->scale_min);
-    return ElementSearch<Dim>(recipe, std::move(domain), std::move(shapes), std::move(tables), gradings,
-                              options)
+    return ElementSearch<Dim>(recipe, body, std::move(domain), shapes, std::move(tables), gradings, options)
         .run();
 }
 
@@ -350,6 +316,7 @@ PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const 
                               Gradings& gradings, const PlaceElementsOptions& options) {
     const Recipe problem = elements_problem(recipe);
     const bool is_flat = problem.elements->dimensions == 2;
+    const std::vector<ElementShapePtr> shapes = build_elements(problem, body->bounds(), gradings);
     std::filesystem::path file;
     if (!options.plans.empty()) file = options.plans / (job_identity(problem) + ".elements");
     std::optional<ElementPlan> kept;
@@ -358,8 +325,8 @@ PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const 
         if (options.on_iteration) options.on_iteration({}, problem.elements->iterations);
         ThreadArena arena(options.threads);
         kept = arena.execute([&] {
-            return is_flat ? searched<2>(problem, *body, regions, gradings, options)
-                           : searched<3>(problem, *body, regions, gradings, options);
+            return is_flat ? searched<2>(problem, *body, regions, gradings, shapes, options)
+                           : searched<3>(problem, *body, regions, gradings, shapes, options);
         });
         if (!file.empty())
             keep_if_possible(file, [&](const std::filesystem::path& to) { write_element_plan(to, *kept); });
@@ -367,8 +334,7 @@ PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const 
     PlacedElements placed{.plan = std::move(*kept), .shape = nullptr};
     std::optional<Interval> upright;
     if (is_flat) upright = Interval{body->bounds().lo.z, body->bounds().hi.z};
-    std::vector<FieldPtr> solids{
-        make_element_field(shapes_of(problem, body->bounds(), gradings), placed.plan.elements, upright)};
+    std::vector<FieldPtr> solids{make_element_field(shapes, placed.plan.elements, upright)};
     for (const BuiltRegion& region : regions.list) {
         if (region.make == RegionMake::solid) solids.push_back(region.field);
     }

@@ -24,8 +24,8 @@ struct PlacedElements {
 
 /// Places copies of the recipe's shapes in the body, or reads them from the plan folder when the same problem
 /// was solved before. A pure function of the recipe. Throws InputError for shapes that do not fit the body, a
-/// problem without a solution (see structural_problem()), and elements that do not reach from the loads to
-/// the anchors, Interrupted when cancelled.
+/// problem without a solution (see structural_problem()), elements that do not reach all loads and anchors,
+/// and solid regions that they do not join, Interrupted when cancelled.
 PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                               Gradings& gradings, const PlaceElementsOptions& options);
 

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/solids/primitives.h"
 #include "procedural/elements/element_start.h"
 
 namespace element_pieces_test {
@@ -52,10 +53,40 @@ TEST_CASE("loose elements are moved to the others or dropped", "[elements]") {
     CHECK(joined.elements[2].at.x > 1.0);
     CHECK(joined.elements[2].at.y == Approx(4).margin(0.01));
     CHECK(overlap_of(joined.elements[0], joined.elements[2], shapes, 1, true).depth >= 0.2);
-    // Both ends of what is held are one piece already.
-    JoinSettings held = settings;
-    held.held = {1, 0, 0, 1, 0, 0};
-    CHECK(join_elements(elements, loads, shapes, held).elements.size() == 4);
+    // What the far one touches is what the first one touches, or another solid, from which it is not torn
+    // off.
+    JoinSettings touching = settings;
+    touching.solids = 2;
+    touching.touches = {{0, 0}, {3, 0}, {1, 1}};
+    const JoinedElements together = join_elements(elements, loads, shapes, touching);
+    CHECK(together.elements.size() == 4);
+    CHECK(together.apart == 0);
+    touching.touches = {{0, 0}, {2, 1}};
+    const JoinedElements apart = join_elements(elements, loads, shapes, touching);
+    CHECK(apart.moved == 0);
+    CHECK(apart.elements.size() == 2);
+    CHECK(apart.apart == 1);
+}
+
+TEST_CASE("elements that meet outside the body do not hold together", "[elements]") {
+    const std::vector<ElementShapePtr> shapes{make_stick(10, 2)};
+    // Two sticks that cross at (0, 4), of which a body leaves what is below y = 2, or below 6.
+    const PlacedElement a{
+        .shape = 0, .at = {-1.5, 1, 0}, .turn = turn_to(dvec3(0.4472135955, 0.894427191, 0))};
+    const PlacedElement b{
+        .shape = 0, .at = {1.5, 1, 0}, .turn = turn_to(dvec3(0.4472135955, -0.894427191, 0))};
+    for (const bool is_flat : {true, false}) {
+        const auto below = [](double y) { return make_half_space({0, 1, 0}, y); };
+        CHECK(overlap_of(a, b, shapes, 1, is_flat).depth == Approx(1).margin(0.01));
+        CHECK(overlap_of(a, b, shapes, 1, is_flat, below(6).get()).depth == Approx(1).margin(0.01));
+        CHECK(overlap_of(a, b, shapes, 1, is_flat, below(1).get()).depth < 0);
+    }
+    const std::vector<double> loads{1, 1};
+    const FieldPtr body = make_half_space({0, 1, 0}, 1);
+    JoinSettings settings{.hold = 0.2, .reach = 0, .idle = 0.01, .is_flat = true};
+    CHECK(join_elements({a, b}, loads, shapes, settings).pieces == 1);
+    settings.body = body.get();
+    CHECK(join_elements({a, b}, loads, shapes, settings).pieces == 2);
 }
 
 }  // namespace element_pieces_test

@@ -98,9 +98,19 @@ TEST_CASE("a plan of elements that is damaged is refused", "[elements]") {
     CHECK(back.optimum == 6);
     for (std::size_t cut = 0; cut + 1 < whole.size(); cut += 7)
         CHECK_THROWS_AS(read(whole.substr(0, cut)), InputError);
-    std::string wrong = whole;
-    wrong[wrong.rfind(',')] = ';';
-    CHECK_THROWS_AS(read(wrong), InputError);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = whole;
+        const std::size_t at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        return text.replace(at, from.size(), to);
+    };
+    CHECK_THROWS_AS(read(changed("2,3,2,1", "3,3,2,1")), InputError);  // fewer elements than announced
+    CHECK_THROWS_AS(read(changed("2,3,2,1", "-2,3,2,1")), InputError);
+    CHECK_THROWS_AS(read(changed("\n1,0.1", "\n1e12,0.1")), InputError);
+    CHECK_THROWS_AS(read(changed("\n1,0.1", "\n0.5,0.1")), InputError);
+    CHECK_THROWS_AS(read(changed("0.8", "0.9")), InputError);  // not a rotation
+    CHECK_THROWS_AS(read(changed(",1.5\n", ",0\n")), InputError);
+    CHECK_THROWS_AS(read(changed(",1.5\n", ";1.5\n")), InputError);
 }
 
 TEST_CASE("elements that cannot make the part are told why", "[elements]") {

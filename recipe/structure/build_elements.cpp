@@ -1,0 +1,73 @@
+// One shape by its kind.
+#include "recipe/structure/build_elements.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/io/svg_outline.h"
+#include "recipe/build/build_fields.h"
+
+namespace lamella {
+
+namespace {
+
+/// Returns the outline of corners or of a drawing, its longer side as long as the recipe says.
+ElementShapePtr outline_of(const ElementRecipe& element, double thickness) {
+    constexpr double tolerance = 0.01;  // mm
+    std::vector<std::vector<dvec2>> polygons(1);
+    for (const auto& row : element.corners) polygons[0].emplace_back(row[0], row[1]);
+    if (!element.file.empty()) polygons = read_svg_outlines(element.file, tolerance);
+    Box bounds;
+    for (const auto& polygon : polygons) {
+        for (const dvec2 p : polygon) bounds.include(dvec3(p, 0));
+    }
+    const double longer = std::max(bounds.size().x, bounds.size().y);
+    if (element.length > 0 && longer > 0) {
+        for (auto& polygon : polygons) {
+            for (dvec2& p : polygon) p *= element.length / longer;
+        }
+    }
+    return make_outline(std::move(polygons), thickness);
+}
+
+ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings) {
+    for (const FieldRecipe& field : gradings.recipe().fields) {
+        if (field.name != element.field) continue;
+        std::optional<MeshReport> mesh;
+        return make_field_shape(build_field(field, gradings, std::nullopt, mesh));
+    }
+    throw InputError(element.where + ".field: there is no [[field]] of that name");
+}
+
+}  // namespace
+
+std::vector<ElementShapePtr> build_elements(const Recipe& recipe, const Box& bounds, Gradings& gradings) {
+    std::vector<ElementShapePtr> shapes;
+    for (const ElementRecipe& element : recipe.element_shapes) {
+        try {
+            switch (element.kind) {
+                case ElementKind::stick:
+                    shapes.push_back(make_stick(element.length, element.width));
+                    break;
+                case ElementKind::ring:
+                    shapes.push_back(make_ring(element.diameter, element.width));
+                    break;
+                case ElementKind::outline:
+                    shapes.push_back(outline_of(element, recipe.elements->dimensions == 2
+                                                             ? 2 * length(bounds.size())
+                                                             : element.thickness));
+                    break;
+                case ElementKind::field:
+                    shapes.push_back(field_shape_of(element, gradings));
+                    break;
+            }
+        } catch (const InputError& error) {
+            throw InputError(element.where + ": " + error.what());
+        }
+    }
+    return shapes;
+}
+
+}  // namespace lamella
