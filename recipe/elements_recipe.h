@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "recipe/graded_number.h"
 #include "recipe/number_rows.h"
 
 namespace lamella {
@@ -18,21 +19,24 @@ struct ElementRecipe {
     double width = 0;      ///< of a stick, or of a ring's tube, mm
     NumberRows corners;    ///< of an outline, mm; empty: from the file
     std::string file;      ///< path of an SVG drawing with an outline
-    double thickness = 0;  ///< of an outline, mm
+    double thickness = 0;  ///< of an outline, mm; on a skin that of the skin
     std::string field;     ///< name of a [[field]], whose origin is the middle of the copies
 };
 
-/// How copies are placed: such that they bear the loads.
+/// How copies are placed: such that they bear the loads, or evenly where there are none.
 struct ElementsRecipe {
     int count = 100;
     double scale_min = 1, scale_max = 1;
     double overlap = 0.3;  ///< share of the copies' volume that lies in others or outside the body, at most
     bool turns = true;     ///< whether copies may turn
+    GradedTriple along{};  ///< direction of the copies' x axis; 0: any
+    GradedNumber density{1.0, ""};  ///< relative number of copies where no loads place them
     std::int64_t seed = 1;
     double element = 0;  ///< edge of the finite elements, mm; 0: a third of the thinnest shape
     int dimensions = 3;  ///< 2: a plate in the xy plane, of prisms as high as the part
     int iterations = 100;
-    double reach = 0;  ///< widest gap that is closed by moving loose copies, mm; 0: the thinnest shape
+    double reach = 0;   ///< widest gap over which loose copies are joined, mm; 0: the thinnest shape
+    double bridge = 0;  ///< width of bridges that join them, mm; 0: they are moved
 };
 
 }  // namespace lamella

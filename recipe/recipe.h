@@ -2,11 +2,9 @@
 // values.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "engine/field/field.h"
@@ -16,6 +14,7 @@
 #include "procedural/grading/attractors.h"
 #include "procedural/pattern/reinforcement.h"
 #include "recipe/elements_recipe.h"
+#include "recipe/graded_number.h"
 #include "recipe/number_rows.h"
 #include "recipe/optimize_recipe.h"
 
@@ -26,25 +25,6 @@ enum class Shape : unsigned char { none, sphere, box, cylinder, capsule, torus, 
 
 /// The length unit of mesh files whose format states none.
 enum class LengthUnit : unsigned char { mm, cm, m, inch };
-
-/// A number, or a formula that gives one at every point.
-struct GradedNumber {
-    std::variant<double, std::string> value{0.0};
-    std::string where;  ///< its place, for messages: "foam.toml:7: foam.cell" or "--cell"
-
-    bool is_formula() const { return value.index() == 1; }
-    /// The number. Requires that it is not a formula.
-    double number() const { return std::get<double>(value); }
-    const std::string& formula() const { return std::get<std::string>(value); }
-    /// Two are equal if their values are; places do not count.
-    friend bool operator==(const GradedNumber& a, const GradedNumber& b) { return a.value == b.value; }
-};
-
-/// Three numbers, each of which may be a formula.
-using GradedTriple = std::array<GradedNumber, 3>;
-
-/// Returns the numbers of a triple; nothing when one is a formula.
-std::optional<dvec3> constant(const GradedTriple& triple);
 
 struct PartRecipe {
     std::string mesh;   ///< path of the mesh file; empty when the body is something else

@@ -55,7 +55,7 @@ std::vector<const GradedNumber*> numbers_of(const FoamRecipe& foam) {
     return numbers;
 }
 
-/// Returns all numbers of regions, foam, frame and skin that may be formulas.
+/// Returns all numbers of regions, foam, frame, skin and elements that may be formulas.
 std::vector<const GradedNumber*> numbers_of(const Recipe& recipe) {
     std::vector<const GradedNumber*> numbers;
     for (const RegionRecipe& region : recipe.regions) {
@@ -68,6 +68,10 @@ std::vector<const GradedNumber*> numbers_of(const Recipe& recipe) {
     if (const auto& skin = recipe.skin)
         numbers.insert(numbers.end(),
                        {&skin->thickness, &skin->strut, &skin->image_size, &skin->second_weight});
+    if (const auto& elements = recipe.elements) {
+        numbers.push_back(&elements->density);
+        for (const GradedNumber& number : elements->along) numbers.push_back(&number);
+    }
     return numbers;
 }
 
@@ -154,6 +158,10 @@ class FormulaCheck {
             check_formula({&recipe_.skin->strut});
             check_formula({&recipe_.skin->image_size});
             check_formula({&recipe_.skin->second_weight});
+        }
+        if (recipe_.elements) {
+            check_formula({&recipe_.elements->density});
+            for (const GradedNumber& number : recipe_.elements->along) check_formula({&number});
         }
         for (const RegionRecipe& region : recipe_.regions) {
             for (const RegionNumber& given : numbers_of(region)) {

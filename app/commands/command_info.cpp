@@ -99,7 +99,7 @@ Json skin_json(const SkinRecipe& recipe, const BuiltJob& built) {
                 json["too_small_to_keep"] = built.pattern->dropped;
                 json["site_mm"] = built.pattern->site;
                 json["bytes"] = built.pattern->bytes;
-            } else {
+            } else if (!built.elements) {
                 json["islands_left_out"] = built.pattern->islands;
             }
         }
@@ -286,11 +286,13 @@ std::string skin_text(const Json& skin) {
                             100 * skin["picture_open_share"].get<double>(), skin["site_mm"].get<double>(),
                             skin["bytes"].get<double>() / 1e6);
         text += bridges_text(skin);
-    } else if (skin.contains("open_share")) {
+    } else if (skin.contains("islands_left_out")) {
         text +=
             fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",
                         100 * skin["open_share"].get<double>(), skin["islands_left_out"].get<std::size_t>());
     }
+    if (skin.contains("pattern") && skin["pattern"] == "elements")
+        text += fmt::format(" of elements, {:.1f} % open", 100 * skin["open_share"].get<double>());
     if (skin.contains("holes")) text += fmt::format(", {} drilled", skin["holes"].size());
     return text + "\n";
 }

@@ -44,6 +44,7 @@ ElementOptimizer<Dim>::ElementOptimizer(const TopologyProblem<Dim>& problem, con
                             .cancel = settings.cancel}) {
     if (elements_.empty()) throw InputError("no elements are placed; accepted: one or more");
     for (const PlacedElement& element : elements_) content_ += content(element);
+    align(elements_);
     trial_ = elements_;
 }
 
@@ -85,6 +86,7 @@ ElementIteration ElementOptimizer<Dim>::iterate() {
         trial_ = elements_;
     } else {
         trial_ = step_.from(elements_, slopes_, constraints_, step_limits());
+        align(trial_);
     }
     return done;
 }
@@ -170,7 +172,17 @@ std::size_t ElementOptimizer<Dim>::move_idle() {
         if (settings_.turns) elements_[k].turn = other.turn;
         ++moved;
     }
+    align(elements_);
     return moved;
+}
+
+/// Turns the x axes of elements to the ways of their places, if there are ways.
+template <std::size_t Dim>
+void ElementOptimizer<Dim>::align(std::vector<PlacedElement>& elements) const {
+    if (!settings_.way) return;
+    for (PlacedElement& element : elements)
+        element.turn = glm::normalize(
+            shortest_turn(element.turn * dvec3(1, 0, 0), settings_.way(element.at)) * element.turn);
 }
 
 template class ElementOptimizer<2>;

@@ -1,6 +1,8 @@
 // ElementOptimizer: moves, turns and scales elements such that together they become stiff.
 #pragma once
 
+#include <functional>
+
 #include "procedural/elements/element_step.h"
 #include "procedural/optimization/compliance.h"
 
@@ -12,6 +14,8 @@ struct ElementSettings {
     Interval scale{1, 1};   ///< limits of their scales
     int iterations = 150;
     std::uint64_t seed = 1;  ///< of the places to which idle elements go
+    /// Direction of the elements' x axis by place, a unit vector; may be empty. Not with elements that turn.
+    std::function<dvec3(dvec3)> way{};
     double solver_tolerance = 1e-5;
     const CancelToken* cancel = nullptr;  ///< may be null
 };
@@ -56,6 +60,7 @@ class ElementOptimizer {
     ElementConstraint content_bound() const;
     void measure_loads(const ElementRaster& raster, const std::vector<double>& by_density);
     std::size_t move_idle();
+    void align(std::vector<PlacedElement>& elements) const;
 
     const TopologyProblem<Dim>& problem_;
     CellGrid grid_;

@@ -62,12 +62,7 @@ class Pieces {
 
     /// Returns the representative of the piece of each element, and then of each solid.
     std::vector<std::uint32_t> pieces() {
-        pairs_ = near_pairs(elements_, shapes_, settings_.reach);
-        overlaps_.resize(pairs_.size());
-        parallel_for(pairs_.size(), [&](std::size_t i) {
-            overlaps_[i] = overlap_of(elements_[pairs_[i].first], elements_[pairs_[i].second], shapes_,
-                                      settings_.reach, settings_.is_flat, settings_.body);
-        });
+        measure_overlaps();
         const auto count = static_cast<std::uint32_t>(elements_.size());
         DisjointSets sets(count + settings_.solids);
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -82,15 +77,41 @@ class Pieces {
                                              std::span<const std::uint8_t> stays) const;
     /// Moves the piece that is not the main one until both hold together; returns the number of elements.
     std::size_t close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main);
+    /// Joins pieces that carry something by bridges over the narrowest gaps, and changes `piece`. Returns the
+    /// bridges, each with one of its two elements.
+    std::vector<std::pair<std::uint32_t, ElementBridge>> bridge(std::vector<std::uint32_t>& piece,
+                                                                std::span<const std::uint8_t> is_idle) const;
     const std::vector<PlacedElement>& elements() const { return elements_; }
 
   private:
-    std::vector<PlacedElement> elements_;
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    void measure_overlaps();
+    dvec3 outward(std::uint32_t element, dvec3 at) const;
+
+    std::vector<PlacedElement> elements_, measured_;  ///< now, and when overlaps were measured
     std::span<const ElementShapePtr> shapes_;
     const JoinSettings& settings_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    std::vector<Pair> pairs_;  ///< ascending
     std::vector<Overlap> overlaps_;
 };
+
+/// Measures the overlaps of all pairs that are near each other, anew where an element has moved since.
+void Pieces::measure_overlaps() {
+    std::vector<Pair> pairs = near_pairs(elements_, shapes_, settings_.reach);
+    std::vector<Overlap> overlaps(pairs.size());
+    parallel_for(pairs.size(), [&](std::size_t i) {
+        const auto [a, b] = pairs[i];
+        const auto known = std::ranges::lower_bound(pairs_, pairs[i]);
+        const bool is_known = known != pairs_.end() && *known == pairs[i] && elements_[a] == measured_[a] &&
+                              elements_[b] == measured_[b];
+        overlaps[i] = is_known ? overlaps_[static_cast<std::size_t>(known - pairs_.begin())]
+                               : overlap_of(elements_[a], elements_[b], shapes_, settings_.reach,
+                                            settings_.is_flat, settings_.body);
+    });
+    pairs_ = std::move(pairs);
+    overlaps_ = std::move(overlaps);
+    measured_ = elements_;
+}
 
 /// Returns the pair of an element of the main piece and one of another, which does not stay where it is, that
 /// are nearest; none out of reach.
@@ -107,21 +128,52 @@ std::optional<std::size_t> Pieces::narrowest_gap(std::span<const std::uint32_t> 
     return best;
 }
 
-std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main) {
-    auto [still, loose] = pairs_[pair];
-    if (piece[still] != main) std::swap(still, loose);
-    // Towards the main piece, against the slope of its distance where the two are nearest.
-    const dvec3 at = overlaps_[pair].at;
-    const double step = 1e-3 * reach_of(elements_[still], shapes_);
+/// Returns the direction in which the distance of an element grows at a point, a unit vector.
+dvec3 Pieces::outward(std::uint32_t element, dvec3 at) const {
+    const double step = 1e-3 * reach_of(elements_[element], shapes_);
     dvec3 slope(0);
     for (int axis = 0; axis < (settings_.is_flat ? 2 : 3); ++axis) {
         dvec3 aside(0);
         aside[axis] = step;
-        slope[axis] = distance_of(elements_[still], shapes_, at + aside, settings_.is_flat) -
-                      distance_of(elements_[still], shapes_, at - aside, settings_.is_flat);
+        slope[axis] = distance_of(elements_[element], shapes_, at + aside, settings_.is_flat) -
+                      distance_of(elements_[element], shapes_, at - aside, settings_.is_flat);
     }
     const double steep = length(slope);
-    const dvec3 way = steep > 0 ? slope / steep : dvec3(1, 0, 0);
+    return steep > 0 ? slope / steep : dvec3(1, 0, 0);
+}
+
+std::vector<std::pair<std::uint32_t, ElementBridge>> Pieces::bridge(
+    std::vector<std::uint32_t>& piece, std::span<const std::uint8_t> is_idle) const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        const auto [a, b] = pairs_[i];
+        const bool is_narrow = -2 * overlaps_[i].depth <= settings_.reach;
+        if (is_narrow && is_idle[a] == 0 && is_idle[b] == 0 && piece[a] != piece[b]) order.push_back(i);
+    }
+    std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return overlaps_[i].depth; });
+    DisjointSets sets(static_cast<std::uint32_t>(piece.size()));
+    for (std::uint32_t k = 0; k < piece.size(); ++k) sets.join(k, piece[k]);
+    std::vector<std::pair<std::uint32_t, ElementBridge>> bridges;
+    for (const std::size_t i : order) {
+        const auto [a, b] = pairs_[i];
+        if (sets.find(a) == sets.find(b)) continue;
+        sets.join(a, b);
+        const auto end_in = [&](std::uint32_t element) {
+            const dvec3 at = overlaps_[i].at;
+            const double gap = distance_of(elements_[element], shapes_, at, settings_.is_flat);
+            return at - (gap + 0.5 * settings_.bridge) * outward(element, at);
+        };
+        bridges.push_back({a, {end_in(a), end_in(b)}});
+    }
+    for (std::uint32_t k = 0; k < piece.size(); ++k) piece[k] = sets.find(k);
+    return bridges;
+}
+
+std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece, std::uint32_t main) {
+    auto [still, loose] = pairs_[pair];
+    if (piece[still] != main) std::swap(still, loose);
+    // Towards the main piece, against the slope of its distance where the two are nearest.
+    const dvec3 way = outward(still, overlaps_[pair].at);
     constexpr double deeper = 1.5;  // than asked: slopes are those of one point
     const dvec3 shift = -2 * (deeper * settings_.hold - overlaps_[pair].depth) * way;
     std::size_t moved = 0;
@@ -129,6 +181,7 @@ std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece
     for (std::uint32_t k = 0; k < elements_.size(); ++k) {
         if (piece[k] != number) continue;
         elements_[k].at += shift;
+        if (settings_.settle) settings_.settle(elements_[k]);
         ++moved;
     }
     return moved;
@@ -151,7 +204,11 @@ Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<con
         if (!(a_depth > best.depth)) return false;
         double depth = std::min(a_depth, -distance_of(b, shapes, p, is_flat));
         // The body's value may cost more than all else.
-        if (body != nullptr && depth > best.depth) depth = std::min(depth, -body->value(p));
+        if (body != nullptr && depth > best.depth) {
+            constexpr double outside = 100;  // so that gaps are not closed beside the body
+            const double value = body->value(p);
+            depth = std::min(depth, value > 0 ? -outside * value : -value);
+        }
         if (!(depth > best.depth)) return false;
         best = {depth, p};
         return true;
@@ -192,15 +249,24 @@ JoinedElements join_elements(std::vector<PlacedElement> elements, std::span<cons
     for (std::size_t k = all; k < piece.size(); ++k) touches_solid[piece[k]] = 1;
     // Pieces are told by their lowest number, which joining changes: an element tells the main one.
     const auto in_main = static_cast<std::size_t>(std::ranges::max_element(load) - load.begin());
-    std::vector<std::uint8_t> stays;
-    for (std::size_t k = 0; k < all; ++k)
-        stays.push_back(busiest[piece[k]] < settings.idle || touches_solid[piece[k]] != 0 ? 1 : 0);
-    for (std::size_t round = 0; round < all; ++round) {
-        const std::uint32_t main = piece[in_main];
-        const auto gap = pieces.narrowest_gap(piece, main, stays);
-        if (!gap) break;
-        joined.moved += pieces.close(*gap, piece, main);
-        piece = pieces.pieces();
+    std::vector<std::uint8_t> is_idle, stays;
+    for (std::size_t k = 0; k < all; ++k) {
+        is_idle.push_back(busiest[piece[k]] < settings.idle ? 1 : 0);
+        stays.push_back(is_idle[k] != 0 || touches_solid[piece[k]] != 0 ? 1 : 0);
+    }
+    if (settings.bridge > 0) {
+        const auto bridges = pieces.bridge(piece, is_idle);
+        for (const auto& [element, bridge] : bridges) {
+            if (piece[element] == piece[in_main]) joined.bridges.push_back(bridge);
+        }
+    } else {
+        for (std::size_t round = 0; round < all; ++round) {
+            const std::uint32_t main = piece[in_main];
+            const auto gap = pieces.narrowest_gap(piece, main, stays);
+            if (!gap) break;
+            joined.moved += pieces.close(*gap, piece, main);
+            piece = pieces.pieces();
+        }
     }
     for (std::size_t k = 0; k < all; ++k) {
         if (piece[k] == piece[in_main]) {

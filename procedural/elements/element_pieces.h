@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,15 @@ struct Overlap {
 /// Returns the largest of min(-a, -b) over space, of two elements' distances a and b: sampled in the boxes of
 /// both, and refined to a thousandth of the smaller one. Elements whose boxes are farther than `reach` mm
 /// apart have a depth of -infinity. In the plane, at z = 0 of their frames. With a body, which cuts the
-/// elements, its value counts like their distances; null: nothing is cut.
+/// elements, its value counts like their distances, and much more outside of it; null: nothing is cut.
 Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
                    double reach, bool is_flat, const Field* body = nullptr);
+
+/// A rod between two elements, into each of which it reaches by half of its width.
+struct ElementBridge {
+    dvec3 from{0}, to{0};  ///< ends of its axis, mm
+    friend bool operator==(const ElementBridge&, const ElementBridge&) = default;
+};
 
 /// An element that touches one of several solids.
 struct Touch {
@@ -30,24 +37,28 @@ struct Touch {
 
 struct JoinSettings {
     double hold = 0.1;   ///< depth from which two elements hold together, mm
-    double reach = 2;    ///< widest gap that is closed by moving a piece, mm
+    double reach = 2;    ///< widest gap that is closed, mm
+    double bridge = 0;   ///< width of bridges that close gaps, mm; 0: pieces are moved
     double idle = 0.01;  ///< load below which an element carries nothing; the mean is 1
     bool is_flat = false;
     const Field* body = nullptr;  ///< as in overlap_of()
     std::uint32_t solids = 0;     ///< number of solids that are there anyway, such as those of regions
     std::vector<Touch> touches{};
+    /// Puts an element that was moved back where elements may be, such as on a surface; may be empty.
+    std::function<void(PlacedElement&)> settle{};
 };
 
 struct JoinedElements {
     std::vector<PlacedElement> elements;  ///< one piece
-    std::size_t pieces = 0;               ///< before
-    std::size_t moved = 0, dropped = 0;   ///< elements
-    std::size_t apart = 0;                ///< solids that they do not touch, directly or by others
+    std::vector<ElementBridge> bridges;
+    std::size_t pieces = 0;              ///< before
+    std::size_t moved = 0, dropped = 0;  ///< elements
+    std::size_t apart = 0;               ///< solids that they do not touch, directly or by others
 };
 
-/// Makes elements one piece: that of the greatest load. Pieces all of whose elements are idle are dropped,
-/// the others moved up to it, the nearest first, or dropped if they are out of reach or touch a solid, from
-/// which they would be torn off. Loads are by element.
+/// Makes elements one piece: that of the greatest load. Pieces all of whose elements are idle are dropped.
+/// The others are joined by bridges over the narrowest gaps, or moved up to it, the nearest first; they are
+/// dropped if they are out of reach, or would be torn off a solid that they touch. Loads are by element.
 JoinedElements join_elements(std::vector<PlacedElement> elements, std::span<const double> loads,
                              std::span<const ElementShapePtr> shapes, const JoinSettings& settings);
 

@@ -17,7 +17,7 @@ namespace {
 
 /// Its number is raised whenever the same recipe places elements otherwise, so that plans of older versions
 /// are not taken.
-constexpr std::string_view title = "lamella elements 1";
+constexpr std::string_view title = "lamella elements 2";
 
 [[noreturn]] void refuse(const std::string& name) {
     throw InputError(name + ": damaged or cut off; accepted: a plan of elements as Lamella writes it");
@@ -53,12 +53,19 @@ void write_elements(std::ostream& out, const std::vector<PlacedElement>& element
                            e.turn.x, e.turn.y, e.turn.z, e.scale);
 }
 
+void write_bridges(std::ostream& out, const std::vector<ElementBridge>& bridges) {
+    for (const ElementBridge& b : bridges)
+        out << fmt::format("{},{},{},{},{},{}\n", b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
+}
+
 void write_element_plan(const std::filesystem::path& file, const ElementPlan& plan) {
     write_complete_file(file, [&](std::ostream& out) {
         out << title << '\n';
-        out << fmt::format("{},{},{},{},{},{},{},{}\n", plan.elements.size(), plan.pieces, plan.moved,
-                           plan.dropped, plan.volume, plan.compliance, plan.full_compliance, plan.optimum);
+        out << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", plan.elements.size(), plan.bridges.size(),
+                           plan.pieces, plan.moved, plan.dropped, plan.volume, plan.compliance,
+                           plan.full_compliance, plan.optimum, plan.overlap, plan.thickness);
         write_elements(out, plan.elements);
+        write_bridges(out, plan.bridges);
     });
 }
 
@@ -66,16 +73,20 @@ ElementPlan read_element_plan(std::istream& in, const std::string& name) {
     std::string first;
     std::getline(in, first);
     if (first != title) throw InputError(name + ": no plan of elements; accepted: one that Lamella wrote");
-    const std::vector<double> known = numbers_of(in, 8, name);
+    const std::vector<double> known = numbers_of(in, 11, name);
     ElementPlan plan{.elements = {},
-                     .pieces = count_of(known[1], name),
-                     .moved = count_of(known[2], name),
-                     .dropped = count_of(known[3], name),
-                     .volume = known[4],
-                     .compliance = known[5],
-                     .full_compliance = known[6],
-                     .optimum = known[7]};
-    const std::size_t count = count_of(known[0], name);
+                     .bridges = {},
+                     .pieces = count_of(known[2], name),
+                     .moved = count_of(known[3], name),
+                     .dropped = count_of(known[4], name),
+                     .volume = known[5],
+                     .compliance = known[6],
+                     .full_compliance = known[7],
+                     .optimum = known[8],
+                     .overlap = known[9],
+                     .thickness = known[10]};
+    if (!(plan.thickness >= 0)) refuse(name);
+    const std::size_t count = count_of(known[0], name), bridges = count_of(known[1], name);
     for (std::size_t k = 0; k < count; ++k) {
         const std::vector<double> n = numbers_of(in, 9, name);
         const glm::dquat turn(n[4], n[5], n[6], n[7]);
@@ -84,6 +95,10 @@ ElementPlan read_element_plan(std::istream& in, const std::string& name) {
                                  .at = {n[1], n[2], n[3]},
                                  .turn = turn,
                                  .scale = n[8]});
+    }
+    for (std::size_t k = 0; k < bridges; ++k) {
+        const std::vector<double> n = numbers_of(in, 6, name);
+        plan.bridges.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
     }
     return plan;
 }

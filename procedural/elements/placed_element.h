@@ -1,6 +1,7 @@
 // PlacedElement: where a copy of a shape is, how it is turned, and how large it is.
 #pragma once
 
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/geometry.h"
@@ -18,6 +19,20 @@ struct PlacedElement {
     dvec3 local_direction(dvec3 way) const { return glm::conjugate(turn) * way / scale; }
     friend bool operator==(const PlacedElement&, const PlacedElement&) = default;
 };
+
+/// Returns the rotation by the smallest angle that takes a unit vector to another one.
+inline glm::dquat shortest_turn(dvec3 from, dvec3 to) {
+    const double cosine = glm::dot(from, to);
+    constexpr double opposite = -1 + 1e-12;
+    if (cosine > opposite) {
+        const dvec3 axis = glm::cross(from, to);
+        return glm::normalize(glm::dquat(1 + cosine, axis.x, axis.y, axis.z));
+    }
+    // Half a round about z, so that vectors of the xy plane stay in it.
+    const dvec3 beside = std::abs(from.z) < 0.9 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
+    const dvec3 axis = glm::normalize(beside - from * glm::dot(from, beside));
+    return glm::dquat(0, axis.x, axis.y, axis.z);
+}
 
 /// Returns the element turned by a small rotation about an axis through its place: the vector's direction and
 /// its length in radians, to the third order.

@@ -91,7 +91,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         if (foam && built.optimized->foam_sizes)
             drive_foam(recipe.optimize->result, *built.optimized, *foam, gradings);
     }
-    if (recipe.elements) {
+    if (recipe.elements && !has_skin_of_elements(recipe)) {
         PlacedElements placed =
             place_elements(recipe, built.body, built.regions, gradings,
                            {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_elements});
@@ -105,6 +105,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         fill_body(recipe, built, gradings,
                   {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_pattern}),
         built.body, recipe.foam || recipe.skin || recipe.optimize || recipe.elements, built.regions);
+    if (built.pattern && built.pattern->elements) built.elements = std::move(built.pattern->elements);
     built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});

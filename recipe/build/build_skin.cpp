@@ -10,6 +10,7 @@
 #include "procedural/skin/image_windows.h"
 #include "procedural/skin/surface_windows.h"
 #include "recipe/build/pattern_plan.h"
+#include "recipe/structure/place_elements.h"
 #include "recipe/structure/structural_problem.h"
 
 namespace lamella {
@@ -147,6 +148,17 @@ FieldPtr by_example(PatternBuildContext& making) {
     return make_patterned_shell(making.shell, pattern);
 }
 
+FieldPtr elements(PatternBuildContext& making) {
+    PlaceElementsOptions options{making.work.plans, making.work.threads, making.work.cancel};
+    if (making.work.on_synthesis)
+        options.on_iteration = [&](const ElementIteration&, int) { making.work.on_synthesis(); };
+    PlacedElements placed = place_elements_on_skin(making.recipe, making.body, making.shell, making.depth,
+                                                   making.gradings, options);
+    making.report.open_share = 1 - placed.plan.volume;
+    making.report.elements = std::move(placed.plan);
+    return placed.shape;
+}
+
 }  // namespace
 
 std::span<const PatternBuilder> pattern_builders() {
@@ -159,7 +171,8 @@ std::span<const PatternBuilder> pattern_builders() {
           {"image", "image_size", "strut"},
           {"threshold", "invert", "gap", "reinforce", "self_supporting", "direction", "seed", "second_image",
            "second_weight"}},
-         by_example}};
+         by_example},
+        {{"elements", {}, {}}, elements}};
     return list;
 }
 

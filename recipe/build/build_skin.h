@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/cancel_token.h"
+#include "procedural/elements/element_plan.h"
 #include "recipe/build/build_gradings.h"
 
 namespace lamella {
@@ -30,6 +31,7 @@ struct PatternReport {
     std::size_t dropped = 0;     ///< by example: pieces too small to keep
     double softness_before = 0;  ///< by example: as in SurfaceBricks
     double softness = 0;
+    std::optional<ElementPlan> elements{};  ///< of a skin of elements
     double site = 0;        ///< by example: distance of the points that the pattern is computed on, mm
     std::size_t bytes = 0;  ///< by example: of the pattern in memory
 };

@@ -46,7 +46,18 @@ void add_element_aims(std::vector<Setting>& t) {
                  "part. Copies have to touch, so it is not 0."});
     add_elements_row<&Placing::turns>(
         t, "turns", "--elements-turns",
-        {.fallback = "true", .help = "Whether copies turn, or stay as their shapes are given."});
+        {.fallback = "true",
+         .help = "Whether copies turn, or stay as their shapes are given, or along a direction."});
+    add_elements_row<&Placing::along>(
+        t, "along", "--elements-along",
+        {.limits = {-1e6, 1e6},
+         .fallback = "any",
+         .help = "Direction of the copies' x axis, of any length; on a skin as far as the surface allows."});
+    add_elements_row<&Placing::density>(
+        t, "density", "--elements-density",
+        {.limits = {0, 1e6},
+         .fallback = "1",
+         .help = "Where no loads place copies: how many there are, relative to elsewhere; 0: none."});
     add_elements_row<&Placing::seed>(
         t, "seed", "--elements-seed",
         {.limits = {0, 9007199254740992}, .fallback = "1", .help = "Seed of the places where copies begin."});
@@ -73,8 +84,14 @@ void add_element_search(std::vector<Setting>& t) {
         {.unit = "mm",
          .limits = {0, 1000},
          .fallback = "the thickness of the thinnest shape",
-         .help = "Widest gap over which a loose copy is moved to the others; beyond, it is "
+         .help = "Widest gap over which a loose copy is moved or bridged to the others; beyond, it is "
                  "dropped."});
+    add_elements_row<&Placing::bridge>(
+        t, "bridge", "--elements-bridge",
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .fallback = "0",
+         .help = "Width of bridges that join loose copies to the others; 0: copies are moved instead."});
 }
 
 }  // namespace
@@ -101,7 +118,8 @@ void add_element_settings(std::vector<Setting>& t) {
          .help = "SVG drawing whose filled shapes are the outline, relative to the recipe's folder.",
          .is_path = true}));
     add_element_length<&ElementRecipe::thickness>(
-        t, "thickness", "outline", "Thickness of an outline; in two dimensions the part's height.");
+        t, "thickness", "outline in space",
+        "Thickness of an outline; in two dimensions that of the part, on a skin that of the skin.");
     t.push_back(list_row<&Recipe::element_shapes, &ElementRecipe::field>(
         "element", "field",
         {.fallback = "required by field",

@@ -43,7 +43,8 @@ ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings)
 
 }  // namespace
 
-std::vector<ElementShapePtr> build_elements(const Recipe& recipe, const Box& bounds, Gradings& gradings) {
+std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<double> thickness,
+                                            Gradings& gradings) {
     std::vector<ElementShapePtr> shapes;
     for (const ElementRecipe& element : recipe.element_shapes) {
         try {
@@ -55,9 +56,7 @@ std::vector<ElementShapePtr> build_elements(const Recipe& recipe, const Box& bou
                     shapes.push_back(make_ring(element.diameter, element.width));
                     break;
                 case ElementKind::outline:
-                    shapes.push_back(outline_of(element, recipe.elements->dimensions == 2
-                                                             ? 2 * length(bounds.size())
-                                                             : element.thickness));
+                    shapes.push_back(outline_of(element, thickness.value_or(element.thickness)));
                     break;
                 case ElementKind::field:
                     shapes.push_back(field_shape_of(element, gradings));

@@ -51,8 +51,12 @@ TEST_CASE("elements that lack something are told what", "[elements]") {
                    "a shape whose copies nothing places; accepted: a section [elements]"));
     CHECK(mentions(told(part + loads + placed),
                    "there is no shape to copy; accepted: one or more [[element]]"));
-    CHECK(mentions(told(part + stick + placed), "nothing loads the body"));
-    CHECK(mentions(told(part + stick + placed), "nothing holds the body"));
+    CHECK(told(part + stick + placed).empty());  // spread evenly
+    CHECK(mentions(told(part + "[[anchor]]\nface = \"-x\"\n" + stick + placed), "nothing loads the body"));
+    CHECK(mentions(told(part + "[[load]]\nface = \"+x\"\nforce = [0, -10, 0]\n" + stick + placed),
+                   "nothing holds the body"));
+    CHECK(mentions(told(part + loads + stick + placed + "density = \"x\"\n"),
+                   "elements.density: loads decide where copies are"));
     CHECK(mentions(told(part + loads + stick + placed + "[optimize]\n"), "conflicts with [optimize]"));
     CHECK(mentions(told(part + loads + placed + "[[element]]\nlength = 8\n"),
                    "element.width: missing, required by kind stick"));
@@ -72,6 +76,28 @@ TEST_CASE("elements that lack something are told what", "[elements]") {
                    "elements.scale_max, 1; accepted: a minimum not above the maximum"));
     CHECK(
         mentions(told(part + loads + stick + "[elements]\ncount = 0\n"), "accepted: a whole number from 1"));
+    CHECK(mentions(told(part + stick + placed + "along = [\"q\", 0, 1]\n"), "elements.along"));
+}
+
+TEST_CASE("a skin of elements needs them, in space", "[elements]") {
+    const std::string skin = "[skin]\nthickness = 1\npattern = \"elements\"\n";
+    const std::string leaf = "[[element]]\nkind = \"outline\"\ncorners = [[0, 0], [4, 0], [0, 2]]\n";
+    CHECK(told(part + skin + leaf + placed).empty());  // outlines are as thick as the skin
+    CHECK(told(part + loads + skin + leaf + placed + "density = \"x + 40\"\n").empty());
+    CHECK(mentions(told(part + skin), "p.toml:6: skin.pattern: nothing says how many elements"));
+    CHECK(mentions(told(part + skin + placed), "there is no shape to copy"));
+    CHECK(mentions(told(part + skin + leaf + placed + "dimensions = 2\n"),
+                   "elements of a skin lie in space; accepted: 3"));
+}
+
+TEST_CASE("a grading that only elements use is used", "[elements]") {
+    const Recipe recipe = recipe_of(part + stick + placed +
+                                        "density = \"few\"\nalong = [\"way\", 1, 0]\n"
+                                        "[[grading]]\nname = \"few\"\nkind = \"formula\"\n"
+                                        "formula = \"1 + x/60\"\n"
+                                        "[[grading]]\nname = \"way\"\nkind = \"formula\"\nformula = \"y\"\n",
+                                    "p.toml");
+    CHECK(unused_entries(recipe).empty());
 }
 
 }  // namespace recipe_elements_test

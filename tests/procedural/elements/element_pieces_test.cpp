@@ -2,6 +2,7 @@
 #include "procedural/elements/element_pieces.h"
 
 #include <catch2/catch.hpp>
+#include <tuple>
 
 #include "engine/solids/primitives.h"
 #include "procedural/elements/element_start.h"
@@ -87,6 +88,31 @@ TEST_CASE("elements that meet outside the body do not hold together", "[elements
     CHECK(join_elements({a, b}, loads, shapes, settings).pieces == 1);
     settings.body = body.get();
     CHECK(join_elements({a, b}, loads, shapes, settings).pieces == 2);
+}
+
+TEST_CASE("gaps are closed by the shortest bridges", "[elements]") {
+    const std::vector<ElementShapePtr> shapes{make_stick(10, 2)};
+    // Side by side, gaps of 0.6, 0.8 and 3 mm, and one that carries nothing.
+    const std::vector<PlacedElement> elements{upright_at(0, 0), upright_at(2.6, 0), upright_at(5.4, 0),
+                                              upright_at(10.4, 0), upright_at(-2.6, 0)};
+    const std::vector<double> loads{1, 1, 1, 1, 0};
+    for (const bool is_flat : {true, false}) {
+        const JoinedElements joined =
+            join_elements(elements, loads, shapes,
+                          {.hold = 0.2, .reach = 1, .bridge = 0.5, .idle = 0.01, .is_flat = is_flat});
+        CHECK(joined.pieces == 5);
+        CHECK(joined.moved == 0);
+        CHECK(joined.dropped == 2);
+        CHECK(joined.elements == std::vector(elements.begin(), elements.begin() + 3));
+        REQUIRE(joined.bridges.size() == 2);
+        // From a quarter of a millimetre inside one to as far inside the other.
+        for (const auto& [bridge, left, gap] :
+             {std::tuple(joined.bridges[0], 1.0, 0.6), {joined.bridges[1], 3.6, 0.8}}) {
+            CHECK(std::min(bridge.from.x, bridge.to.x) == Approx(left - 0.25).margin(0.02));
+            CHECK(std::max(bridge.from.x, bridge.to.x) == Approx(left + gap + 0.25).margin(0.02));
+            CHECK(bridge.from.y == Approx(bridge.to.y).margin(0.05));
+        }
+    }
 }
 
 }  // namespace element_pieces_test

@@ -1,10 +1,14 @@
 // A plate of sticks from a recipe: kept, cut, told of what cannot be.
 #include "recipe/structure/place_elements.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <glm/gtc/constants.hpp>
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/runs/streaming_components.h"
+#include "procedural/voronoi/counter_hash.h"
 #include "recipe/build/build_job.h"
 #include "tests/app/commands/folder.h"
 #include "tests/app/commands/mentions.h"
@@ -75,15 +79,19 @@ TEST_CASE("a plate of sticks is one piece, the same at every height, and kept", 
 TEST_CASE("a plan of elements that is damaged is refused", "[elements]") {
     const Folder folder;
     const std::filesystem::path file = folder.path() / "some.elements";
-    ElementPlan plan{.elements = {{.shape = 1, .at = {0.1, 2, -3}, .turn = {0.6, 0, 0.8, 0}, .scale = 1.5},
-                                  {.shape = 0, .at = {1.0 / 3, 0, 0}}},
-                     .pieces = 3,
-                     .moved = 2,
-                     .dropped = 1,
-                     .volume = 0.25,
-                     .compliance = 12.5,
-                     .full_compliance = 3.25,
-                     .optimum = 6};
+    const ElementPlan plan{
+        .elements = {{.shape = 1, .at = {0.1, 2, -3}, .turn = {0.6, 0, 0.8, 0}, .scale = 1.5},
+                     {.shape = 0, .at = {1.0 / 3, 0, 0}}},
+        .bridges = {{{0.7, 0, 0}, {1, 2, 3}}},
+        .pieces = 3,
+        .moved = 2,
+        .dropped = 1,
+        .volume = 0.25,
+        .compliance = 12.5,
+        .full_compliance = 3.25,
+        .optimum = 6,
+        .overlap = 0.125,
+        .thickness = 2.5};
     write_element_plan(file, plan);
     const std::string whole = contents(file);
     const auto read = [](const std::string& text) {
@@ -96,6 +104,9 @@ TEST_CASE("a plan of elements that is damaged is refused", "[elements]") {
     CHECK(back.moved == 2);
     CHECK(back.dropped == 1);
     CHECK(back.optimum == 6);
+    CHECK(back.bridges == plan.bridges);
+    CHECK(back.overlap == 0.125);
+    CHECK(back.thickness == 2.5);
     for (std::size_t cut = 0; cut + 1 < whole.size(); cut += 7)
         CHECK_THROWS_AS(read(whole.substr(0, cut)), InputError);
     const auto changed = [&](const std::string& from, const std::string& to) {
@@ -104,8 +115,9 @@ TEST_CASE("a plan of elements that is damaged is refused", "[elements]") {
         REQUIRE(at != std::string::npos);
         return text.replace(at, from.size(), to);
     };
-    CHECK_THROWS_AS(read(changed("2,3,2,1", "3,3,2,1")), InputError);  // fewer elements than announced
-    CHECK_THROWS_AS(read(changed("2,3,2,1", "-2,3,2,1")), InputError);
+    CHECK_THROWS_AS(read(changed("2,1,3,2,1", "3,1,3,2,1")), InputError);  // fewer elements than announced
+    CHECK_THROWS_AS(read(changed("2,1,3,2,1", "-2,1,3,2,1")), InputError);
+    CHECK_THROWS_AS(read(changed("2,1,3,2,1", "2,2,3,2,1")), InputError);  // fewer bridges
     CHECK_THROWS_AS(read(changed("\n1,0.1", "\n1e12,0.1")), InputError);
     CHECK_THROWS_AS(read(changed("\n1,0.1", "\n0.5,0.1")), InputError);
     CHECK_THROWS_AS(read(changed("0.8", "0.9")), InputError);  // not a rotation
@@ -123,6 +135,83 @@ TEST_CASE("elements that cannot make the part are told why", "[elements]") {
     // Two short sticks cannot reach from the wall to the load.
     CHECK(mentions(told(plate("length = 10\nwidth = 2.4\n", "count = 2\niterations = 5\n")),
                    "do not reach all loads and anchors"));
+}
+
+TEST_CASE("elements without loads are spread by their density and make one piece", "[elements]") {
+    const std::string text =
+        "[part]\nshape = \"box\"\nsize = [60, 30, 3]\n[[element]]\nkind = \"ring\"\ndiameter = 6\nwidth = "
+        "1.2\n"
+        "[elements]\ndimensions = 2\ncount = 36\ndensity = \"x > 0\"\n";
+    const BuiltJob built = build_job(recipe_of(text, "p.toml"));
+    const ElementPlan& plan = *built.elements;
+    CHECK(plan.elements.size() + plan.dropped == 36);
+    CHECK(plan.full_compliance == 0);
+    CHECK(plan.overlap <= 0.3);
+    for (const PlacedElement& element : plan.elements) CHECK(element.at.x > -1.5);
+    const RowBand band = band_over(built.designed.bounds, 0.05);
+    const RunRows rows = runs_at(*built.designed.part, 0.7, band);
+    const double area = static_cast<double>(rows.total_length()) / run_unit * 0.05 * 0.05;
+    CHECK(area / (60 * 30) == Approx(plan.volume).epsilon(0.05));
+    CHECK(label_layer(rows, 0, Growth{}).components.size() == 1);
+
+    CHECK(mentions(told(text + "overlap = 0.01\n"), "of the elements lies in others, more than 0.01"));
+    std::string sparse = text;
+    sparse.replace(sparse.find("count = 36"), 10, "count = 12");
+    CHECK(mentions(told(sparse), "of 12 elements touch no others within elements.reach"));
+}
+
+TEST_CASE("a skin of elements is one piece over all of the body, bridged where it has to be", "[elements]") {
+    const auto to_ball = [](dvec3 p) { return length(p) - 15; };
+    const auto to_torus = [](dvec3 p) { return length(dvec2(length(dvec2(p)) - 12, p.z)) - 6; };
+    const bool is_torus = GENERATE(false, true);
+    const std::string text =
+        (is_torus ? "[part]\nshape = \"torus\"\nradius = 12\ntube = 6\n"
+                  : "[part]\nshape = \"sphere\"\nradius = 15\n") +
+        std::string(
+            "[skin]\nthickness = 1\npattern = \"elements\"\n"
+            "[[element]]\nkind = \"outline\"\ncorners = [[-3, -1], [3, -1], [3, 1], [-3, 1]]\n"
+            "[elements]\ncount = 110\nbridge = 0.8\nreach = 3\nalong = [1, 0, 1]\nscale_min = 0.8\nscale_max "
+            "= 1.1\n");
+    const BuiltJob built = build_job(recipe_of(text, "p.toml"));
+    const ElementPlan& plan = *built.elements;
+    CHECK(plan.elements.size() == 110);
+    CHECK(plan.bridges.size() > 5);
+    // The surface's share that is solid, by chance; inside of the shell there is nothing.
+    int on_surface = 0, solid = 0;
+    const CounterHash draw(1, 0, 0, 0, 0);
+    const Box box = built.designed.bounds;
+    for (std::uint64_t i = 0; i < 200'000; ++i) {
+        const dvec3 p = box.lo + box.size() * dvec3(draw.uniform(3 * i), draw.uniform(3 * i + 1),
+                                                    draw.uniform(3 * i + 2));
+        const double distance = is_torus ? to_torus(p) : to_ball(p);
+        const bool is_solid = built.designed.part->value(p) < 0;
+        if (distance > 0 || distance < -1) REQUIRE(!is_solid);
+        if (distance > 0 || distance < -0.1) continue;
+        ++on_surface;
+        solid += is_solid ? 1 : 0;
+    }
+    const double area =
+        is_torus ? 4 * glm::pi<double>() * glm::pi<double>() * 12 * 6 : 4 * glm::pi<double>() * 15 * 15;
+    double bridged = 0;
+    for (const ElementBridge& bridge : plan.bridges)
+        bridged += 0.8 * (length(bridge.to - bridge.from) + 0.8) / area;
+    const double share = solid / static_cast<double>(on_surface);
+    CHECK(share > plan.volume - 0.03);
+    CHECK(share < plan.volume + bridged + 0.03);
+    // One piece, by the runs of layers 0.1 mm thick.
+    StreamingComponents components;
+    std::vector<EndedComponent> ended;
+    const RowBand band = band_over(box, 0.1);
+    const auto layers = static_cast<int>(box.size().z / 0.1);
+    for (int layer = 0; layer < layers; ++layer) {
+        const RunRows rows = runs_at(*built.designed.part, box.lo.z + 0.05 + 0.1 * layer, band);
+        components.add(label_layer(rows, layer, Growth{}), layer, {}, ended);
+    }
+    components.finish(ended);
+    constexpr double crumb = 10 * run_unit;  // a hundredth of a cubic millimetre
+    CHECK(std::ranges::count_if(ended, [](const EndedComponent& e) {
+              return !e.joined && static_cast<double>(e.component.extent.length) > crumb;
+          }) == 1);
 }
 
 }  // namespace place_elements_test

@@ -1,0 +1,227 @@
+// Systematic samples by weight, then rounds of Lloyd's method with the nearest elements from a tree of
+// points.
+#include "procedural/elements/element_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "procedural/voronoi/counter_hash.h"
+#include "procedural/voronoi/point_tree.h"
+
+namespace lamella {
+
+namespace {
+
+/// Returns a rotation, evenly distributed over all, from three numbers in [0, 1) (Shoemake 1992).
+glm::dquat random_turn(double a, double b, double c) {
+    const double low = std::sqrt(1 - a), high = std::sqrt(a);
+    constexpr double round = 2 * std::numbers::pi;
+    return glm::dquat(high * std::cos(round * c), low * std::sin(round * b), low * std::cos(round * b),
+                      high * std::sin(round * c));
+}
+
+glm::dquat turn_about(dvec3 axis, double angle) { return glm::angleAxis(angle, axis); }
+
+/// Returns the rotation that takes z to the normal and x to the tangent, two unit vectors at right angles.
+glm::dquat turn_to_frame(dvec3 tangent, dvec3 normal) {
+    return glm::normalize(glm::quat_cast(glm::dmat3(tangent, glm::cross(normal, tangent), normal)));
+}
+
+class Spread {
+  public:
+    Spread(const SpreadSites& sites, std::span<const ElementShapePtr> shapes, const SpreadSettings& settings)
+        : sites_(sites), settings_(settings) {
+        for (const ElementShapePtr& shape : shapes) {
+            const Box box = shape->bounds();
+            halves_.push_back(glm::max(glm::max(-box.lo, box.hi), dvec3(1e-3 * sites.spacing)));
+        }
+        const double dimensions = sites.is_flat || !sites.normals.empty() ? 2 : 3;
+        const double greatest = std::ranges::max(sites.densities);
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+            const double density = std::pow(sites.densities[i] / greatest, (dimensions + 2) / dimensions);
+            weights_.push_back(sites.sizes[i] * density);
+        }
+        start();
+    }
+
+    /// Moves elements to their centroids; returns by how much at most, mm.
+    double iterate() {
+        const std::vector<std::uint32_t> owner = owners();
+        std::vector<dvec3> sum(elements_.size(), dvec3(0));
+        std::vector<double> weight(elements_.size(), 0.0);
+        for (std::size_t i = 0; i < owner.size(); ++i) {
+            sum[owner[i]] += weights_[i] * sites_.places[i];
+            weight[owner[i]] += weights_[i];
+        }
+        std::vector<std::uint32_t> nearest(elements_.size());
+        std::vector<double> distance(elements_.size(), infinity);
+        for (std::uint32_t i = 0; i < owner.size(); ++i) {
+            const std::uint32_t k = owner[i];
+            if (!(weight[k] > 0)) continue;
+            const double d = squared_length(sites_.places[i] - sum[k] / weight[k]);
+            if (!(d < distance[k])) continue;
+            distance[k] = d;
+            nearest[k] = i;
+        }
+        double moved = 0;
+        for (std::uint32_t k = 0; k < elements_.size(); ++k) {
+            if (!(distance[k] < infinity)) continue;
+            const dvec3 before = elements_[k].at;
+            place(k, nearest[k], at_centroid(sum[k] / weight[k], nearest[k]));
+            moved = std::max(moved, length(elements_[k].at - before));
+        }
+        return moved;
+    }
+    const std::vector<PlacedElement>& elements() const { return elements_; }
+
+  private:
+    CounterHash draw(std::uint32_t element) const {
+        return {settings_.seed, 3, static_cast<std::int64_t>(element), 0, 0};
+    }
+
+    /// Returns the centroid, which may lie beside a bent body or surface, at the nearest site if need be.
+    dvec3 at_centroid(dvec3 centroid, std::uint32_t nearest) const {
+        const dvec3 site = sites_.places[nearest], away = centroid - site;
+        if (sites_.normals.empty()) return length(away) > sites_.spacing ? site : centroid;
+        const dvec3 n = sites_.normals[nearest], aside = away - n * glm::dot(n, away);
+        return length(aside) > sites_.spacing ? site : site + aside;
+    }
+
+    /// One element for each equal share of the densities, in the order of the sites.
+    void start() {
+        const double all =
+            std::inner_product(sites_.sizes.begin(), sites_.sizes.end(), sites_.densities.begin(), 0.0);
+        elements_.resize(settings_.count);
+        site_.resize(settings_.count);
+        double below = 0;
+        std::uint32_t next = 0;
+        for (std::uint32_t i = 0; i < sites_.size() && next < settings_.count; ++i) {
+            below += sites_.sizes[i] * sites_.densities[i];
+            while (next < settings_.count) {
+                const double at = (next + draw(next).uniform(0)) * all / static_cast<double>(settings_.count);
+                if (at >= below) break;
+                begin(next++, i);
+            }
+        }
+        for (const auto last = static_cast<std::uint32_t>(sites_.size() - 1); next < settings_.count; ++next)
+            begin(next, last);
+    }
+    void begin(std::uint32_t k, std::uint32_t site) {
+        const CounterHash chance = draw(k);
+        elements_[k].shape =
+            static_cast<std::uint32_t>(chance.uniform(1) * static_cast<double>(halves_.size()));
+        elements_[k].scale = settings_.scale.lo + chance.uniform(2) * settings_.scale.width();
+        place(k, site, sites_.places[site]);
+    }
+
+    /// Puts an element at a place near a site and turns it as it has to be there.
+    void place(std::uint32_t k, std::uint32_t site, dvec3 at) {
+        const CounterHash chance = draw(k);
+        const double angle = settings_.turns ? 2 * std::numbers::pi * chance.uniform(3) : 0;
+        PlacedElement& element = elements_[k];
+        element.at = at;
+        site_[k] = site;
+        if (!sites_.normals.empty()) {
+            const dvec3 n = sites_.normals[site];
+            element.turn =
+                turn_about(n, settings_.is_aligned ? 0 : angle) * turn_to_frame(sites_.ways[site], n);
+        } else if (sites_.is_flat) {
+            double towards = angle;
+            if (settings_.is_aligned) towards = std::atan2(sites_.ways[site].y, sites_.ways[site].x);
+            element.turn = turn_about({0, 0, 1}, towards);
+        } else if (settings_.is_aligned) {
+            element.turn = turn_about(sites_.ways[site], angle) * shortest_turn({1, 0, 0}, sites_.ways[site]);
+        } else if (settings_.turns) {
+            element.turn = random_turn(chance.uniform(3), chance.uniform(4), chance.uniform(5));
+        }
+    }
+
+    /// Returns the element that each site is nearest to, in the halves of the element's box.
+    std::vector<std::uint32_t> owners() const {
+        std::vector<dvec3> places;
+        for (const PlacedElement& element : elements_) places.push_back(element.at);
+        const PointTree tree(places);
+        std::vector<std::uint32_t> owner(sites_.size());
+        parallel_for(sites_.size(), [&](std::size_t i) {
+            const dvec3 p = sites_.places[i];
+            const PointTree::Nearest nearest = tree.nearest(p);
+            // Others are nearer in their own measure only if they are not much farther away.
+            constexpr double farther = 3;
+            std::vector<std::uint32_t> near;
+            tree.within(p, farther * std::max(std::sqrt(nearest.squared), sites_.spacing), near);
+            std::ranges::sort(near);
+            double best = infinity;
+            owner[i] = nearest.point;
+            for (const std::uint32_t k : near) {
+                if (!sites_.normals.empty() && glm::dot(sites_.normals[i], sites_.normals[site_[k]]) < 0)
+                    continue;
+                dvec3 q = elements_[k].local(p) / halves_[elements_[k].shape];
+                if (sites_.is_flat || !sites_.normals.empty()) q.z = 0;
+                if (!(squared_length(q) < best)) continue;
+                best = squared_length(q);
+                owner[i] = k;
+            }
+        });
+        return owner;
+    }
+
+    const SpreadSites& sites_;
+    const SpreadSettings& settings_;
+    std::vector<dvec3> halves_;    ///< of the shapes' boxes
+    std::vector<double> weights_;  ///< of the sites in centroids
+    std::vector<PlacedElement> elements_;
+    std::vector<std::uint32_t> site_;  ///< nearest to each element
+};
+
+}  // namespace
+
+std::vector<PlacedElement> spread_elements(const SpreadSites& sites, std::span<const ElementShapePtr> shapes,
+                                           const SpreadSettings& settings) {
+    if (sites.size() == 0 || !(std::ranges::max(sites.densities) > 0))
+        throw InputError("no part of the body may hold elements; accepted: a density above 0 somewhere");
+    Spread spread(sites, shapes, settings);
+    for (int round = 0; round < settings.rounds; ++round) {
+        stop_if_cancelled(settings.cancel);
+        constexpr double still = 0.02;  // spacings
+        if (spread.iterate() < still * sites.spacing) break;
+    }
+    return spread.elements();
+}
+
+SpreadCover cover_of(const SpreadSites& sites, std::span<const PlacedElement> elements,
+                     std::span<const ElementShapePtr> shapes) {
+    const PointTree tree(sites.places);
+    std::vector<std::vector<std::uint32_t>> inside(elements.size());
+    parallel_for(elements.size(), [&](std::size_t k) {
+        const PlacedElement& element = elements[k];
+        const ElementShape& shape = *shapes[element.shape];
+        const Box box = shape.bounds();
+        const double reach = element.scale * length(glm::max(-box.lo, box.hi));
+        std::vector<std::uint32_t> near;
+        tree.within(element.at, reach, near);
+        for (const std::uint32_t i : near) {
+            const dvec3 up = element.turn * dvec3(0, 0, 1);
+            if (!sites.normals.empty() && glm::dot(sites.normals[i], up) < 0) continue;
+            dvec3 p = element.local(sites.places[i]);
+            if (sites.is_flat) p.z = 0;
+            if (shape.distance(p) < 0) inside[k].push_back(i);
+        }
+    });
+    std::vector<std::uint8_t> is_covered(sites.size(), 0);
+    double all = 0, covered = 0;
+    for (const auto& of_element : inside) {
+        for (const std::uint32_t i : of_element) {
+            all += sites.sizes[i];
+            if (is_covered[i] == 0) covered += sites.sizes[i];
+            is_covered[i] = 1;
+        }
+    }
+    const double whole = std::accumulate(sites.sizes.begin(), sites.sizes.end(), 0.0);
+    return {covered / whole, all > 0 ? 1 - covered / all : 0};
+}
+
+}  // namespace lamella
