@@ -15,6 +15,7 @@
 #include "recipe/build/support_plan.h"
 #include "recipe/output/beam_output.h"
 #include "recipe/settings.h"
+#include "recipe/structure/element_copies.h"
 
 namespace lamella {
 
@@ -59,13 +60,17 @@ void write_beams(const BuiltFoam& foam, const Box& box, TextOutput& out) {
     }
 }
 
+void need_file(const DumpOptions& options) {
+    if (options.output.empty() || options.output == "-")
+        throw InputError("--output: missing; accepted: the path of the 3MF file to write");
+}
+
 void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& options,
                    const std::string& name) {
     if (options.what != "beams")
-        throw InputError("--format: 3mf files hold beams only; accepted: `dump beams`, or csv");
-    if (options.output.empty() || options.output == "-") {
-        throw InputError("--output: missing; accepted: the path of the 3MF file to write");
-    }
+        throw InputError(
+            "--format: 3mf files hold beams or elements; accepted: `dump beams`, `dump elements`, or csv");
+    need_file(options);
     const BeamLatticeReport report = write_beam_lattice(options.output, foam.beams_touching(box), name);
     std::fputs((lattice_text(options.output, report) + "\n").c_str(), stderr);
 }
@@ -74,10 +79,16 @@ void write_lattice(const BuiltFoam& foam, const Box& box, const DumpOptions& opt
 void dump_elements(const Recipe& recipe, const DumpOptions& options) {
     if (!recipe.elements)
         throw InputError("elements: the recipe has none; accepted: a recipe with [[element]] and [elements]");
-    if (!options.box.empty() || options.format != "csv")
-        throw InputError(
-            "--box, --format: elements are written all, as csv; accepted: `dump elements` without them");
+    if (!options.box.empty())
+        throw InputError("--box: elements are written all; accepted: `dump elements` without it");
+    const bool is_package = options.format == "3mf";
+    if (is_package) need_file(options);
     const BuiltJob built = build_job(recipe, with_kept_plans(false));
+    if (is_package) {
+        const Box& bounds = built.designed.bounds;
+        const ElementCopies made = element_copies(recipe, *built.elements, {bounds.lo.z, bounds.hi.z});
+        return write_component_package(options.output, made.meshes, made.copies, recipe.part.name);
+    }
     TextOutput out(options.output);
     if (options.header) out.write("shape,x,y,z,qw,qx,qy,qz,scale\n");
     std::ostringstream lines;
@@ -139,7 +150,8 @@ void add_dump_command(CLI::App& root) {
         ->type_name("x0,y0,z0,x1,y1,z1");
     command
         .add_option("--format", options->format,
-                    "csv: one line each, with numbers that read back exactly; 3mf: beams as a beam lattice")
+                    "csv: one line each, with numbers that read back exactly; 3mf: beams as a beam lattice, "
+                    "elements as components of one object, not cut by the part")
         ->check(CLI::IsMember({"csv", "3mf"}))
         ->type_name("WORD");
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
@@ -148,7 +160,8 @@ void add_dump_command(CLI::App& root) {
                    "  lamella dump beams --cell 3 --beam 0.5 --box 0,0,0,20,20,20 > beams.csv\n"
                    "  lamella dump beams insole.toml --format 3mf -o foam.3mf\n"
                    "  lamella dump seeds insole.toml --header -o seeds.csv\n"
-                   "  lamella dump elements bracket.toml > elements.csv");
+                   "  lamella dump elements bracket.toml > elements.csv\n"
+                   "  lamella dump elements bracket.toml --format 3mf -o elements.3mf");
     command.callback([options] { run(*options); });
 }
 

@@ -189,6 +189,19 @@ std::size_t Pieces::close(std::size_t pair, std::span<const std::uint32_t> piece
 
 }  // namespace
 
+double bridge_length(const ElementBridge& bridge, double width) {
+    constexpr double longer = 1.001;  // than wide, at least
+    return std::max(length(bridge.to - bridge.from) + width, longer * width);
+}
+
+PlacedElement bridge_rod(const ElementBridge& bridge) {
+    const dvec3 way = bridge.to - bridge.from;
+    const double far = length(way);
+    return {.shape = 0,
+            .at = 0.5 * (bridge.from + bridge.to),
+            .turn = shortest_turn({1, 0, 0}, far > 0 ? way / far : dvec3(1, 0, 0))};
+}
+
 Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
                    double reach, bool is_flat, const Field* body) {
     const double reach_a = reach_of(a, shapes), reach_b = reach_of(b, shapes);

@@ -30,6 +30,11 @@ struct ElementBridge {
     friend bool operator==(const ElementBridge&, const ElementBridge&) = default;
 };
 
+/// Returns the length of the rod in all, with its round ends: more than its width.
+double bridge_length(const ElementBridge& bridge, double width);
+/// Returns where a stick along x has to be to become the bridge.
+PlacedElement bridge_rod(const ElementBridge& bridge);
+
 /// An element that touches one of several solids.
 struct Touch {
     std::uint32_t element, solid;

@@ -13,8 +13,18 @@ namespace lamella {
 
 namespace {
 
-/// Returns the outline of corners or of a drawing, its longer side as long as the recipe says.
-ElementShapePtr outline_of(const ElementRecipe& element, double thickness) {
+ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings) {
+    for (const FieldRecipe& field : gradings.recipe().fields) {
+        if (field.name != element.field) continue;
+        std::optional<MeshReport> mesh;
+        return make_field_shape(build_field(field, gradings, std::nullopt, mesh));
+    }
+    throw InputError(element.where + ".field: there is no [[field]] of that name");
+}
+
+}  // namespace
+
+std::vector<std::vector<dvec2>> element_outline(const ElementRecipe& element) {
     constexpr double tolerance = 0.01;  // mm
     std::vector<std::vector<dvec2>> polygons(1);
     for (const auto& row : element.corners) polygons[0].emplace_back(row[0], row[1]);
@@ -29,19 +39,8 @@ ElementShapePtr outline_of(const ElementRecipe& element, double thickness) {
             for (dvec2& p : polygon) p *= element.length / longer;
         }
     }
-    return make_outline(std::move(polygons), thickness);
+    return polygons;
 }
-
-ElementShapePtr field_shape_of(const ElementRecipe& element, Gradings& gradings) {
-    for (const FieldRecipe& field : gradings.recipe().fields) {
-        if (field.name != element.field) continue;
-        std::optional<MeshReport> mesh;
-        return make_field_shape(build_field(field, gradings, std::nullopt, mesh));
-    }
-    throw InputError(element.where + ".field: there is no [[field]] of that name");
-}
-
-}  // namespace
 
 std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<double> thickness,
                                             Gradings& gradings) {
@@ -56,7 +55,8 @@ std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<
                     shapes.push_back(make_ring(element.diameter, element.width));
                     break;
                 case ElementKind::outline:
-                    shapes.push_back(outline_of(element, thickness.value_or(element.thickness)));
+                    shapes.push_back(
+                        make_outline(element_outline(element), thickness.value_or(element.thickness)));
                     break;
                 case ElementKind::field:
                     shapes.push_back(field_shape_of(element, gradings));

@@ -8,6 +8,10 @@
 
 namespace lamella {
 
+/// Returns the polygons of an element that is an outline, from its corners or its drawing, its longer side as
+/// long as the recipe says. Throws InputError for a drawing that cannot be read.
+std::vector<std::vector<dvec2>> element_outline(const ElementRecipe& element);
+
 /// Returns the shapes of the recipe, in their order, outlines with the given thickness, mm, or each with its
 /// own. Throws InputError, with the entry in front, for files that cannot be read and shapes that are none.
 std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<double> thickness,

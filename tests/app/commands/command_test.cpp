@@ -373,4 +373,25 @@ TEST_CASE("entries that nothing uses are told in one line") {
     CHECK(run_lamella(slice + "--quiet -o " + folder / "two").err.empty());
 }
 
+TEST_CASE("elements are written as copies of meshes", "[elements]") {
+    const Folder folder;
+    const std::string file = (folder.path() / "leaves.3mf").string();
+    const std::string examples = LAMELLA_SOURCE_DIR "/examples/";
+    REQUIRE(run_lamella("dump elements " + examples + "leaf_console.toml --format 3mf -o " + file).code == 0);
+    // Sixty leaves of one area, 3 mm high, and nothing else.
+    const auto volume = [](const std::string& of) {
+        return nlohmann::json::parse(run_lamella("info --json " + of).out)["mesh"]["volume_mm3"]
+            .get<double>();
+    };
+    const double all = volume(file);
+    std::istringstream model(run_lamella("dump elements " + examples + "leaf_console.toml").out);
+    CHECK(count_lines(model.str()) == 60);
+    CHECK(all / 60 / 3 == Approx(61.6).epsilon(0.01));
+    const Outcome skin =
+        run_lamella("dump elements " + examples + "leaf_shade.toml --format 3mf -o " + file + "2");
+    CHECK(skin.code == 2);
+    CHECK(mentions(skin.err, "elements of a skin bend with it"));
+    CHECK(run_lamella("dump elements " + examples + "leaf_console.toml --format 3mf").code == 2);
+}
+
 }  // namespace command_test
