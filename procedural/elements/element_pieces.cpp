@@ -210,6 +210,13 @@ Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<con
                   glm::min(a.at + reach_a, b.at + reach_b) + 0.5 * reach};
     const bool is_apart = box.lo.x > box.hi.x || box.lo.y > box.hi.y || (!is_flat && box.lo.z > box.hi.z);
     if (is_apart) return {};
+    // Distances change by at most 1 per mm: no point of the box may be near enough to both.
+    const dvec3 middle_of_box = is_flat ? dvec3(dvec2(box.center()), a.at.z) : box.center();
+    const double half_diagonal = 0.5 * length(is_flat ? dvec3(dvec2(box.size()), 0) : box.size());
+    const auto depth_at = [&](dvec3 p) {
+        return std::min(-distance_of(a, shapes, p, is_flat), -distance_of(b, shapes, p, is_flat));
+    };
+    if (depth_at(middle_of_box) + half_diagonal < -0.5 * reach) return {};
     constexpr int samples = 12;
     Overlap best;
     const auto try_at = [&](dvec3 p) {
@@ -232,6 +239,7 @@ Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<con
         if (is_flat) p.z = a.at.z;
         try_at(p);
     }
+    if (best.depth + half_diagonal / samples < -0.5 * reach && body == nullptr) return best;
     const dvec3 size = box.size();
     double step = std::max({size.x, size.y, is_flat ? 0 : size.z}) / samples;
     const double finest = 1e-3 * std::min(reach_a, reach_b);

@@ -18,8 +18,8 @@ struct Overlap {
 };
 
 /// Returns the largest of min(-a, -b) over space, of two elements' distances a and b: sampled in the boxes of
-/// both, and refined to a thousandth of the smaller one. Elements whose boxes are farther than `reach` mm
-/// apart have a depth of -infinity. In the plane, at z = 0 of their frames. With a body, which cuts the
+/// both, and refined to a thousandth of the smaller one. Elements that are farther than `reach` mm
+/// apart may have a depth of -infinity. In the plane, at z = 0 of their frames. With a body, which cuts the
 /// elements, its value counts like their distances, and much more outside of it; null: nothing is cut.
 Overlap overlap_of(const PlacedElement& a, const PlacedElement& b, std::span<const ElementShapePtr> shapes,
                    double reach, bool is_flat, const Field* body = nullptr);

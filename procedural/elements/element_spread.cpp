@@ -35,9 +35,14 @@ class Spread {
   public:
     Spread(const SpreadSites& sites, std::span<const ElementShapePtr> shapes, const SpreadSettings& settings)
         : sites_(sites), settings_(settings) {
+        double least_half = infinity, greatest_half = 0;
         for (const ElementShapePtr& shape : shapes) {
             const Box box = shape->bounds();
-            halves_.push_back(glm::max(glm::max(-box.lo, box.hi), dvec3(1e-3 * sites.spacing)));
+            const dvec3 half = glm::max(glm::max(-box.lo, box.hi), dvec3(1e-3 * sites.spacing));
+            halves_.push_back(half);
+            const bool is_in_plane = sites.is_flat || !sites.normals.empty();
+            least_half = std::min({least_half, half.x, half.y, is_in_plane ? half.x : half.z});
+            greatest_half = std::max({greatest_half, half.x, half.y, is_in_plane ? half.x : half.z});
         }
         const double dimensions = sites.is_flat || !sites.normals.empty() ? 2 : 3;
         const double greatest = std::ranges::max(sites.densities);
@@ -45,12 +50,15 @@ class Spread {
             const double density = std::pow(sites.densities[i] / greatest, (dimensions + 2) / dimensions);
             weights_.push_back(sites.sizes[i] * density);
         }
+        const double thinnest = settings.scale.lo * least_half, longest = settings.scale.hi * greatest_half;
+        farther_ = std::min(longest / thinnest, farthest) * (1 + 1e-9);
         start();
     }
 
-    /// Moves elements to their centroids; returns by how much at most, mm.
+    /// Moves elements to their centroids; returns by how much in the mean, mm.
     double iterate() {
-        const std::vector<std::uint32_t> owner = owners();
+        owner_ = owners();
+        const std::vector<std::uint32_t>& owner = owner_;
         std::vector<dvec3> sum(elements_.size(), dvec3(0));
         std::vector<double> weight(elements_.size(), 0.0);
         for (std::size_t i = 0; i < owner.size(); ++i) {
@@ -72,9 +80,9 @@ class Spread {
             if (!(distance[k] < infinity)) continue;
             const dvec3 before = elements_[k].at;
             place(k, nearest[k], at_centroid(sum[k] / weight[k], nearest[k]));
-            moved = std::max(moved, length(elements_[k].at - before));
+            moved += length(elements_[k].at - before);
         }
-        return moved;
+        return moved / static_cast<double>(elements_.size());
     }
     const std::vector<PlacedElement>& elements() const { return elements_; }
 
@@ -148,23 +156,18 @@ class Spread {
         std::vector<std::uint32_t> owner(sites_.size());
         parallel_for(sites_.size(), [&](std::size_t i) {
             const dvec3 p = sites_.places[i];
-            const PointTree::Nearest nearest = tree.nearest(p);
-            // Others are nearer in their own measure only if they are not much farther away.
-            constexpr double farther = 3;
+            const PointTree::Nearest nearest = tree.nearest(p, owner_.empty() ? 0 : owner_[i]);
             std::vector<std::uint32_t> near;
-            tree.within(p, farther * std::max(std::sqrt(nearest.squared), sites_.spacing), near);
-            std::ranges::sort(near);
-            double best = infinity;
-            owner[i] = nearest.point;
+            tree.within(p, farther_ * std::sqrt(nearest.squared), near);
+            std::pair best(infinity, nearest.point);
             for (const std::uint32_t k : near) {
                 if (!sites_.normals.empty() && glm::dot(sites_.normals[i], sites_.normals[site_[k]]) < 0)
                     continue;
                 dvec3 q = elements_[k].local(p) / halves_[elements_[k].shape];
                 if (sites_.is_flat || !sites_.normals.empty()) q.z = 0;
-                if (!(squared_length(q) < best)) continue;
-                best = squared_length(q);
-                owner[i] = k;
+                best = std::min(best, std::pair(squared_length(q), k));
             }
+            owner[i] = best.second;
         });
         return owner;
     }
@@ -174,7 +177,12 @@ class Spread {
     std::vector<dvec3> halves_;    ///< of the shapes' boxes
     std::vector<double> weights_;  ///< of the sites in centroids
     std::vector<PlacedElement> elements_;
-    std::vector<std::uint32_t> site_;  ///< nearest to each element
+    std::vector<std::uint32_t> site_;   ///< nearest to each element
+    std::vector<std::uint32_t> owner_;  ///< of each site, in the round before
+    /// Elements farther away than the nearest one by this factor are not nearer in their own measure, or are
+    /// not asked.
+    double farther_ = 1;
+    static constexpr double farthest = 3;
 };
 
 }  // namespace
@@ -186,7 +194,7 @@ std::vector<PlacedElement> spread_elements(const SpreadSites& sites, std::span<c
     Spread spread(sites, shapes, settings);
     for (int round = 0; round < settings.rounds; ++round) {
         stop_if_cancelled(settings.cancel);
-        constexpr double still = 0.02;  // spacings
+        constexpr double still = 0.05;  // spacings
         if (spread.iterate() < still * sites.spacing) break;
     }
     return spread.elements();
