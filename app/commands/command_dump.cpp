@@ -92,7 +92,10 @@ void dump_elements(const Recipe& recipe, const DumpOptions& options) {
     TextOutput out(options.output);
     if (options.header) out.write("shape,x,y,z,qw,qx,qy,qz,scale\n");
     std::ostringstream lines;
-    write_elements(lines, built.elements->elements);
+    std::vector<PlacedElement> elements = built.elements->elements;
+    const auto shapes = static_cast<std::uint32_t>(recipe.element_shapes.size());
+    for (PlacedElement& element : elements) element.shape %= shapes;  // whatever their thickness
+    write_elements(lines, elements);
     out.write(lines.str());
     out.close();
 }

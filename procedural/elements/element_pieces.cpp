@@ -104,9 +104,15 @@ void Pieces::measure_overlaps() {
         const auto known = std::ranges::lower_bound(pairs_, pairs[i]);
         const bool is_known = known != pairs_.end() && *known == pairs[i] && elements_[a] == measured_[a] &&
                               elements_[b] == measured_[b];
-        overlaps[i] = is_known ? overlaps_[static_cast<std::size_t>(known - pairs_.begin())]
-                               : overlap_of(elements_[a], elements_[b], shapes_, settings_.reach,
-                                            settings_.is_flat, settings_.body);
+        if (is_known) {
+            overlaps[i] = overlaps_[static_cast<std::size_t>(known - pairs_.begin())];
+            return;
+        }
+        overlaps[i] = overlap_of(elements_[a], elements_[b], shapes_, settings_.reach, settings_.is_flat,
+                                 settings_.body);
+        const bool is_near = overlaps[i].depth >= -0.5 * settings_.reach;
+        if (is_near && settings_.may_hold && !settings_.may_hold(elements_[a], elements_[b], overlaps[i].at))
+            overlaps[i] = {};
     });
     pairs_ = std::move(pairs);
     overlaps_ = std::move(overlaps);

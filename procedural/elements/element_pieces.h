@@ -51,6 +51,8 @@ struct JoinSettings {
     std::vector<Touch> touches{};
     /// Puts an element that was moved back where elements may be, such as on a surface; may be empty.
     std::function<void(PlacedElement&)> settle{};
+    /// Says whether two elements may hold together, or be joined, at a point; empty: everywhere.
+    std::function<bool(const PlacedElement&, const PlacedElement&, dvec3)> may_hold{};
 };
 
 struct JoinedElements {

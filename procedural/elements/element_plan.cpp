@@ -17,7 +17,9 @@ namespace {
 
 /// Its number is raised whenever the same recipe places elements otherwise, so that plans of older versions
 /// are not taken.
-constexpr std::string_view title = "lamella elements 2";
+constexpr std::string_view title = "lamella elements 3";
+
+constexpr double most_shapes = 10'000;
 
 [[noreturn]] void refuse(const std::string& name) {
     throw InputError(name + ": damaged or cut off; accepted: a plan of elements as Lamella writes it");
@@ -39,8 +41,7 @@ std::vector<double> numbers_of(std::istream& in, std::size_t count, const std::s
     return numbers;
 }
 
-std::size_t count_of(double number, const std::string& name) {
-    constexpr double most = 1e9;
+std::size_t count_of(double number, const std::string& name, double most = 1e9) {
     if (!(number >= 0 && number <= most) || number != std::floor(number)) refuse(name);
     return static_cast<std::size_t>(number);
 }
@@ -91,7 +92,7 @@ ElementPlan read_element_plan(std::istream& in, const std::string& name) {
         const std::vector<double> n = numbers_of(in, 9, name);
         const glm::dquat turn(n[4], n[5], n[6], n[7]);
         if (!(std::abs(glm::dot(turn, turn) - 1) < 1e-9) || !(n[8] > 0)) refuse(name);
-        plan.elements.push_back({.shape = static_cast<std::uint32_t>(count_of(n[0], name)),
+        plan.elements.push_back({.shape = static_cast<std::uint32_t>(count_of(n[0], name, most_shapes)),
                                  .at = {n[1], n[2], n[3]},
                                  .turn = turn,
                                  .scale = n[8]});

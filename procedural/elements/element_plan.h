@@ -21,7 +21,9 @@ struct ElementPlan {
     double full_compliance = 0;          ///< of the body as a solid, N mm
     double optimum = 0;                  ///< of the densities where the elements began, N mm
     double overlap = 0;                  ///< share of them that lies in others, where no loads placed them
-    double thickness = 0;                ///< of outlines that reach through a skin, mm at scale 1
+    /// Of outlines that reach through a skin, mm at scale 1: the thinnest ones. Numbers of shapes count
+    /// thicker ones, too: see skin_shapes().
+    double thickness = 0;
 };
 
 /// Writes elements as lines of numbers that read back exactly: shape,x,y,z,qw,qx,qy,qz,scale. Places are in

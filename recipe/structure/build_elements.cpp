@@ -69,4 +69,18 @@ std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<
     return shapes;
 }
 
+std::vector<ElementShapePtr> skin_shapes(const Recipe& recipe, double thickness, std::size_t steps,
+                                         Gradings& gradings) {
+    std::vector<ElementShapePtr> shapes = build_elements(recipe, thickness, gradings);
+    for (std::size_t step = 1; step < steps; ++step) {
+        thickness *= skin_step;
+        for (std::size_t i = 0; i < recipe.element_shapes.size(); ++i) {
+            const ElementRecipe& element = recipe.element_shapes[i];
+            const bool is_outline = element.kind == ElementKind::outline;
+            shapes.push_back(is_outline ? make_outline(element_outline(element), thickness) : shapes[i]);
+        }
+    }
+    return shapes;
+}
+
 }  // namespace lamella

@@ -17,4 +17,10 @@ std::vector<std::vector<dvec2>> element_outline(const ElementRecipe& element);
 std::vector<ElementShapePtr> build_elements(const Recipe& recipe, std::optional<double> thickness,
                                             Gradings& gradings);
 
+/// Returns the shapes of the recipe for each of several thicknesses of outlines: `thickness` mm, and each
+/// skin_step times as thick as the one before. Throws as build_elements().
+inline constexpr double skin_step = 1.25;
+std::vector<ElementShapePtr> skin_shapes(const Recipe& recipe, double thickness, std::size_t steps,
+                                         Gradings& gradings);
+
 }  // namespace lamella

@@ -18,7 +18,7 @@ FieldPtr element_solid(std::vector<ElementShapePtr> shapes, const ElementPlan& p
             shapes.push_back(make_stick(whole, width));
         } else {
             constexpr double tolerance = 0.005, precision = 1e-3;  // mm, and of the width
-            shapes.push_back(make_outline({stick_outline(whole, width, tolerance)}, plan.thickness));
+            shapes.push_back(make_outline({stick_outline(whole, width, tolerance)}, plan.thickness + whole));
             if (const auto foot = foot_on_surface(*body, rod.at, precision * width)) {
                 const dvec3 along = rod.turn * dvec3(1, 0, 0),
                             up = glm::normalize(foot->normal - along * glm::dot(along, foot->normal));

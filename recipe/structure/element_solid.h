@@ -10,7 +10,7 @@ namespace lamella {
 
 /// Returns the union of a plan's elements and its bridges, `width` mm wide. With `upright`, they are prisms
 /// between these heights, mm, as in make_element_field(). With a body, whose surface the elements lie on,
-/// bridges are as thick as the plan's outlines, at right angles to it.
+/// bridges go through the skin at right angles to it.
 FieldPtr element_solid(std::vector<ElementShapePtr> shapes, const ElementPlan& plan, double width,
                        std::optional<Interval> upright, const Field* body = nullptr);
 

@@ -1,6 +1,7 @@
 // Plans of elements, kept under the identity of their problem, and the solids that they describe.
 #include "recipe/structure/place_elements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -103,7 +104,10 @@ PlacedElements place_elements_on_skin(const Recipe& recipe, const FieldPtr& body
     const FieldPtr inner = make_intersection({body, shell});  // shells lie on both sides
     ElementPlan plan = plan_of(
         problem, options, [&] { return spread_on_skin(problem, *body, *inner, depth, gradings, options); });
-    const std::vector<ElementShapePtr> shapes = build_elements(problem, plan.thickness, gradings);
+    std::uint32_t last = 0;
+    for (const PlacedElement& element : plan.elements) last = std::max(last, element.shape);
+    const std::size_t steps = 1 + last / problem.element_shapes.size();
+    const std::vector<ElementShapePtr> shapes = skin_shapes(problem, plan.thickness, steps, gradings);
     FieldPtr elements = element_solid(shapes, plan, recipe.elements->bridge, std::nullopt, body.get());
     return {std::move(plan), make_intersection({inner, std::move(elements)})};
 }

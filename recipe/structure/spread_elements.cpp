@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "procedural/elements/element_spread.h"
 #include "procedural/skin/surface_walk.h"
 #include "procedural/texture/body_sites.h"
@@ -88,26 +89,38 @@ std::vector<dvec3> tangents_of(SurfaceSites& surface, const std::optional<Elemen
     return surface.tangents;
 }
 
-/// Returns how far the surface departs from the tangent planes of elements, within their outlines, mm at
-/// scale 1.
-double greatest_sagitta(const SpreadSites& sites, std::span<const PlacedElement> elements,
-                        std::span<const ElementShapePtr> shapes) {
-    constexpr double same_side = 0.3;  // cosine of the angle between normals
+constexpr double same_side = 0.3;  // least cosine of the angle between normals
+
+/// Returns how far the surface departs from the tangent plane of an element, within its outline, mm at scale
+/// 1.
+double sagitta(const SpreadSites& sites, const PlacedElement& element, const ElementShape& shape) {
+    const dvec3 up = element.turn * dvec3(0, 0, 1);
+    const Box box = shape.bounds();
+    const double reach = std::max(box.size().x, box.size().y);
     double greatest = 0;
-    for (const PlacedElement& element : elements) {
-        const ElementShape& shape = *shapes[element.shape];
-        const dvec3 up = element.turn * dvec3(0, 0, 1);
-        const Box box = shape.bounds();
-        const double reach = std::max(box.size().x, box.size().y);
-        for (std::size_t i = 0; i < sites.size(); ++i) {
-            if (glm::dot(sites.normals[i], up) < same_side) continue;
-            const dvec3 p = element.local(sites.places[i]);
-            const bool is_near = std::abs(p.z) < reach && box.contains({p.x, p.y, box.center().z});
-            if (!is_near || !(shape.distance({p.x, p.y, 0}) < 0)) continue;
-            greatest = std::max(greatest, std::abs(p.z));
-        }
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        if (glm::dot(sites.normals[i], up) < same_side) continue;
+        const dvec3 p = element.local(sites.places[i]);
+        const bool is_near = std::abs(p.z) < reach && box.contains({p.x, p.y, box.center().z});
+        if (is_near && shape.distance({p.x, p.y, 0}) < 0) greatest = std::max(greatest, std::abs(p.z));
     }
     return greatest;
+}
+
+/// Makes each outline as thick as it has to be to reach through the skin: its shape becomes one of
+/// skin_shapes(). Returns the number of thicknesses.
+std::size_t set_thicknesses(const SpreadSites& sites, std::span<const ElementShapePtr> flat, double depth,
+                            double thinnest, std::vector<PlacedElement>& elements) {
+    std::vector<std::uint32_t> steps(elements.size());
+    parallel_for(elements.size(), [&](std::size_t k) {
+        const PlacedElement& element = elements[k];
+        const double thickness = 2 * (depth / element.scale + sagitta(sites, element, *flat[element.shape]));
+        steps[k] = static_cast<std::uint32_t>(
+            std::ceil(std::max(std::log(thickness / thinnest) / std::log(skin_step), 0.0)));
+    });
+    for (std::size_t k = 0; k < elements.size(); ++k)
+        elements[k].shape += steps[k] * static_cast<std::uint32_t>(flat.size());
+    return 1 + std::ranges::max(steps);
 }
 
 }  // namespace
@@ -155,8 +168,9 @@ ElementPlan spread_on_skin(const Recipe& recipe, const Field& body, const Field&
     const bool is_aligned = ways.has_value() || !wanted.turns;
     std::vector<PlacedElement> elements =
         spread_elements(sites, flat, spread_settings(wanted, is_aligned, options.cancel));
-    const double thickness = 2 * (depth / wanted.scale_min + greatest_sagitta(sites, elements, flat));
-    const std::vector<ElementShapePtr> shapes = build_elements(recipe, thickness, gradings);
+    const double thickness = 2 * depth / wanted.scale_max;
+    const std::size_t steps = set_thicknesses(sites, flat, depth, thickness, elements);
+    const std::vector<ElementShapePtr> shapes = skin_shapes(recipe, thickness, steps, gradings);
     constexpr double held_share = 0.08;  // of the thinnest shape or of the skin
     JoinSettings settings{.hold = held_share * std::min(thinnest, depth),
                           .reach = wanted.reach > 0 ? wanted.reach : thinnest,
@@ -168,6 +182,14 @@ ElementPlan spread_on_skin(const Recipe& recipe, const Field& body, const Field&
         element.at = foot->place;
         element.turn =
             glm::normalize(shortest_turn(element.turn * dvec3(0, 0, 1), foot->normal) * element.turn);
+    };
+    // Round an edge, but not on the other side of a thin wall, which prisms may reach.
+    settings.may_hold = [&](const PlacedElement& a, const PlacedElement& b, dvec3 at) {
+        constexpr double round_edge = -0.2;  // least cosine of the angle between normals
+        const auto foot = foot_on_surface(body, at, 1e-3 * spacing);
+        const dvec3 up(0, 0, 1), up_a = a.turn * up, up_b = b.turn * up;
+        return foot && std::min({glm::dot(up_a, up_b), glm::dot(up_a, foot->normal),
+                                 glm::dot(up_b, foot->normal)}) >= round_edge;
     };
     ElementPlan plan = one_piece(wanted, sites, std::move(elements), shapes, settings);
     plan.thickness = thickness;

@@ -214,4 +214,26 @@ TEST_CASE("a skin of elements is one piece over all of the body, bridged where i
           }) == 1);
 }
 
+TEST_CASE("elements do not hold together through a thin wall", "[elements]") {
+    // Both sides of a board, 4 mm thick, whose edges get no elements: two skins that nothing joins.
+    const std::string text =
+        "[part]\nshape = \"box\"\nsize = [40, 30, 4]\n[skin]\nthickness = 1\npattern = \"elements\"\n"
+        "[[element]]\nkind = \"outline\"\ncorners = [[-3, -1], [3, -1], [3, 1], [-3, 1]]\n"
+        "[elements]\ncount = 150\nbridge = 0.8\nreach = 2\n";
+    const std::string without_edges = "density = \"abs(z) > 1.9 and abs(x) < 16 and abs(y) < 11\"\n";
+    const std::string wrong = told(text + without_edges);
+    if (wrong.empty()) {
+        const ElementPlan plan = *build_job(recipe_of(text + without_edges, "p.toml")).elements;
+        CHECK(plan.dropped > 60);
+        const auto above =
+            std::ranges::count_if(plan.elements, [](const PlacedElement& e) { return e.at.z > 0; });
+        CHECK((above == 0 || above == std::ssize(plan.elements)));
+    } else {
+        CHECK(mentions(wrong, "of 150 elements touch no others"));
+    }
+    // With the edges, both sides are one piece.
+    const BuiltJob around = build_job(recipe_of(text, "p.toml"));
+    CHECK(around.elements->dropped < 8);
+}
+
 }  // namespace place_elements_test
