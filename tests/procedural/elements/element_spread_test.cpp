@@ -84,8 +84,11 @@ TEST_CASE("as many elements are spread as densities say", "[elements]") {
     }
     // In space, in cubes of 1 mm.
     SpreadSites box{.spacing = 1};
-    for (int i = 0; i < 40 * 20 * 20; ++i)
-        box.places.emplace_back(i % 40 - 19.5, i / 40 % 20 + 0.5, i / 800 + 0.5);
+    for (int z = 0; z < 20; ++z) {
+        for (int y = 0; y < 20; ++y) {
+            for (int x = 0; x < 40; ++x) box.places.emplace_back(x - 19.5, y + 0.5, z + 0.5);
+        }
+    }
     box.sizes.assign(box.size(), 1);
     for (const dvec3 p : box.places) box.densities.push_back(p.x < 0 ? 0.5 : 2);
     CHECK(right_of(spread_elements(box, sticks, {.count = 500}), 0) == Approx(400).margin(16));
