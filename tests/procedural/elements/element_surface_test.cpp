@@ -65,7 +65,7 @@ TEST_CASE("outlines have closed surfaces, whatever their holes and the order of 
                                              square(2, {7, 7}), square(2, {-7, 7}),  square(4.5),
                                              square(3)};
     for (int turns = 0; turns < 7; ++turns) {
-        std::ranges::rotate(polygons, polygons.begin() + 1);
+        std::rotate(polygons.begin(), polygons.begin() + 1, polygons.end());
         if (turns % 2 == 1) std::ranges::reverse(polygons.back());
         const TriangleMesh mesh = outline_surface(polygons, 2);
         CHECK(is_closed(mesh));

@@ -63,7 +63,7 @@ TEST_CASE("a plate of sticks is one piece, the same at every height, and kept", 
     const RowBand band = band_over(box, 0.05);
     const RunRows low = runs_at(*built.designed.part, -1.3, band),
                   high = runs_at(*built.designed.part, 1.4, band);
-    CHECK(low.runs().size() > 0);
+    CHECK(!low.runs().empty());
     CHECK(std::ranges::equal(low.runs(), high.runs()));
     const double area = static_cast<double>(low.total_length()) / run_unit * 0.05 * 0.05;
     CHECK(area / (60 * 24) == Approx(plan.volume).epsilon(0.02));
