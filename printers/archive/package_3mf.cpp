@@ -1,4 +1,4 @@
-// Box meshes and XML escaping.
+// The parts before the model, box meshes and XML escaping.
 #include "printers/archive/package_3mf.h"
 
 #include <fmt/format.h>
@@ -31,6 +31,14 @@ std::size_t character_length(std::string_view text) {
 }
 
 }  // namespace
+
+void begin_model(ZipWriter& zip) {
+    zip.begin_entry("[Content_Types].xml");
+    zip.write(package_content_types);
+    zip.begin_entry("_rels/.rels");
+    zip.write(package_relationships);
+    zip.begin_entry("3D/3dmodel.model");
+}
 
 std::string box_mesh(const Box& box, int plane_decimals, int height_decimals) {
     std::string text = "<mesh>\n<vertices>\n";

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/base/geometry.h"
+#include "printers/archive/zip_writer.h"
 
 namespace lamella {
 
@@ -22,6 +23,9 @@ inline constexpr std::string_view package_relationships =
     "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
     "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
     "</Relationships>\n";
+
+/// Writes the parts of a package without images up to the model, which comes next.
+void begin_model(ZipWriter& zip);
 
 /// [Content_Types].xml of a package with PNG images.
 inline constexpr std::string_view package_content_types_with_png =

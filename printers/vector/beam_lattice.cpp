@@ -162,11 +162,7 @@ BeamLatticeReport write_beam_lattice(const std::filesystem::path& path, std::spa
                                      const std::string& name) {
     check(beams);
     ZipWriter zip(path);
-    zip.begin_entry("[Content_Types].xml");
-    zip.write(package_content_types);
-    zip.begin_entry("_rels/.rels");
-    zip.write(package_relationships);
-    zip.begin_entry("3D/3dmodel.model");
+    begin_model(zip);
     const BeamLatticeReport report = LatticeWriter(beams, zip).write(name);
     zip.finish();
     return report;

@@ -93,11 +93,7 @@ void write_component_package(const std::filesystem::path& path, std::span<const 
                              std::span<const MeshCopy> copies, const std::string& name) {
     if (copies.empty()) throw InputError("a package of copies needs some, and there are none");
     ZipWriter zip(path);
-    zip.begin_entry("[Content_Types].xml");
-    zip.write(package_content_types);
-    zip.begin_entry("_rels/.rels");
-    zip.write(package_relationships);
-    zip.begin_entry("3D/3dmodel.model");
+    begin_model(zip);
     ModelWriter(zip).write(meshes, copies, name);
     zip.finish();
 }

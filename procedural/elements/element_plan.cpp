@@ -54,11 +54,6 @@ void write_elements(std::ostream& out, const std::vector<PlacedElement>& element
                            e.turn.x, e.turn.y, e.turn.z, e.scale);
 }
 
-void write_bridges(std::ostream& out, const std::vector<ElementBridge>& bridges) {
-    for (const ElementBridge& b : bridges)
-        out << fmt::format("{},{},{},{},{},{}\n", b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
-}
-
 void write_element_plan(const std::filesystem::path& file, const ElementPlan& plan) {
     write_complete_file(file, [&](std::ostream& out) {
         out << title << '\n';
@@ -66,7 +61,8 @@ void write_element_plan(const std::filesystem::path& file, const ElementPlan& pl
                            plan.pieces, plan.moved, plan.dropped, plan.volume, plan.compliance,
                            plan.full_compliance, plan.optimum, plan.overlap, plan.thickness);
         write_elements(out, plan.elements);
-        write_bridges(out, plan.bridges);
+        for (const ElementBridge& b : plan.bridges)
+            out << fmt::format("{},{},{},{},{},{}\n", b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
     });
 }
 

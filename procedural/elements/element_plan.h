@@ -29,8 +29,6 @@ struct ElementPlan {
 /// Writes elements as lines of numbers that read back exactly: shape,x,y,z,qw,qx,qy,qz,scale. Places are in
 /// mm; the quaternion turns the shape.
 void write_elements(std::ostream& out, const std::vector<PlacedElement>& elements);
-/// Writes bridges as lines of numbers that read back exactly: x0,y0,z0,x1,y1,z1, mm.
-void write_bridges(std::ostream& out, const std::vector<ElementBridge>& bridges);
 
 /// Writes a plan as write_complete_file() does: two lines of what is known, then elements, then bridges.
 void write_element_plan(const std::filesystem::path& file, const ElementPlan& plan);
