@@ -41,7 +41,8 @@ ElementOptimizer<Dim>::ElementOptimizer(const TopologyProblem<Dim>& problem, con
       step_(grid, arms_of(shapes), settings.turns, settings.scale.width() > 0),
       compliance_(problem, {.tolerance = settings.solver_tolerance,
                             .max_iterations = most_solver_iterations,
-                            .cancel = settings.cancel}) {
+                            .cancel = settings.cancel}),
+      iteration_(settings.begin) {
     if (elements_.empty()) throw InputError("no elements are placed; accepted: one or more");
     for (const PlacedElement& element : elements_) content_ += content(element);
     align(elements_);

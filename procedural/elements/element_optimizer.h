@@ -13,6 +13,7 @@ struct ElementSettings {
     bool turns = true;      ///< whether elements may turn
     Interval scale{1, 1};   ///< limits of their scales
     int iterations = 150;
+    int begin = 0;           ///< iterations that were done on a coarser grid
     std::uint64_t seed = 1;  ///< of the places to which idle elements go
     /// Direction of the elements' x axis by place, a unit vector; may be empty. Not with elements that turn.
     std::function<dvec3(dvec3)> way{};
@@ -71,7 +72,7 @@ class ElementOptimizer {
     double content_;  ///< of all elements at the start
     ElementStep step_;
     Compliance<Dim> compliance_;
-    int iteration_ = 0;
+    int iteration_;
     bool is_new_ = true;  ///< the trial is not compared with the elements before
     bool was_late_ = false;
     double reach_ = 1;  ///< of a step, as a share of its limits

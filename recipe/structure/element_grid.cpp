@@ -15,6 +15,7 @@ namespace {
 constexpr double cells_a_thickness = 3.2;  // of the thinnest shape: fewer, and elements look like void
 constexpr double least_cells = 2;
 constexpr int table_samples_2d = 128, table_samples_3d = 48;
+constexpr double most_fine_cells = 5e5;  // more, and an iteration takes more than a few seconds
 
 /// Returns the edge of the finite elements, mm.
 double cell_edge(const ElementsRecipe& elements, std::span<const DistanceTable> tables, double least_edge) {
@@ -26,6 +27,14 @@ double cell_edge(const ElementsRecipe& elements, std::span<const DistanceTable> 
             "which would look like void; accepted: at most {:.3g} mm",
             elements.element, thinnest, thinnest / least_cells));
     return elements.element;
+}
+
+/// Returns the cells of a domain with tables that reach as far as the smooth border of an element.
+ElementGrid grid_of(const Recipe& recipe, std::span<const ElementShapePtr> shapes, ElementDomain domain) {
+    const bool is_flat = recipe.elements->dimensions == 2;
+    const double margin = 2 * domain.longest_edge() / recipe.elements->scale_min;
+    const CellGrid cells{domain.size, domain.box.lo, domain.edges, is_flat};
+    return {std::move(domain), cells, element_tables(shapes, margin, is_flat)};
 }
 
 }  // namespace
@@ -69,11 +78,18 @@ ElementGrid element_grid(const Recipe& recipe, const Field& body, const BuiltReg
     with_grid.optimize.emplace();
     with_grid.optimize->dimensions = recipe.elements->dimensions;
     with_grid.optimize->element = cell_edge(*recipe.elements, tables, least_edge);
-    ElementGrid grid{.domain = element_domain(with_grid, body, regions, cancel), .cells = {}, .tables = {}};
-    const ElementDomain& domain = grid.domain;
-    grid.cells = {domain.size, domain.box.lo, domain.edges, is_flat};
-    grid.tables = element_tables(shapes, 2 * domain.longest_edge() / recipe.elements->scale_min, is_flat);
-    return grid;
+    return grid_of(recipe, shapes, element_domain(with_grid, body, regions, cancel));
+}
+
+std::optional<ElementGrid> finer_element_grid(const Recipe& recipe, const Field& body,
+                                              const BuiltRegions& regions,
+                                              std::span<const ElementShapePtr> shapes,
+                                              const ElementGrid& grid, const CancelToken* cancel) {
+    const glm::ivec3 size = grid.cells.size * (grid.is_flat() ? glm::ivec3(2, 2, 1) : glm::ivec3(2));
+    if (static_cast<double>(size.x) * size.y * size.z > most_fine_cells) return std::nullopt;
+    constexpr double ratio = 0.5;
+    return grid_of(recipe, shapes,
+                   element_domain_of(recipe, body, regions, grid.domain, size, ratio, cancel));
 }
 
 JoinSettings join_settings(const ElementsRecipe& recipe, const ElementGrid& grid, const Field& body,

@@ -1,6 +1,7 @@
 // The grid on which elements are placed, and what joins them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "procedural/elements/element_pieces.h"
@@ -34,6 +35,12 @@ void check_element_sizes(const Recipe& recipe, std::span<const DistanceTable> ta
 ElementGrid element_grid(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
                          std::span<const ElementShapePtr> shapes, double least_edge,
                          const CancelToken* cancel);
+
+/// Returns cells half as wide, on which a search is to end; none where there would be too many.
+std::optional<ElementGrid> finer_element_grid(const Recipe& recipe, const Field& body,
+                                              const BuiltRegions& regions,
+                                              std::span<const ElementShapePtr> shapes,
+                                              const ElementGrid& grid, const CancelToken* cancel);
 
 /// Returns how placed elements are made one piece with each other and with the grid's solid regions.
 JoinSettings join_settings(const ElementsRecipe& recipe, const ElementGrid& grid, const Field& body,

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/elements/element_search.h"
 #include "procedural/elements/element_start.h"
 #include "procedural/optimization/element_stress.h"
 #include "procedural/optimization/topology_optimizer.h"
@@ -24,35 +25,52 @@ namespace {
 
 constexpr double unfilled_modulus = 1e-6;  // loads that no element bears must not make equations hopeless
 
+/// The part's cells, and the problem that its loads pose on them.
+template <std::size_t Dim>
+struct LoadedGrid {
+    ElementGrid grid;
+    StructuralProblem<Dim> problem;
+
+    LoadedGrid(const Recipe& recipe, Gradings& gradings, ElementGrid of)
+        : grid(std::move(of)),
+          problem(structural_problem<Dim>(recipe, grid.domain, gradings, material_poisson)) {
+        problem.topology.law = make_penalty_law({3, unfilled_modulus, 0});
+    }
+    ElementSearchGrid<Dim> search_grid() const {
+        return {&problem.topology, grid.cells, grid.tables, problem.displacement_unit};
+    }
+};
+
 /// One search, in the plane or in space.
 template <std::size_t Dim>
 class ElementSearch {
   public:
-    ElementSearch(const Recipe& recipe, const Field& body, ElementGrid grid,
+    ElementSearch(const Recipe& recipe, const Field& body, const BuiltRegions& regions, ElementGrid grid,
                   const std::vector<ElementShapePtr>& shapes, Gradings& gradings,
                   const PlaceElementsOptions& options)
         : elements_(*recipe.elements),
           body_(body),
           options_(options),
           shapes_(shapes),
-          element_grid_(std::move(grid)),
-          problem_(structural_problem<Dim>(recipe, element_grid_.domain, gradings, material_poisson)),
+          coarse_(recipe, gradings, std::move(grid)),
           ways_(element_ways(recipe, gradings)) {
-        problem_.topology.law = make_penalty_law({3, unfilled_modulus, 0});
+        auto finer = finer_element_grid(recipe, body, regions, shapes, coarse_.grid, options.cancel);
+        if (finer) fine_.emplace(recipe, gradings, std::move(*finer));
     }
 
     ElementPlan run() {
         ElementPlan plan;
         check_volume();
-        ElementOptimizer<Dim> search(problem_.topology, grid_, tables_, settings(), start(plan));
-        while (!search.is_finished()) {
-            ElementIteration done = search.iterate();
-            done.compliance *= problem_.displacement_unit;
+        const auto on_iteration = [&](const ElementIteration& done) {
             if (options_.on_iteration) options_.on_iteration(done, elements_.iterations);
-        }
+        };
+        std::optional<ElementSearchGrid<Dim>> fine;
+        if (fine_) fine = fine_->search_grid();
+        const FoundElements found = search_elements(coarse_.search_grid(), fine ? &*fine : nullptr,
+                                                    settings(), start(plan), on_iteration);
         JoinedElements joined =
-            joined_elements(search.elements(), search.loads(), shapes_,
-                            join_settings(elements_, element_grid_, body_, search.elements()));
+            joined_elements(found.elements, found.loads, shapes_,
+                            join_settings(elements_, coarse_.grid, body_, found.elements));
         plan.elements = std::move(joined.elements);
         plan.bridges = std::move(joined.bridges);
         plan.pieces = joined.pieces;
@@ -75,18 +93,20 @@ class ElementSearch {
     std::vector<PlacedElement> start(ElementPlan& plan);
     std::vector<double> free_densities(const TopologyOptimizer<Dim>& optimum) const;
     std::vector<dvec3> stress_ways(const TopologyOptimizer<Dim>& optimum) const;
+    std::vector<double> shares_of(const Field& solid, const ElementGrid& grid) const;
     void judge(ElementPlan& plan) const;
 
     const ElementsRecipe& elements_;
     const Field& body_;
     const PlaceElementsOptions& options_;
     const std::vector<ElementShapePtr>& shapes_;
-    ElementGrid element_grid_;
-    StructuralProblem<Dim> problem_;
+    LoadedGrid<Dim> coarse_;
+    std::optional<LoadedGrid<Dim>> fine_;  ///< none where there would be too many cells
     std::optional<ElementWays> ways_;
-    const ElementDomain& domain_ = element_grid_.domain;
-    const CellGrid& grid_ = element_grid_.cells;
-    std::span<const DistanceTable> tables_ = element_grid_.tables;
+    const ElementDomain& domain_ = coarse_.grid.domain;
+    const CellGrid& grid_ = coarse_.grid.cells;
+    std::span<const DistanceTable> tables_ = coarse_.grid.tables;
+    StructuralProblem<Dim>& problem_ = coarse_.problem;
 };
 
 /// Returns the content of all elements, as a share of the body's.
@@ -176,32 +196,49 @@ std::vector<PlacedElement> ElementSearch<Dim>::start(ElementPlan& plan) {
                              .seed = static_cast<std::uint64_t>(elements_.seed)});
 }
 
-/// Analyses the true shapes, by the share of each cell that they fill.
+/// Returns the share of each cell that a solid fills.
 template <std::size_t Dim>
-void ElementSearch<Dim>::judge(ElementPlan& plan) const {
-    std::optional<Interval> upright;
-    if (Dim == 2) upright = Interval{domain_.box.lo.z, domain_.box.hi.z};
-    const FieldPtr field = element_solid(shapes_, plan, elements_.bridge, upright);
+std::vector<double> ElementSearch<Dim>::shares_of(const Field& solid, const ElementGrid& grid) const {
     constexpr int parts = 4;
     constexpr int along_z = Dim == 2 ? 1 : parts;
-    std::vector<double> density = full_densities(domain_.use);
-    parallel_for(density.size(), [&](std::size_t i) {
-        if (domain_.use[i] != ElementUse::free) return;
-        const auto x = static_cast<int>(i) % grid_.size.x,
-                   y = static_cast<int>(i) / grid_.size.x % grid_.size.y,
-                   z = static_cast<int>(i) / grid_.size.x / grid_.size.y;
+    const CellGrid& cells = grid.cells;
+    std::vector<double> shares = full_densities(grid.domain.use);
+    parallel_for(shares.size(), [&](std::size_t i) {
+        if (grid.domain.use[i] != ElementUse::free) return;
+        const auto x = static_cast<int>(i) % cells.size.x,
+                   y = static_cast<int>(i) / cells.size.x % cells.size.y,
+                   z = static_cast<int>(i) / cells.size.x / cells.size.y;
         int inside = 0;
         for (int k = 0; k < parts * parts * along_z; ++k) {
             const glm::ivec3 part(k % parts, k / parts % parts, k / (parts * parts));
             const dvec3 share = (dvec3(part) + 0.5) / dvec3(parts, parts, along_z);
-            if (field->value(grid_.corner + (dvec3(x, y, z) + share) * grid_.edges) < 0) ++inside;
+            if (solid.value(cells.corner + (dvec3(x, y, z) + share) * cells.edges) < 0) ++inside;
         }
-        density[i] = inside / static_cast<double>(parts * parts * along_z);
+        shares[i] = inside / static_cast<double>(parts * parts * along_z);
     });
-    StructureReport report;
-    describe(problem_, domain_, report);
-    analyse(problem_, domain_, make_penalty_law({1, void_modulus_of<Dim>, 0}), density, false,
-            options_.cancel, report);
+    return shares;
+}
+
+/// Analyses the true shapes on the finest grid. The optimum, which the coarse one knows, is told as if the
+/// whole body were as stiff on both.
+template <std::size_t Dim>
+void ElementSearch<Dim>::judge(ElementPlan& plan) const {
+    std::optional<Interval> upright;
+    if (Dim == 2) upright = Interval{domain_.box.lo.z, domain_.box.hi.z};
+    const FieldPtr solid = element_solid(shapes_, plan, elements_.bridge, upright);
+    const auto report_on = [&](const LoadedGrid<Dim>& on, const std::vector<double>& shares) {
+        StructureReport report;
+        describe(on.problem, on.grid.domain, report);
+        analyse(on.problem, on.grid.domain, make_penalty_law({1, void_modulus_of<Dim>, 0}), shares, false,
+                options_.cancel, report);
+        return report;
+    };
+    const LoadedGrid<Dim>& finest = fine_ ? *fine_ : coarse_;
+    const StructureReport report = report_on(finest, shares_of(*solid, finest.grid));
+    if (fine_) {
+        const double coarse = report_on(coarse_, full_densities(domain_.use)).full_compliance;
+        plan.optimum *= report.full_compliance / coarse;
+    }
     plan.volume = report.volume;
     plan.compliance = report.compliance;
     plan.full_compliance = report.full_compliance;
@@ -215,12 +252,12 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
 
 }  // namespace
 
-ElementPlan load_bearing_elements(const Recipe& recipe, const Field& body, ElementGrid grid,
-                                  const std::vector<ElementShapePtr>& shapes, Gradings& gradings,
-                                  const PlaceElementsOptions& options) {
+ElementPlan load_bearing_elements(const Recipe& recipe, const Field& body, const BuiltRegions& regions,
+                                  ElementGrid grid, const std::vector<ElementShapePtr>& shapes,
+                                  Gradings& gradings, const PlaceElementsOptions& options) {
     if (grid.is_flat())
-        return ElementSearch<2>(recipe, body, std::move(grid), shapes, gradings, options).run();
-    return ElementSearch<3>(recipe, body, std::move(grid), shapes, gradings, options).run();
+        return ElementSearch<2>(recipe, body, regions, std::move(grid), shapes, gradings, options).run();
+    return ElementSearch<3>(recipe, body, regions, std::move(grid), shapes, gradings, options).run();
 }
 
 }  // namespace lamella

@@ -12,7 +12,7 @@
 using namespace lamella;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    std::istringstream in("lamella elements 3\n" + std::string(reinterpret_cast<const char*>(data), size));
+    std::istringstream in("lamella elements 4\n" + std::string(reinterpret_cast<const char*>(data), size));
     try {
         ElementPlan plan = read_element_plan(in, "fuzz.elements");
         const FieldPtr field =
