@@ -152,6 +152,13 @@ class Ring : public ElementShape {
     }
 
   private:
+    /// Whether a part of a line lies nearer to the axis than the tube does: the distance is greatest at an end.
+    bool in_hole(dvec3 p, dvec3 way, const Interval& part) const {
+        const double hole = (large_ - small_) * (1 - 1e-6);
+        const dvec2 a(p + part.lo * way), b(p + part.hi * way);
+        return std::max(squared_length(a), squared_length(b)) < hole * hole;
+    }
+
     double large_, small_;
 };
 
@@ -163,23 +170,34 @@ void Ring::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const {
     const dvec3 middle = p + nearest * way;
     const double square = squared_length(middle);
     if (!(square < outside * outside)) return;
+    // The part of the line in the ball, and between the planes that touch the tube.
     const double reach = std::sqrt(outside * outside - square);
+    Interval part{-reach, reach};
+    const double thick = small_ * (1 + 1e-6);
+    if (way.z != 0) {
+        const double a = (-thick - middle.z) / way.z, b = (thick - middle.z) / way.z;
+        part = {std::max(part.lo, std::min(a, b)), std::min(part.hi, std::max(a, b))};
+    } else if (std::abs(middle.z) > thick) {
+        return;
+    }
+    if (!(part.lo < part.hi) || in_hole(middle, way, part)) return;
     const double k = square + large_ * large_ - small_ * small_, four = 4 * large_ * large_;
     const double c2 = 2 * k - four * (1 - way.z * way.z), c1 = 2 * four * middle.z * way.z,
                  c0 = k * k - four * (square - middle.z * middle.z);
     const auto value = [&](double t) { return (t * t + c2) * t * t + c1 * t + c0; };
     const auto slope = [&](double t) { return (4 * t * t + 2 * c2) * t + c1; };
     // The slope is monotone between these, the value between the roots of the slope.
-    const double bend = c2 < 0 ? std::min(std::sqrt(-c2 / 6), reach) : 0;
-    std::array<double, 5> turns{-reach};
+    const double bend = c2 < 0 ? std::sqrt(-c2 / 6) : 0;
+    std::array<double, 5> turns{part.lo};
     std::size_t count = 1;
-    double from = -reach;
-    for (const double to : {-bend, bend, reach}) {
+    double from = part.lo;
+    for (double to : {-bend, bend, part.hi}) {
+        to = std::min(to, part.hi);
         if (to > from && (slope(from) < 0) != (slope(to) < 0))
             turns[count++] = root_between(slope, from, slope(from), to, slope(to));
         from = std::max(from, to);
     }
-    turns[count++] = reach;
+    turns[count++] = part.hi;
     std::optional<double> begin;
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const double a = value(turns[i]), b = value(turns[i + 1]);
