@@ -13,7 +13,7 @@ namespace lamella {
 namespace {
 
 constexpr double cells_a_thickness = 3.2;  // of the thinnest shape: fewer, and elements look like void
-constexpr double least_cells = 2;
+constexpr double least_cells = 1.9;
 constexpr int table_samples_2d = 128, table_samples_3d = 48;
 constexpr double most_fine_cells = 5e5;  // more, and an iteration takes more than a few seconds
 
