@@ -31,6 +31,7 @@ struct ElementsRecipe {
     bool turns = true;     ///< whether copies may turn
     GradedTriple along{};  ///< direction of the copies' x axis; 0: any
     GradedNumber density{1.0, ""};  ///< relative number of copies where no loads place them
+    std::string example;            ///< path of a list of copies, after which others are spread
     std::int64_t seed = 1;
     double element = 0;  ///< edge of the finite elements, mm; 0: a third of the thinnest shape
     int dimensions = 3;  ///< 2: a plate in the xy plane, of prisms as high as the part

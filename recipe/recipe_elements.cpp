@@ -51,6 +51,10 @@ void RecipeDraft::check_elements(const Recipe& recipe) {
             refuse(0, fmt::format("{}: loads decide where copies are; accepted: a density without [[load]] "
                                   "and [[anchor]], or loads without it",
                                   where("elements", "density")));
+        if (!recipe.loads.empty() && !elements.example.empty())
+            refuse(0, fmt::format("{}: loads decide where copies are; accepted: an example without [[load]] "
+                                  "and [[anchor]], or loads without it",
+                                  where("elements", "example")));
     }
     if (elements.scale_min > elements.scale_max)
         refuse(0, fmt::format("{}: {} is more than {}, {}; accepted: a minimum not above the maximum",

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/elements/element_arrangement.h"
 #include "procedural/voronoi/counter_hash.h"
 #include "procedural/voronoi/point_tree.h"
 
@@ -52,6 +53,7 @@ class Spread {
         }
         const double thinnest = settings.scale.lo * least_half, longest = settings.scale.hi * greatest_half;
         farther_ = std::min(longest / thinnest, farthest) * (1 + 1e-9);
+        deal_examples();
         start();
     }
 
@@ -70,7 +72,7 @@ class Spread {
         for (std::uint32_t i = 0; i < owner.size(); ++i) {
             const std::uint32_t k = owner[i];
             if (!(weight[k] > 0)) continue;
-            const double d = squared_length(sites_.places[i] - sum[k] / weight[k]);
+            const double d = squared_length(sites_.places[i] - towards(k, sum[k] / weight[k]));
             if (!(d < distance[k])) continue;
             distance[k] = d;
             nearest[k] = i;
@@ -79,7 +81,7 @@ class Spread {
         for (std::uint32_t k = 0; k < elements_.size(); ++k) {
             if (!(distance[k] < infinity)) continue;
             const dvec3 before = elements_[k].at;
-            place(k, nearest[k], at_centroid(sum[k] / weight[k], nearest[k]));
+            place(k, nearest[k], at_centroid(towards(k, sum[k] / weight[k]), nearest[k]));
             moved += length(elements_[k].at - before);
         }
         return moved / static_cast<double>(elements_.size());
@@ -89,6 +91,28 @@ class Spread {
   private:
     CounterHash draw(std::uint32_t element) const {
         return {settings_.seed, 3, static_cast<std::int64_t>(element), 0, 0};
+    }
+
+    /// Deals the example's elements as cards: shuffled decks, so that each comes as often as the others.
+    void deal_examples() {
+        const std::size_t each = settings_.example.size();
+        if (each == 0) return;
+        std::vector<std::pair<double, std::uint32_t>> cards;
+        for (std::uint32_t i = 0; i < each; ++i) cards.emplace_back(0, i);
+        for (std::size_t deck = 0; example_.size() < settings_.count; ++deck) {
+            for (auto& [key, card] : cards)
+                key = CounterHash(settings_.seed, 4, card, static_cast<std::int64_t>(deck), 0).uniform(0);
+            std::ranges::sort(cards);
+            for (std::size_t i = 0; i < each && example_.size() < settings_.count; ++i)
+                example_.push_back(cards[i].second);
+        }
+    }
+
+    /// Returns where a step towards a centroid leads: with an example all but halfway, so that spacings
+    /// become even by small steps.
+    dvec3 towards(std::uint32_t k, dvec3 centroid) const {
+        constexpr double share = 0.3;
+        return example_.empty() ? centroid : glm::mix(elements_[k].at, centroid, share);
     }
 
     /// Returns the centroid, which may lie beside a bent body or surface, at the nearest site if need be.
@@ -123,32 +147,48 @@ class Spread {
         elements_[k].shape =
             static_cast<std::uint32_t>(chance.uniform(1) * static_cast<double>(halves_.size()));
         elements_[k].scale = settings_.scale.lo + chance.uniform(2) * settings_.scale.width();
+        if (!example_.empty()) {
+            elements_[k].shape = settings_.example[example_[k]].shape;
+            elements_[k].scale = settings_.example[example_[k]].scale;
+        }
         place(k, site, sites_.places[site]);
     }
 
     /// Puts an element at a place near a site and turns it as it has to be there.
     void place(std::uint32_t k, std::uint32_t site, dvec3 at) {
-        const CounterHash chance = draw(k);
-        const double angle = settings_.turns ? 2 * std::numbers::pi * chance.uniform(3) : 0;
-        PlacedElement& element = elements_[k];
-        element.at = at;
+        elements_[k].at = at;
+        elements_[k].turn = glm::normalize(frame_of(site) * own_turn(k));
         site_[k] = site;
-        if (!sites_.normals.empty()) {
-            const dvec3 n = sites_.normals[site];
-            element.turn =
-                turn_about(n, settings_.is_aligned ? 0 : angle) * turn_to_frame(sites_.ways[site], n);
-        } else if (sites_.is_flat) {
-            double towards = angle;
-            if (settings_.is_aligned) towards = std::atan2(sites_.ways[site].y, sites_.ways[site].x);
-            element.turn = turn_about({0, 0, 1}, towards);
-        } else if (settings_.is_aligned) {
-            element.turn = turn_about(sites_.ways[site], angle) * shortest_turn({1, 0, 0}, sites_.ways[site]);
-        } else if (settings_.turns) {
-            element.turn = random_turn(chance.uniform(3), chance.uniform(4), chance.uniform(5));
-        }
     }
 
-    /// Returns the element that each site is nearest to, in the halves of the element's box.
+    /// Returns the rotation to the frame of a site: that of the surface, or along its way.
+    glm::dquat frame_of(std::uint32_t site) const {
+        constexpr glm::dquat none(1, 0, 0, 0);
+        if (!sites_.normals.empty()) return turn_to_frame(sites_.ways[site], sites_.normals[site]);
+        if (!settings_.is_aligned) return none;
+        const dvec3 way = sites_.ways[site];
+        return sites_.is_flat ? turn_about({0, 0, 1}, std::atan2(way.y, way.x))
+                              : shortest_turn({1, 0, 0}, way);
+    }
+
+    /// Returns how an element is turned in the frame of its site.
+    glm::dquat own_turn(std::uint32_t k) const {
+        constexpr glm::dquat none(1, 0, 0, 0);
+        const bool is_in_plane = sites_.is_flat || !sites_.normals.empty();
+        if (!settings_.turns) return none;
+        if (!example_.empty()) {
+            const glm::dquat turn = settings_.example[example_[k]].turn;
+            const dvec3 x = turn * dvec3(1, 0, 0);
+            return is_in_plane ? turn_about({0, 0, 1}, std::atan2(x.y, x.x)) : turn;
+        }
+        const CounterHash chance = draw(k);
+        const double angle = 2 * std::numbers::pi * chance.uniform(3);
+        if (is_in_plane) return settings_.is_aligned ? none : turn_about({0, 0, 1}, angle);
+        if (settings_.is_aligned) return turn_about({1, 0, 0}, angle);
+        return random_turn(chance.uniform(3), chance.uniform(4), chance.uniform(5));
+    }
+
+    /// Returns the element that each site is nearest to.
     std::vector<std::uint32_t> owners() const {
         std::vector<dvec3> places;
         for (const PlacedElement& element : elements_) places.push_back(element.at);
@@ -163,13 +203,20 @@ class Spread {
             for (const std::uint32_t k : near) {
                 if (!sites_.normals.empty() && glm::dot(sites_.normals[i], sites_.normals[site_[k]]) < 0)
                     continue;
-                dvec3 q = elements_[k].local(p) / halves_[elements_[k].shape];
-                if (sites_.is_flat || !sites_.normals.empty()) q.z = 0;
-                best = std::min(best, std::pair(squared_length(q), k));
+                best = std::min(best, std::pair(squared_distance(k, p), k));
             }
             owner[i] = best.second;
         });
         return owner;
+    }
+
+    /// Returns the squared distance by which cells are told apart: in the halves of the element's box, or
+    /// from its middle, as that is what an example's spacings are.
+    double squared_distance(std::uint32_t k, dvec3 p) const {
+        if (!example_.empty()) return squared_length(p - elements_[k].at);
+        dvec3 q = elements_[k].local(p) / halves_[elements_[k].shape];
+        if (sites_.is_flat || !sites_.normals.empty()) q.z = 0;
+        return squared_length(q);
     }
 
     const SpreadSites& sites_;
@@ -177,8 +224,9 @@ class Spread {
     std::vector<dvec3> halves_;    ///< of the shapes' boxes
     std::vector<double> weights_;  ///< of the sites in centroids
     std::vector<PlacedElement> elements_;
-    std::vector<std::uint32_t> site_;   ///< nearest to each element
-    std::vector<std::uint32_t> owner_;  ///< of each site, in the round before
+    std::vector<std::uint32_t> example_;  ///< of each element, by number; may be empty
+    std::vector<std::uint32_t> site_;     ///< nearest to each element
+    std::vector<std::uint32_t> owner_;    ///< of each site, in the round before
     /// Elements farther away than the nearest one by this factor are not nearer in their own measure, or are
     /// not asked.
     double farther_ = 1;
@@ -194,6 +242,9 @@ std::vector<PlacedElement> spread_elements(const SpreadSites& sites, std::span<c
     Spread spread(sites, shapes, settings);
     for (int round = 0; round < settings.rounds; ++round) {
         stop_if_cancelled(settings.cancel);
+        const bool is_even = settings.variation > 0 && settings.count > 1 &&
+                             spacing_variation(spread.elements()) <= settings.variation;
+        if (is_even) break;
         constexpr double still = 0.05;  // spacings
         if (spread.iterate() < still * sites.spacing) break;
     }

@@ -33,16 +33,21 @@ struct SpreadSettings {
     bool is_aligned = false;  ///< x axes follow the ways of the sites
     bool turns = true;        ///< turned at random about what is left free; false: as the ways or shapes are
     int rounds = 100;         ///< at most; fewer where nothing moves any more
+    /// Elements whose shapes, scales and turns are taken, each as often as the others; may be empty. They are
+    /// turned in the xy plane of a surface's tangent frame, or about z in a plate, and with the ways.
+    std::span<const PlacedElement> example{};
+    double variation = 0;  ///< spacing_variation() at which rounds end
     std::uint64_t seed = 1;
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
 /// Spreads elements such that their number follows the densities: by Lloyd's method, each element goes to the
 /// centroid of the sites that are nearest to it, distances being measured in the halves of its shape's box,
-/// so that long elements leave each other room at their ends. Such centroids are as dense as the weights of
-/// the sites to the power d / (d + 2) in d dimensions (Gersho 1979, "Asymptotically optimal block
-/// quantization"), for which weights are higher powers. Each element gets a shape at random. The same on any
-/// number of threads. Throws InputError if all densities are 0, Interrupted when cancelled.
+/// so that long elements leave each other room at their ends; with an example, from middle to middle. Such
+/// centroids are as dense as the weights of the sites to the power d / (d + 2) in d dimensions (Gersho 1979,
+/// "Asymptotically optimal block quantization"), for which weights are higher powers. Each element gets a
+/// shape at random, or that of an example, whose spacing may be as uneven. The same on any number of threads.
+/// Throws InputError if all densities are 0, Interrupted when cancelled.
 std::vector<PlacedElement> spread_elements(const SpreadSites& sites, std::span<const ElementShapePtr> shapes,
                                            const SpreadSettings& settings);
 

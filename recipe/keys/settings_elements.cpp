@@ -58,6 +58,13 @@ void add_element_aims(std::vector<Setting>& t) {
         {.limits = {0, 1e6},
          .fallback = "1",
          .help = "Where no loads place copies: how many there are, relative to elsewhere; 0: none."});
+    add_elements_row<&Placing::example>(
+        t, "example", "--elements-example",
+        {.fallback = "none",
+         .help =
+             "Where no loads place copies: CSV file of copies, as `lamella dump elements` writes it, whose "
+             "shapes, scales, turns and evenness of spacing they take; relative to the recipe's folder.",
+         .is_path = true});
     add_elements_row<&Placing::seed>(
         t, "seed", "--elements-seed",
         {.limits = {0, 9007199254740992}, .fallback = "1", .help = "Seed of the places where copies begin."});

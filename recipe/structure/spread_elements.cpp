@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "procedural/elements/element_arrangement.h"
 #include "procedural/elements/element_spread.h"
 #include "procedural/skin/surface_walk.h"
 #include "procedural/texture/body_sites.h"
@@ -33,14 +35,37 @@ void set_wishes(const Recipe& recipe, Gradings& gradings, const std::optional<El
     for (const dvec3 p : sites.places) sites.ways.push_back(ways->at(p));
 }
 
-SpreadSettings spread_settings(const ElementsRecipe& elements, bool is_aligned, const CancelToken* cancel) {
-    return {.count = static_cast<std::size_t>(elements.count),
-            .scale = {elements.scale_min, elements.scale_max},
-            .is_aligned = is_aligned,
-            .turns = elements.turns,
-            .rounds = elements.iterations,
-            .seed = static_cast<std::uint64_t>(elements.seed),
-            .cancel = cancel};
+/// Reads the example after which elements are spread; empty if there is none.
+std::vector<PlacedElement> example_of(const Recipe& recipe) {
+    const ElementsRecipe& elements = *recipe.elements;
+    if (elements.example.empty()) return {};
+    std::ifstream in(elements.example);
+    if (!in)
+        throw InputError(
+            fmt::format("{}: cannot be read; accepted for elements.example: a file of copies, as "
+                        "`lamella dump elements` writes it",
+                        elements.example));
+    return read_arrangement(in, elements.example,
+                            {.shapes = static_cast<std::uint32_t>(recipe.element_shapes.size()),
+                             .scales = {elements.scale_min, elements.scale_max}});
+}
+
+/// Spreads the recipe's elements over the sites.
+std::vector<PlacedElement> spread(const Recipe& recipe, const SpreadSites& sites,
+                                  std::span<const ElementShapePtr> shapes, bool is_aligned,
+                                  const CancelToken* cancel) {
+    const ElementsRecipe& elements = *recipe.elements;
+    const std::vector<PlacedElement> example = example_of(recipe);
+    return spread_elements(sites, shapes,
+                           {.count = static_cast<std::size_t>(elements.count),
+                            .scale = {elements.scale_min, elements.scale_max},
+                            .is_aligned = is_aligned,
+                            .turns = elements.turns,
+                            .rounds = elements.iterations,
+                            .example = example,
+                            .variation = example.empty() ? 0 : spacing_variation(example),
+                            .seed = static_cast<std::uint64_t>(elements.seed),
+                            .cancel = cancel});
 }
 
 /// Throws InputError for elements that overlap more than the recipe allows.
@@ -141,8 +166,7 @@ ElementPlan spread_in_body(const Recipe& recipe, const Field& body, const Elemen
     sites.sizes.assign(sites.size(), 1.0);
     const std::optional<ElementWays> ways = element_ways(recipe, gradings);
     set_wishes(recipe, gradings, ways, sites);
-    std::vector<PlacedElement> elements =
-        spread_elements(sites, shapes, spread_settings(*recipe.elements, ways.has_value(), options.cancel));
+    std::vector<PlacedElement> elements = spread(recipe, sites, shapes, ways.has_value(), options.cancel);
     const JoinSettings settings = join_settings(*recipe.elements, grid, body, elements);
     return one_piece(*recipe.elements, sites, std::move(elements), shapes, settings);
 }
@@ -166,8 +190,7 @@ ElementPlan spread_on_skin(const Recipe& recipe, const Field& body, const Field&
         sites.sizes.push_back(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}));
     set_wishes(recipe, gradings, ways, sites);
     const bool is_aligned = ways.has_value() || !wanted.turns;
-    std::vector<PlacedElement> elements =
-        spread_elements(sites, flat, spread_settings(wanted, is_aligned, options.cancel));
+    std::vector<PlacedElement> elements = spread(recipe, sites, flat, is_aligned, options.cancel);
     const double thickness = 2 * depth / wanted.scale_max;
     const std::size_t steps = set_thicknesses(sites, flat, depth, thickness, elements);
     const std::vector<ElementShapePtr> shapes = skin_shapes(recipe, thickness, steps, gradings);

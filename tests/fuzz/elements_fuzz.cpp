@@ -1,4 +1,5 @@
-// Fuzz target: any bytes, read as a plan of elements, end in a field that has a value or in an InputError.
+// Fuzz target: any bytes, read as a plan of elements or as an arrangement, end in a field that has a value or
+// in an InputError.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -6,18 +7,33 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "procedural/elements/element_arrangement.h"
 #include "procedural/elements/element_field.h"
 #include "procedural/elements/element_plan.h"
 
 using namespace lamella;
 
+namespace {
+
+void use(std::vector<PlacedElement> elements) {
+    const FieldPtr field = make_element_field({make_stick(4, 1), make_ring(5, 1)}, std::move(elements));
+    if (std::isnan(field->value(dvec3(0.5, -1, 2)))) std::abort();
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    std::istringstream in("lamella elements 4\n" + std::string(reinterpret_cast<const char*>(data), size));
+    const std::string text(reinterpret_cast<const char*>(data), size);
     try {
-        ElementPlan plan = read_element_plan(in, "fuzz.elements");
-        const FieldPtr field =
-            make_element_field({make_stick(4, 1), make_ring(5, 1)}, std::move(plan.elements));
-        if (std::isnan(field->value(dvec3(0.5, -1, 2)))) std::abort();
+        std::istringstream in("lamella elements 4\n" + text);
+        use(read_element_plan(in, "fuzz.elements").elements);
+    } catch (const InputError&) {
+    }
+    try {
+        std::istringstream in(text);
+        const auto elements = read_arrangement(in, "fuzz.csv", {.shapes = 2, .scales = {0.01, 100}});
+        if (std::isnan(spacing_variation(elements))) std::abort();
+        use(elements);
     } catch (const InputError&) {
     }
     return 0;

@@ -160,6 +160,34 @@ TEST_CASE("elements without loads are spread by their density and make one piece
     CHECK(mentions(told(sparse), "of 12 elements touch no others within elements.reach"));
 }
 
+TEST_CASE("elements are spread after an example", "[elements]") {
+    const Folder folder;
+    const std::string file = folder / "example.csv";
+    const std::string half_turn = "0,0,0,0,0,0,0,1,1\n", quarter = "0,9,1,0,1,0,0,1,1\n";
+    write(file, half_turn + quarter + quarter);
+    OptimizeOptions options;
+    options.plans = folder.path();
+    const std::string text =
+        "[part]\nshape = \"box\"\nsize = [60, 24, 3]\n[[element]]\nlength = 10\nwidth = 2.4\n"
+        "[elements]\ndimensions = 2\ncount = 30\noverlap = 0.6\nbridge = 1\nreach = 20\nexample = \"" +
+        file + "\"\n";
+    const auto upright = [&] {
+        const BuiltJob built = build_job(recipe_of(text, "p.toml"), options);
+        std::size_t count = 0;
+        for (const PlacedElement& element : built.elements->elements)
+            count += std::abs((element.turn * dvec3(1, 0, 0)).y) > 0.99 ? 1 : 0;
+        return std::pair(count, built.elements->elements.size() + built.elements->dropped);
+    };
+    CHECK(upright() == std::pair<std::size_t, std::size_t>(20, 30));
+    write(file, half_turn + quarter);  // another plan
+    CHECK(upright() == std::pair<std::size_t, std::size_t>(15, 30));
+    write(file, half_turn + "0,9,1,0,1,0,0,1,0.5\n");
+    CHECK(mentions(told(text), file + ":2: a scale of 0.5 is outside of elements.scale_min and scale_max"));
+    write(file, "1" + half_turn.substr(1) + quarter);
+    CHECK(mentions(told(text), file + ":1: there is no shape 1"));
+    CHECK(mentions(told(sticks + "example = \"" + file + "\"\n"), "elements.example: loads decide where"));
+}
+
 TEST_CASE("a skin of elements is one piece over all of the body, bridged where it has to be", "[elements]") {
     const auto to_ball = [](dvec3 p) { return length(p) - 15; };
     const auto to_torus = [](dvec3 p) { return length(dvec2(length(dvec2(p)) - 12, p.z)) - 6; };
