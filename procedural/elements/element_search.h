@@ -20,20 +20,24 @@ struct FoundElements {
     std::vector<double> loads;  ///< of each, as ElementOptimizer::loads()
 };
 
-/// Optimises elements by ElementOptimizer on one grid or two. Of two, the coarse one has three fifths of the
-/// iterations, which find how the elements bear the loads, and the fine one the rest: there the smooth border
-/// of elements is narrow, so that gaps and slight contacts carry as little as in the true shapes (thesis 4.3,
-/// adaptive simulation). Throws as ElementOptimizer does.
+/// Of a search that begins on a coarse grid and ends on one of cells half as wide: the number of its
+/// iterations on the coarse one, which find how the elements bear the loads. On the fine one the smooth
+/// border of elements is narrow, so that gaps and slight contacts carry as little as in the true shapes
+/// (thesis 4.3, adaptive simulation).
+int coarse_iterations(int all);
+
+/// Optimises elements by ElementOptimizer on a grid, in the iterations from settings.begin to `end`. Throws
+/// as ElementOptimizer does.
 template <std::size_t Dim>
-FoundElements search_elements(const ElementSearchGrid<Dim>& coarse, const ElementSearchGrid<Dim>* fine,
-                              ElementSettings settings, std::vector<PlacedElement> start,
+FoundElements search_elements(const ElementSearchGrid<Dim>& grid, const ElementSettings& settings, int end,
+                              std::vector<PlacedElement> start,
                               const std::function<void(const ElementIteration&)>& on_iteration = {});
 
-extern template FoundElements search_elements<2>(const ElementSearchGrid<2>&, const ElementSearchGrid<2>*,
-                                                 ElementSettings, std::vector<PlacedElement>,
+extern template FoundElements search_elements<2>(const ElementSearchGrid<2>&, const ElementSettings&, int,
+                                                 std::vector<PlacedElement>,
                                                  const std::function<void(const ElementIteration&)>&);
-extern template FoundElements search_elements<3>(const ElementSearchGrid<3>&, const ElementSearchGrid<3>*,
-                                                 ElementSettings, std::vector<PlacedElement>,
+extern template FoundElements search_elements<3>(const ElementSearchGrid<3>&, const ElementSettings&, int,
+                                                 std::vector<PlacedElement>,
                                                  const std::function<void(const ElementIteration&)>&);
 
 }  // namespace lamella

@@ -152,7 +152,7 @@ class Ring : public ElementShape {
     }
 
   private:
-    /// Whether a part of a line lies nearer to the axis than the tube does: the distance is greatest at an end.
+    /// Whether a part of a line is nearer to the axis than the tube: the distance is greatest at an end.
     bool in_hole(dvec3 p, dvec3 way, const Interval& part) const {
         const double hole = (large_ - small_) * (1 - 1e-6);
         const dvec2 a(p + part.lo * way), b(p + part.hi * way);

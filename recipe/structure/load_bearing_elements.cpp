@@ -31,15 +31,24 @@ struct LoadedGrid {
     ElementGrid grid;
     StructuralProblem<Dim> problem;
 
-    LoadedGrid(const Recipe& recipe, Gradings& gradings, ElementGrid of)
+    LoadedGrid(const Recipe& recipe, Gradings& gradings, ElementGrid of, const FilledElements& filled = {})
         : grid(std::move(of)),
-          problem(structural_problem<Dim>(recipe, grid.domain, gradings, material_poisson)) {
+          problem(structural_problem<Dim>(recipe, grid.domain, gradings, material_poisson, filled)) {
         problem.topology.law = make_penalty_law({3, unfilled_modulus, 0});
     }
     ElementSearchGrid<Dim> search_grid() const {
         return {&problem.topology, grid.cells, grid.tables, problem.displacement_unit};
     }
 };
+
+/// Returns the elements that are at least half full.
+FilledElements filled(std::span<const double> shares) {
+    constexpr double half = 0.5;
+    FilledElements flags;
+    flags.reserve(shares.size());
+    for (const double share : shares) flags.push_back(share >= half ? 1 : 0);
+    return flags;
+}
 
 /// One search, in the plane or in space.
 template <std::size_t Dim>
@@ -48,26 +57,20 @@ class ElementSearch {
     ElementSearch(const Recipe& recipe, const Field& body, const BuiltRegions& regions, ElementGrid grid,
                   const std::vector<ElementShapePtr>& shapes, Gradings& gradings,
                   const PlaceElementsOptions& options)
-        : elements_(*recipe.elements),
+        : recipe_(recipe),
+          elements_(*recipe.elements),
           body_(body),
+          gradings_(gradings),
           options_(options),
           shapes_(shapes),
           coarse_(recipe, gradings, std::move(grid)),
-          ways_(element_ways(recipe, gradings)) {
-        auto finer = finer_element_grid(recipe, body, regions, shapes, coarse_.grid, options.cancel);
-        if (finer) fine_.emplace(recipe, gradings, std::move(*finer));
-    }
+          fine_(finer_element_grid(recipe, body, regions, shapes, coarse_.grid, options.cancel)),
+          ways_(element_ways(recipe, gradings)) {}
 
     ElementPlan run() {
         ElementPlan plan;
         check_volume();
-        const auto on_iteration = [&](const ElementIteration& done) {
-            if (options_.on_iteration) options_.on_iteration(done, elements_.iterations);
-        };
-        std::optional<ElementSearchGrid<Dim>> fine;
-        if (fine_) fine = fine_->search_grid();
-        const FoundElements found = search_elements(coarse_.search_grid(), fine ? &*fine : nullptr,
-                                                    settings(), start(plan), on_iteration);
+        const FoundElements found = search(start(plan));
         JoinedElements joined =
             joined_elements(found.elements, found.loads, shapes_,
                             join_settings(elements_, coarse_.grid, body_, found.elements));
@@ -91,17 +94,20 @@ class ElementSearch {
     void check_volume() const;
     ElementSettings settings() const;
     std::vector<PlacedElement> start(ElementPlan& plan);
+    FoundElements search(std::vector<PlacedElement> start) const;
     std::vector<double> free_densities(const TopologyOptimizer<Dim>& optimum) const;
     std::vector<dvec3> stress_ways(const TopologyOptimizer<Dim>& optimum) const;
     std::vector<double> shares_of(const Field& solid, const ElementGrid& grid) const;
     void judge(ElementPlan& plan) const;
 
+    const Recipe& recipe_;
     const ElementsRecipe& elements_;
     const Field& body_;
+    Gradings& gradings_;
     const PlaceElementsOptions& options_;
     const std::vector<ElementShapePtr>& shapes_;
     LoadedGrid<Dim> coarse_;
-    std::optional<LoadedGrid<Dim>> fine_;  ///< none where there would be too many cells
+    std::optional<ElementGrid> fine_;  ///< none where there would be too many cells
     std::optional<ElementWays> ways_;
     const ElementDomain& domain_ = coarse_.grid.domain;
     const CellGrid& grid_ = coarse_.grid.cells;
@@ -196,6 +202,23 @@ std::vector<PlacedElement> ElementSearch<Dim>::start(ElementPlan& plan) {
                              .seed = static_cast<std::uint64_t>(elements_.seed)});
 }
 
+/// Searches on the coarse grid, and then on the fine one, where loads act on what the elements cover by then.
+template <std::size_t Dim>
+FoundElements ElementSearch<Dim>::search(std::vector<PlacedElement> start) const {
+    const auto on_iteration = [&](const ElementIteration& done) {
+        if (options_.on_iteration) options_.on_iteration(done, elements_.iterations);
+    };
+    ElementSettings wanted = settings();
+    const int all = wanted.iterations, end = fine_ ? coarse_iterations(all) : all;
+    FoundElements found = search_elements(coarse_.search_grid(), wanted, end, std::move(start), on_iteration);
+    if (!fine_) return found;
+    ElementRaster covered(fine_->cells, fine_->domain.use, fine_->tables, fine_->cells.edge(), 0);
+    covered.set(found.elements);
+    const LoadedGrid<Dim> fine(recipe_, gradings_, *fine_, filled(covered.densities()));
+    wanted.begin = end;
+    return search_elements(fine.search_grid(), wanted, all, std::move(found.elements), on_iteration);
+}
+
 /// Returns the share of each cell that a solid fills.
 template <std::size_t Dim>
 std::vector<double> ElementSearch<Dim>::shares_of(const Field& solid, const ElementGrid& grid) const {
@@ -233,12 +256,11 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
                 options_.cancel, report);
         return report;
     };
-    const LoadedGrid<Dim>& finest = fine_ ? *fine_ : coarse_;
-    const StructureReport report = report_on(finest, shares_of(*solid, finest.grid));
-    if (fine_) {
-        const double coarse = report_on(coarse_, full_densities(domain_.use)).full_compliance;
-        plan.optimum *= report.full_compliance / coarse;
-    }
+    const ElementGrid& finest = fine_ ? *fine_ : coarse_.grid;
+    const std::vector<double> shares = shares_of(*solid, finest);
+    const StructureReport report =
+        report_on(LoadedGrid<Dim>(recipe_, gradings_, finest, filled(shares)), shares);
+    plan.optimum *= report.full_compliance / report_on(coarse_, full_densities(domain_.use)).full_compliance;
     plan.volume = report.volume;
     plan.compliance = report.compliance;
     plan.full_compliance = report.full_compliance;

@@ -86,7 +86,8 @@ PlacedElements place_elements(const Recipe& recipe, const FieldPtr& body, const 
         const bool is_loaded = !problem.loads.empty();
         const double least_edge = is_loaded ? 0 : spread_edge(problem, body->bounds());
         ElementGrid grid = element_grid(problem, *body, regions, shapes, least_edge, options.cancel);
-        return is_loaded ? load_bearing_elements(problem, *body, regions, std::move(grid), shapes, gradings, options)
+        return is_loaded ? load_bearing_elements(problem, *body, regions, std::move(grid), shapes, gradings,
+                                                 options)
                          : spread_in_body(problem, *body, grid, shapes, gradings, options);
     });
     std::optional<Interval> upright;

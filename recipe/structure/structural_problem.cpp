@@ -133,13 +133,25 @@ std::vector<glm::ivec3> nodes_in(const Place& place, const DomainNodes<Dim>& nod
     return found;
 }
 
+/// Spreads a force over nodes by the number of their filled elements, of all elements if none is filled.
 template <std::size_t Dim>
-void add_force(const std::vector<glm::ivec3>& places, const DomainNodes<Dim>& nodes, dvec3 force,
-               NodalVector<Dim, double>& forces) {
-    double total = 0;
-    for (const glm::ivec3 node : places) total += nodes.elements_at(node);
+void add_force(const std::vector<glm::ivec3>& places, const DomainNodes<Dim>& nodes,
+               const FilledElements& filled, dvec3 force, NodalVector<Dim, double>& forces) {
+    const auto elements_at = [&](glm::ivec3 node, bool only_filled) {
+        int count = 0;
+        nodes.for_each_element_at(node, [&](glm::ivec3 element) {
+            count += !only_filled || filled[nodes.place(element)] != 0 ? 1 : 0;
+        });
+        return count;
+    };
+    double total = 0, total_filled = 0;
     for (const glm::ivec3 node : places) {
-        const double share = nodes.elements_at(node) / total;
+        total += elements_at(node, false);
+        if (!filled.empty()) total_filled += elements_at(node, true);
+    }
+    const bool only_filled = total_filled > 0;
+    for (const glm::ivec3 node : places) {
+        const double share = elements_at(node, only_filled) / (only_filled ? total_filled : total);
         for (std::size_t d = 0; d < Dim; ++d)
             forces.along[d][nodes.number(node)] += share * force[static_cast<int>(d)];
     }
@@ -307,7 +319,7 @@ GridElement<3> element_of(const IsotropicMaterial& material, dvec3 edges,
 
 template <std::size_t Dim>
 StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& domain, Gradings& gradings,
-                                          double element_poisson) {
+                                          double element_poisson, const FilledElements& filled) {
     BaseMaterial material;
     const bool known = recipe.material && has_modulus(*recipe.material);
     if (recipe.material) material = base_material(*recipe.material);
@@ -343,7 +355,7 @@ StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& d
         if (load.pressure > 0) {
             add_pressure(at, nodes, domain, load.pressure, load.where, forces);
         } else {
-            add_force(at, nodes, load.force, forces);
+            add_force(at, nodes, filled, load.force, forces);
         }
     }
     const dvec3 gravity = recipe.optimize ? recipe.optimize->gravity : dvec3(0);
@@ -368,7 +380,9 @@ StructuralProblem<Dim> structural_problem(const Recipe& recipe, ElementDomain& d
     return problem;
 }
 
-template StructuralProblem<2> structural_problem<2>(const Recipe&, ElementDomain&, Gradings&, double);
-template StructuralProblem<3> structural_problem<3>(const Recipe&, ElementDomain&, Gradings&, double);
+template StructuralProblem<2> structural_problem<2>(const Recipe&, ElementDomain&, Gradings&, double,
+                                                    const FilledElements&);
+template StructuralProblem<3> structural_problem<3>(const Recipe&, ElementDomain&, Gradings&, double,
+                                                    const FilledElements&);
 
 }  // namespace lamella

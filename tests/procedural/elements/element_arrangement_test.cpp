@@ -36,10 +36,11 @@ double random(std::int64_t k, std::uint64_t which) { return CounterHash(7, 0, k,
 std::vector<PlacedElement> lattice(int side, double astray) {
     std::vector<PlacedElement> elements;
     for (int k = 0; k < side * side; ++k) {
+        const int row = k / side;
         const dvec2 aside(random(k, 0) - 0.5, random(k, 1) - 0.5);
         const double angle = std::numbers::pi / 6 + 0.2 * (random(k, 2) - 0.5);
         elements.push_back({.shape = k % 3 == 0 ? 1U : 0U,
-                            .at = {k % side + 2 * astray * aside.x, k / side + 2 * astray * aside.y, 0},
+                            .at = {k % side + 2 * astray * aside.x, row + 2 * astray * aside.y, 0},
                             .turn = glm::angleAxis(angle, dvec3(0, 0, 1)),
                             .scale = k % 3 == 0 ? 1.5 : 1});
     }
@@ -49,8 +50,9 @@ std::vector<PlacedElement> lattice(int side, double astray) {
 /// A plate 60 x 60 in squares of 0.25 mm.
 SpreadSites plate() {
     SpreadSites sites{.spacing = 0.25, .is_flat = true};
-    for (int k = 0; k < 240 * 240; ++k)
-        sites.places.emplace_back(0.25 * (k % 240) + 0.125, 0.25 * (k / 240) + 0.125, 0);
+    for (int y = 0; y < 240; ++y) {
+        for (int x = 0; x < 240; ++x) sites.places.emplace_back(0.25 * x + 0.125, 0.25 * y + 0.125, 0);
+    }
     sites.sizes.assign(sites.size(), 1);
     sites.densities.assign(sites.size(), 1);
     return sites;
@@ -106,8 +108,11 @@ TEST_CASE("spacings vary as theory says", "[elements]") {
     CHECK(spacing_variation(lattice(12, 0)) == 0);
     // Distances to the nearest of points at random in a plane have a Rayleigh distribution (Clark, Evans
     // 1954).
-    std::vector<PlacedElement> random_ones;
-    for (int k = 0; k < 40'000; ++k) random_ones.push_back({.at = {random(k, 0), random(k, 1), 0}});
+    std::vector<PlacedElement> random_ones(40'000);
+    for (std::size_t k = 0; k < random_ones.size(); ++k) {
+        const auto number = static_cast<std::int64_t>(k);
+        random_ones[k].at = {random(number, 0), random(number, 1), 0};
+    }
     CHECK(spacing_variation(random_ones) == Approx(std::sqrt(4 / std::numbers::pi - 1)).epsilon(0.02));
     CHECK(spacing_variation(std::vector<PlacedElement>(3)) == 0);  // all in one place
 }
