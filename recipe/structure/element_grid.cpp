@@ -15,7 +15,7 @@ namespace {
 constexpr double cells_a_thickness = 3.2;  // of the thinnest shape: fewer, and elements look like void
 constexpr double least_cells = 1.9;
 constexpr int table_samples_2d = 128, table_samples_3d = 48;
-constexpr double most_fine_cells = 5e5;  // more, and an iteration takes more than a few seconds
+constexpr double most_fine_cells_2d = 5e5, most_fine_cells_3d = 1e5;  // more, and iterations take seconds
 
 /// Returns the edge of the finite elements, mm.
 double cell_edge(const ElementsRecipe& elements, std::span<const DistanceTable> tables, double least_edge) {
@@ -86,7 +86,8 @@ std::optional<ElementGrid> finer_element_grid(const Recipe& recipe, const Field&
                                               std::span<const ElementShapePtr> shapes,
                                               const ElementGrid& grid, const CancelToken* cancel) {
     const glm::ivec3 size = grid.cells.size * (grid.is_flat() ? glm::ivec3(2, 2, 1) : glm::ivec3(2));
-    if (static_cast<double>(size.x) * size.y * size.z > most_fine_cells) return std::nullopt;
+    const double most = grid.is_flat() ? most_fine_cells_2d : most_fine_cells_3d;
+    if (static_cast<double>(size.x) * size.y * size.z > most) return std::nullopt;
     constexpr double ratio = 0.5;
     return grid_of(recipe, shapes,
                    element_domain_of(recipe, body, regions, grid.domain, size, ratio, cancel));
