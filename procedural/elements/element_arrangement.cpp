@@ -4,44 +4,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/base/text.h"
+#include "procedural/elements/number_line.h"
 #include "procedural/voronoi/point_tree.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr std::size_t most_elements = 1'000'000, longest_line = 1000;
-
-using ElementLine = std::array<double, 9>;
-
-/// Returns the numbers of a line; none unless it has one in each column.
-std::optional<ElementLine> parse_element(std::string_view line) {
-    ElementLine numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::size_t end = line.find(',');
-        if ((end == std::string_view::npos) != (i + 1 == numbers.size())) return std::nullopt;
-        const auto number = parse_double(line.substr(0, end));
-        if (!number || !std::isfinite(*number)) return std::nullopt;
-        numbers[i] = *number;
-        line.remove_prefix(std::min(end, line.size() - 1) + 1);
-    }
-    return numbers;
-}
+constexpr std::size_t most_elements = 1'000'000;
 
 /// Returns the element of a line. Throws InputError with what is wrong about it.
 PlacedElement element_of(std::string_view line, const ArrangementLimits& limits) {
-    const auto numbers = parse_element(line);
-    if (!numbers)
+    const std::vector<double> n = numbers_of_line(line);
+    constexpr std::size_t columns_of_element = 9;
+    if (n.size() != columns_of_element)
         throw InputError(fmt::format(
             "{} is no element; accepted: nine numbers, shape,x,y,z,qw,qx,qy,qz,scale", excerpt(line)));
-    const ElementLine& n = *numbers;
     if (!(n[0] >= 0 && n[0] < limits.shapes) || n[0] != std::floor(n[0]))
         throw InputError(
             fmt::format("there is no shape {}; accepted: whole numbers from 0 to {}, as there "
@@ -49,7 +32,7 @@ PlacedElement element_of(std::string_view line, const ArrangementLimits& limits)
                         n[0], limits.shapes - 1));
     constexpr double farthest = 1e9;  // mm
     if (std::max({std::abs(n[1]), std::abs(n[2]), std::abs(n[3])}) > farthest)
-        throw InputError(fmt::format("a place beyond {} mm; accepted: one nearer to the origin", farthest));
+        throw InputError("a place beyond a billion mm; accepted: one nearer to the origin");
     const glm::dquat turn(n[4], n[5], n[6], n[7]);
     const double squared = glm::dot(turn, turn);
     if (!(squared > 1e-12 && squared < 1e12))
@@ -69,14 +52,15 @@ PlacedElement element_of(std::string_view line, const ArrangementLimits& limits)
 
 }  // namespace
 
-std::vector<PlacedElement> read_arrangement(std::istream& in, const std::string& name,
+std::vector<PlacedElement> read_arrangement(std::string_view text, const std::string& name,
                                             const ArrangementLimits& limits) {
     std::vector<PlacedElement> elements;
-    std::array<char, longest_line + 2> text{};
-    for (std::size_t number = 1; in.getline(text.data(), text.size()) || in.gcount() > 0; ++number) {
-        std::string_view line(text.data());
-        if (number == 1) line = without_byte_order_mark(line);
-        line = trimmed(line);
+    std::size_t number = 0;
+    for (std::string_view rest = without_byte_order_mark(text); !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = trimmed(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++number;
         const bool is_header = number == 1 && line.starts_with("shape");
         if (line.empty() || is_header) continue;
         try {
@@ -88,8 +72,8 @@ std::vector<PlacedElement> read_arrangement(std::istream& in, const std::string&
             throw InputError(fmt::format("{}: more than a million elements; accepted: fewer", name));
     }
     if (elements.size() < 2)
-        throw InputError(
-            fmt::format("{}: {} elements are no arrangement; accepted: two or more", name, elements.size()));
+        throw InputError(fmt::format("{}: {}; accepted: an arrangement of two or more", name,
+                                     counted(elements.size(), "element")));
     return elements;
 }
 

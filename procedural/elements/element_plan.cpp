@@ -9,7 +9,7 @@
 
 #include "engine/base/complete_file.h"
 #include "engine/base/error.h"
-#include "engine/base/text.h"
+#include "procedural/elements/number_line.h"
 
 namespace lamella {
 
@@ -29,14 +29,7 @@ constexpr double most_shapes = 10'000;
 std::vector<double> numbers_of(std::istream& in, std::size_t count, const std::string& name) {
     std::string line;
     std::getline(in, line);
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        const auto number = parse_double(std::string_view(line).substr(begin, end - begin));
-        if (!number || !std::isfinite(*number)) break;
-        numbers.push_back(*number);
-        begin = end + 1;
-    }
+    std::vector<double> numbers = numbers_of_line(line);
     if (!in || numbers.size() != count) refuse(name);
     return numbers;
 }

@@ -108,8 +108,8 @@ class Spread {
         }
     }
 
-    /// Returns where a step towards a centroid leads: with an example all but halfway, so that spacings
-    /// become even by small steps.
+    /// Returns where a step towards a centroid leads: with an example a part of the way, so that rounds can
+    /// end at its variation.
     dvec3 towards(std::uint32_t k, dvec3 centroid) const {
         constexpr double share = 0.3;
         return example_.empty() ? centroid : glm::mix(elements_[k].at, centroid, share);

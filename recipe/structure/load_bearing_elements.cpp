@@ -249,18 +249,18 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
     std::optional<Interval> upright;
     if (Dim == 2) upright = Interval{domain_.box.lo.z, domain_.box.hi.z};
     const FieldPtr solid = element_solid(shapes_, plan, elements_.bridge, upright);
-    const auto report_on = [&](const LoadedGrid<Dim>& on, const std::vector<double>& shares) {
-        StructureReport report;
-        describe(on.problem, on.grid.domain, report);
-        analyse(on.problem, on.grid.domain, make_penalty_law({1, void_modulus_of<Dim>, 0}), shares, false,
-                options_.cancel, report);
-        return report;
-    };
     const ElementGrid& finest = fine_ ? *fine_ : coarse_.grid;
     const std::vector<double> shares = shares_of(*solid, finest);
-    const StructureReport report =
-        report_on(LoadedGrid<Dim>(recipe_, gradings_, finest, filled(shares)), shares);
-    plan.optimum *= report.full_compliance / report_on(coarse_, full_densities(domain_.use)).full_compliance;
+    const LoadedGrid<Dim> loaded(recipe_, gradings_, finest, filled(shares));
+    StructureReport report;
+    describe(loaded.problem, loaded.grid.domain, report);
+    analyse(loaded.problem, loaded.grid.domain, make_penalty_law({1, void_modulus_of<Dim>, 0}), shares, false,
+            options_.cancel, report);
+    if (fine_) {
+        Compliance<Dim> coarse(problem_.topology, {.tolerance = 1e-6, .cancel = options_.cancel});
+        const double full = coarse.evaluate(full_densities(domain_.use)).total * problem_.displacement_unit;
+        plan.optimum *= report.full_compliance / full;
+    }
     plan.volume = report.volume;
     plan.compliance = report.compliance;
     plan.full_compliance = report.full_compliance;

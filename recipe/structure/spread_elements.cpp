@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/base/whole_file.h"
 #include "procedural/elements/element_arrangement.h"
 #include "procedural/elements/element_spread.h"
 #include "procedural/skin/surface_walk.h"
@@ -39,13 +39,7 @@ void set_wishes(const Recipe& recipe, Gradings& gradings, const std::optional<El
 std::vector<PlacedElement> example_of(const Recipe& recipe) {
     const ElementsRecipe& elements = *recipe.elements;
     if (elements.example.empty()) return {};
-    std::ifstream in(elements.example);
-    if (!in)
-        throw InputError(
-            fmt::format("{}: cannot be read; accepted for elements.example: a file of copies, as "
-                        "`lamella dump elements` writes it",
-                        elements.example));
-    return read_arrangement(in, elements.example,
+    return read_arrangement(whole_file(elements.example, "a list of copies"), elements.example,
                             {.shapes = static_cast<std::uint32_t>(recipe.element_shapes.size()),
                              .scales = {elements.scale_min, elements.scale_max}});
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "engine/base/error.h"
 #include "procedural/optimization/density_shape.h"
@@ -137,23 +138,20 @@ std::vector<glm::ivec3> nodes_in(const Place& place, const DomainNodes<Dim>& nod
 template <std::size_t Dim>
 void add_force(const std::vector<glm::ivec3>& places, const DomainNodes<Dim>& nodes,
                const FilledElements& filled, dvec3 force, NodalVector<Dim, double>& forces) {
-    const auto elements_at = [&](glm::ivec3 node, bool only_filled) {
+    std::vector<int> weights, full_weights;
+    for (const glm::ivec3 node : places) {
         int count = 0;
         nodes.for_each_element_at(node, [&](glm::ivec3 element) {
-            count += !only_filled || filled[nodes.place(element)] != 0 ? 1 : 0;
+            count += !filled.empty() && filled[nodes.place(element)] != 0 ? 1 : 0;
         });
-        return count;
-    };
-    double total = 0, total_filled = 0;
-    for (const glm::ivec3 node : places) {
-        total += elements_at(node, false);
-        if (!filled.empty()) total_filled += elements_at(node, true);
+        weights.push_back(count);
+        full_weights.push_back(nodes.elements_at(node));
     }
-    const bool only_filled = total_filled > 0;
-    for (const glm::ivec3 node : places) {
-        const double share = elements_at(node, only_filled) / (only_filled ? total_filled : total);
+    if (std::ranges::all_of(weights, [](int count) { return count == 0; })) weights = full_weights;
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
         for (std::size_t d = 0; d < Dim; ++d)
-            forces.along[d][nodes.number(node)] += share * force[static_cast<int>(d)];
+            forces.along[d][nodes.number(places[i])] += weights[i] / total * force[static_cast<int>(d)];
     }
 }
 

@@ -37,7 +37,8 @@ using FilledElements = std::vector<std::uint8_t>;
 /// Makes loads and supports of the elements' nodes; pieces of the body that are neither held nor loaded
 /// become outside. A node lies in a place if it is within half an element of it. Forces are spread over nodes
 /// by the number of their elements, as a uniform traction or body force is; by that of their `filled`
-/// elements where a load has some, since it acts on the material that is there. `element_poisson` is that of
+/// elements where a load has some, since it acts on the material that is there; pressure acts on all of the
+/// body's surface in its place. `element_poisson` is that of
 /// the elements, or material_poisson. Throws InputError for places without nodes, loaded pieces that are not
 /// held, and pieces that can still move or turn.
 template <std::size_t Dim>

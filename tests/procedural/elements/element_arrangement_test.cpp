@@ -20,9 +20,8 @@ using namespace lamella;
 namespace {
 
 std::string refusal(const std::string& text) {
-    std::istringstream in(text);
     try {
-        read_arrangement(in, "a.csv", {.shapes = 2, .scales = {0.5, 2}});
+        read_arrangement(text, "a.csv", {.shapes = 2, .scales = {0.5, 2}});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -66,8 +65,7 @@ TEST_CASE("arrangements read as they are written", "[elements]") {
     std::ostringstream out;
     write_elements(out, elements);
     const auto read = [](const std::string& text) {
-        std::istringstream in(text);
-        return read_arrangement(in, "a.csv", {.shapes = 2, .scales = {1, 1.5}});
+        return read_arrangement(text, "a.csv", {.shapes = 2, .scales = {1, 1.5}});
     };
     const std::vector<PlacedElement> back = read(out.str());
     REQUIRE(back.size() == elements.size());
@@ -99,8 +97,8 @@ TEST_CASE("arrangements that are none say where", "[elements]") {
     CHECK(refusal(good + "0.5,1,2,3,1,0,0,0,1\n").starts_with("a.csv:2: there is no shape 0.5"));
     CHECK(refusal(good + "0,1,2,3,0,0,0,0,1\n").starts_with("a.csv:2: a quaternion of length 0"));
     CHECK(refusal(good + "0,1,2,3,1,0,0,0,2.5\n").starts_with("a.csv:2: a scale of 2.5 is outside"));
-    CHECK(refusal(good).starts_with("a.csv: 1 elements are no arrangement"));
-    CHECK(refusal("").starts_with("a.csv: 0 elements"));
+    CHECK(refusal(good).starts_with("a.csv: 1 element; accepted"));
+    CHECK(refusal("").starts_with("a.csv: 0 elements; accepted"));
     CHECK(refusal(good + std::string(5000, '1')).starts_with("a.csv:2: "));
 }
 
