@@ -267,7 +267,7 @@ void ElementSearch<Dim>::judge(ElementPlan& plan) const {
     constexpr double unheld = 1e4;
     if (plan.compliance > unheld * plan.full_compliance)
         throw InputError(fmt::format(
-            "elements: the {} elements that are left do not reach all loads and anchors; accepted: a solid "
+            "elements: those that are left ({}) do not reach all loads and anchors; accepted: a solid "
             "[[region]] where these act on much of the part, more or longer elements, or more iterations",
             plan.elements.size()));
 }
