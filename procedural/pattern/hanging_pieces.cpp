@@ -3,16 +3,31 @@
 
 #include <algorithm>
 #include <array>
+#include <queue>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
-#include "procedural/pattern/carried_distance.h"
 #include "procedural/pattern/nearest_on_lattice.h"
 
 namespace lamella {
 
-HangingPieces::HangingPieces(const SurfaceSites& sites, double depth) : sites_(sites) {
+namespace {
+
+constexpr std::tuple<std::int64_t, std::int64_t, std::int64_t> by_line(glm::i64vec3 at) {
+    return {at.y, at.x, at.z};
+}
+
+/// True where a point outside, beyond a convex edge, is merely below the plane of its nearest site.
+bool is_beyond_edge(const SurfaceSites& sites, const Field& body, dvec3 p, double height,
+                    std::uint32_t site) {
+    const dvec3 foot = p - height * sites.normals[site];
+    return glm::distance(foot, sites.places[site]) > sites.spacing && body.value(p) > 0;
+}
+
+}  // namespace
+
+HangingPieces::HangingPieces(const SurfaceSites& sites, const Field& body, double depth) : sites_(sites) {
     constexpr std::int64_t side = 8;
     const double spacing = sites.spacing;
     const NearestOnLattice nearest(sites, depth + 2 * spacing, 2 * spacing);
@@ -21,13 +36,27 @@ HangingPieces::HangingPieces(const SurfaceSites& sites, double depth) : sites_(s
             const glm::i64vec3 at = side * corner + glm::i64vec3(k % side, k / side % side, k / side / side);
             const std::uint32_t site = nearest.site(at);
             if (site == NearestOnLattice::none) continue;
-            const double height = glm::dot(dvec3(at) * spacing - sites.places[site], sites.normals[site]);
+            const dvec3 p = dvec3(at) * spacing;
+            const double height = glm::dot(p - sites.places[site], sites.normals[site]);
             const double below = std::min(-height, depth + height);
-            if (below > -spacing) samples_.push_back({at, site, static_cast<float>(below)});
+            if (below > -spacing && !is_beyond_edge(sites, body, p, height, site))
+                samples_.push_back({at, site, static_cast<float>(below)});
         }
     }
-    std::ranges::sort(samples_, {},
-                      [](const Sample& sample) { return std::tuple(sample.at.y, sample.at.x, sample.at.z); });
+    std::ranges::sort(samples_, {}, [](const Sample& sample) { return by_line(sample.at); });
+}
+
+/// Returns null where there is none.
+const HangingPieces::Sample* HangingPieces::sample_at(glm::i64vec3 at) const {
+    const auto found = std::ranges::lower_bound(samples_, by_line(at), {},
+                                                [](const Sample& sample) { return by_line(sample.at); });
+    return found != samples_.end() && found->at == at ? &*found : nullptr;
+}
+
+/// Positive in the solid.
+double HangingPieces::value(const CarriedDistance& carried, const Sample& sample) const {
+    return std::min(carried.at(dvec3(sample.at) * sites_.spacing, sample.site),
+                    static_cast<double>(sample.depth));
 }
 
 /// Returns the intervals by y, x, and begin.
@@ -38,15 +67,15 @@ std::vector<HangingPieces::Interval> HangingPieces::intervals_of(std::span<const
     glm::i64vec3 last(0);
     double last_value = 0;
     bool is_first = true;
-    for (const Sample& sample : samples_) {
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        const Sample& sample = samples_[i];
         const dvec3 p = dvec3(sample.at) * spacing;
-        const double value = std::min(carried.at(p, sample.site), static_cast<double>(sample.depth));
+        const double value = this->value(carried, sample);
         const bool goes_on = !is_first && sample.at == last + glm::i64vec3(0, 0, 1);
         if (value > 0) {
             const bool is_inside = goes_on && last_value > 0;
-            const double into = goes_on ? value / (value - last_value) : 0.5;
-            if (!is_inside)
-                intervals.push_back({sample.at.x, sample.at.y, p.z - into * spacing, 0, sample.site});
+            const double into = goes_on ? value / (value - last_value) : std::min(value / spacing, 1.0);
+            if (!is_inside) intervals.push_back({sample.at.x, sample.at.y, p.z - into * spacing, 0, i});
             intervals.back().end = p.z + 0.5 * spacing;
         } else if (goes_on && last_value > 0) {
             intervals.back().end = p.z + value / (last_value - value) * spacing;
@@ -103,9 +132,60 @@ std::vector<std::uint32_t> HangingPieces::find(std::span<const float> distances)
     for (std::uint32_t r = 0; r < by_begin.size(); ++r) {
         const Interval& interval = intervals[by_begin[r]];
         const bool is_lowest = interval.begin - intervals[by_begin[0]].begin <= least;
-        if (!is_lowest && alone_until[r] - interval.begin > least) found.push_back(interval.site);
+        if (!is_lowest && alone_until[r] - interval.begin > least) found.push_back(interval.sample);
     }
     return found;
+}
+
+std::vector<std::uint32_t> HangingPieces::way_down(std::span<const float> distances,
+                                                   std::uint32_t sample) const {
+    constexpr std::int64_t most_rise = 2;
+    constexpr double rising = 10, above = 100;  // steps that a step up, and one above the sample, are worth
+    struct Reached {
+        double cost;
+        std::uint32_t sample, from;
+        bool operator>(const Reached& other) const {
+            return std::tie(cost, sample, from) > std::tie(other.cost, other.sample, other.from);
+        }
+    };
+    const CarriedDistance carried(sites_, distances);
+    const std::int64_t top = samples_[sample].at.z;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+    std::unordered_map<std::uint32_t, std::uint32_t> from;
+    open.push({0, sample, sample});
+    while (!open.empty()) {
+        const Reached here = open.top();
+        open.pop();
+        if (!from.emplace(here.sample, here.from).second) continue;
+        const Sample& at = samples_[here.sample];
+        if (at.at.z < top && value(carried, at) > 0) return strut_along(carried, from, here.sample);
+        for (int k = 0; k < 27; ++k) {
+            const glm::i64vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            const std::int64_t z = at.at.z + step.z;
+            const Sample* next = z <= top + most_rise ? sample_at(at.at + step) : nullptr;
+            if (next == nullptr || next->depth < 0) continue;
+            const double cost =
+                here.cost + glm::length(dvec3(step)) + (step.z > 0 ? rising : 0) + (z > top ? above : 0);
+            open.push({cost, static_cast<std::uint32_t>(next - samples_.data()), here.sample});
+        }
+    }
+    return {};
+}
+
+/// Returns the sites along the way to a sample; none if all of the way is solid.
+std::vector<std::uint32_t> HangingPieces::strut_along(
+    const CarriedDistance& carried, const std::unordered_map<std::uint32_t, std::uint32_t>& from,
+    std::uint32_t end) const {
+    std::vector<std::uint32_t> way;
+    bool is_over_void = false;
+    for (std::uint32_t at = end;; at = from.at(at)) {
+        if (way.empty() || way.back() != site(at)) way.push_back(site(at));
+        is_over_void |= !(value(carried, samples_[at]) > 0);
+        if (from.at(at) == at) break;
+    }
+    if (!is_over_void) return {};
+    std::ranges::reverse(way);
+    return way;
 }
 
 }  // namespace lamella

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
+#include "engine/field/field.h"
+#include "procedural/pattern/carried_distance.h"
 #include "procedural/texture/surface_sites.h"
 
 namespace lamella {
@@ -12,14 +15,22 @@ namespace lamella {
 /// Upright lines through a skin, a spacing of the sites apart along x and y. Immutable.
 class HangingPieces {
   public:
-    /// Sites have to outlive the object; `depth` is the skin's thickness, mm.
-    HangingPieces(const SurfaceSites& sites, double depth);
+    /// Sites of a body's surface, which have to outlive the object; `depth` is the skin's thickness, mm.
+    HangingPieces(const SurfaceSites& sites, const Field& body, double depth);
 
-    /// Returns the site nearest to the lowest point of each piece of the solid that hangs, the lowest first:
-    /// it begins higher than the part does, and stays alone for more than a quarter of a spacing of height
-    /// before it joins a piece that began lower. `distances` are those of the pattern at the sites, mm,
-    /// positive in the solid.
+    /// Returns the lowest point of each piece of the solid that hangs, the lowest first: it begins higher
+    /// than the part does, and stays alone for more than a quarter of a spacing of height before it joins a
+    /// piece that began lower. Numbers of samples, for the other functions. `distances` are those of the
+    /// pattern at the sites, mm, positive in the solid.
     std::vector<std::uint32_t> find(std::span<const float> distances) const;
+
+    /// The site nearest to a sample.
+    std::uint32_t site(std::uint32_t sample) const { return samples_[sample].site; }
+
+    /// Returns the sites along the shortest way through the skin, from a sample to solid that is lower. The
+    /// way rises only where it has to, and at most two spacings above the sample. Empty if there is none, or
+    /// if all of it is solid.
+    std::vector<std::uint32_t> way_down(std::span<const float> distances, std::uint32_t sample) const;
 
   private:
     /// A sample on a line.
@@ -32,7 +43,7 @@ class HangingPieces {
     struct Interval {
         std::int64_t x, y;  ///< of the line, in spacings
         double begin, end;
-        std::uint32_t site;  ///< nearest to its begin
+        std::uint32_t sample;  ///< the first in it
     };
     /// Two intervals side by side, and the height from which they are joined, mm.
     struct Joint {
@@ -40,6 +51,11 @@ class HangingPieces {
         std::uint32_t a, b;
     };
 
+    const Sample* sample_at(glm::i64vec3 at) const;
+    double value(const CarriedDistance& carried, const Sample& sample) const;
+    std::vector<std::uint32_t> strut_along(const CarriedDistance& carried,
+                                           const std::unordered_map<std::uint32_t, std::uint32_t>& from,
+                                           std::uint32_t end) const;
     std::vector<Interval> intervals_of(std::span<const float> distances) const;
     static std::vector<Joint> joints_of(std::span<const Interval> intervals);
 

@@ -1,4 +1,4 @@
-// Ways of steepest descent over the sites.
+// One strut after the other, the lowest piece first.
 #include "procedural/pattern/struts_below.h"
 
 #include <algorithm>
@@ -6,38 +6,18 @@
 
 namespace lamella {
 
-namespace {
-
-/// Returns the way down the surface, over void, to the next solid; empty if there is none.
-SiteLine way_down(const SurfaceSites& sites, std::span<const float> distances, std::uint32_t from) {
-    const double flat = 1e-3 * sites.spacing;
-    SiteLine line{{from, sites.places[from]}};
-    bool is_over_void = !(distances[from] > 0);
-    for (std::uint32_t at = from;;) {
-        std::uint32_t next = at;
-        for (const std::uint32_t other : sites.neighbours(at)) {
-            if (sites.places[other].z < sites.places[next].z) next = other;
-        }
-        if (!(sites.places[at].z - sites.places[next].z > flat)) return {};
-        line.push_back({next, sites.places[next]});
-        if (distances[next] > 0 && is_over_void) return line;
-        is_over_void |= !(distances[next] > 0);
-        at = next;
-    }
-}
-
-}  // namespace
-
-std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const float> distances,
-                                   std::span<const std::uint32_t> hanging, double apart) {
+std::vector<SiteLine> struts_below(const SurfaceSites& sites, const HangingPieces& pieces,
+                                   std::span<const float> distances, double apart) {
     std::vector<SiteLine> struts;
-    for (const std::uint32_t site : hanging) {
+    for (const std::uint32_t sample : pieces.find(distances)) {
         const auto is_near = [&](const SiteLine& other) {
-            const dvec3 way = sites.way(sites.places[site], other.front().place);
+            const dvec3 way = sites.way(sites.places[pieces.site(sample)], other.front().place);
             return glm::dot(way, way) < apart * apart;
         };
         if (std::ranges::any_of(struts, is_near)) continue;
-        SiteLine line = way_down(sites, distances, site);
+        SiteLine line;
+        for (const std::uint32_t site : pieces.way_down(distances, sample))
+            line.push_back({site, sites.places[site]});
         if (!line.empty()) struts.push_back(std::move(line));
     }
     return struts;

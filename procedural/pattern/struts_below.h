@@ -9,23 +9,23 @@
 
 namespace lamella {
 
-/// Returns the middle lines of struts, down the surface to the solid below, from the sites where pieces hang.
-/// Where nothing of the surface is lower, there is no strut: only supports can hold that. Struts returned
+/// Returns the middle lines of struts, down through the skin to the solid below, from the pieces that hang.
+/// Where nothing of the skin is lower, there is no strut: only supports can hold that. Struts returned
 /// together begin at least `apart` mm from each other.
-std::vector<SiteLine> struts_below(const SurfaceSites& sites, std::span<const float> distances,
-                                   std::span<const std::uint32_t> hanging, double apart);
+std::vector<SiteLine> struts_below(const SurfaceSites& sites, const HangingPieces& pieces,
+                                   std::span<const float> distances, double apart);
 
 /// Asks another choice, which may be null, until it has no more bridges, at most five times, and then chooses
 /// struts below the pieces of the pattern that hang.
 class StrutsBelow : public BridgeChoice {
   public:
     /// Sites and the other choice have to outlive the object.
-    StrutsBelow(const SurfaceSites& sites, double depth, double apart, BridgeChoice* other)
-        : sites_(sites), pieces_(sites, depth), apart_(apart), other_(other) {}
+    StrutsBelow(const SurfaceSites& sites, const Field& body, double depth, double apart, BridgeChoice* other)
+        : sites_(sites), pieces_(sites, body, depth), apart_(apart), other_(other) {}
     std::vector<SiteLine> choose(std::span<const float> distances) override;
     /// Returns struts below what hangs, whatever the other choice wants.
     std::vector<SiteLine> missing(std::span<const float> distances) const {
-        return struts_below(sites_, distances, pieces_.find(distances), apart_);
+        return struts_below(sites_, pieces_, distances, apart_);
     }
     double weakness() const override { return other_ != nullptr ? other_->weakness() : 0; }
 

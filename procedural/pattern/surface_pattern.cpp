@@ -105,7 +105,7 @@ double element_edge(const Field& shell, double strut) {
 }
 
 /// Returns a sound pattern, and of reinforcement by forces the softness before it and after.
-SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>& levels,
+SoundPattern reinforced(const Field& body, const Example& example, const std::vector<PatternLevel>& levels,
                         const SurfacePatternSettings& settings, std::pair<double, double>& softness) {
     const SurfaceSites& sites = levels.back().sites;
     const SynthesisSettings& synthesis = settings.example.synthesis;
@@ -125,7 +125,7 @@ SoundPattern reinforced(const Example& example, const std::vector<PatternLevel>&
         choice = &shape.emplace(sites, by_shape);
     }
     std::optional<StrutsBelow> below;
-    if (settings.self_supporting) below.emplace(sites, settings.depth, settings.example.strut, choice);
+    if (settings.self_supporting) below.emplace(sites, body, settings.depth, settings.example.strut, choice);
     SoundPattern made = synthesise_example(example, levels, settings.example, below ? &*below : choice);
     if (choice != nullptr) {
         const bool is_known = shape && !settings.self_supporting;
@@ -168,7 +168,7 @@ SurfaceBricks synthesise_on_surface(const Volume& picture, const Field& body,
     const Example example = make_example(picture, settings.example);
     const std::vector<PatternLevel> levels = levels_on(body, example, settings);
     std::pair<double, double> softness{0, 0};
-    const SoundPattern pattern = reinforced(example, levels, settings, softness);
+    const SoundPattern pattern = reinforced(body, example, levels, settings, softness);
     SurfaceBricks made{.spacing = example.spacing,
                        .unit = std::max(settings.example.strut, settings.example.gap) / largest_step,
                        .slope = 1,

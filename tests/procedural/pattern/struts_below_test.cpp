@@ -15,8 +15,9 @@ namespace {
 
 constexpr double strut = 0.8, depth = 1;
 
-std::vector<SiteLine> struts_of(const SurfaceSites& sites, std::span<const float> distances) {
-    return struts_below(sites, distances, HangingPieces(sites, depth).find(distances), strut);
+std::vector<SiteLine> struts_of(const FieldPtr& body, const SurfaceSites& sites,
+                                std::span<const float> distances) {
+    return struts_below(sites, HangingPieces(sites, *body, depth), distances, strut);
 }
 
 SurfaceSites sites_of(const FieldPtr& body) {
@@ -28,7 +29,8 @@ SurfaceSites sites_of(const FieldPtr& body) {
 }  // namespace
 
 TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", "[pattern]") {
-    const SurfaceSites sites = sites_of(make_box({dvec3(0), dvec3(10, 10, 14)}));
+    const FieldPtr body = make_box({dvec3(0), dvec3(10, 10, 14)});
+    const SurfaceSites sites = sites_of(body);
     for (const bool is_joined : {true, false}) {
         std::vector<float> distances;
         for (const dvec3 p : sites.places) {
@@ -39,7 +41,7 @@ TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", 
             const bool bar = is_joined && at_back && std::abs(p.x - 5) < 1;
             distances.push_back(p.z < 4 || p.z > 8 || tongue || bar ? 1.0F : -1.0F);
         }
-        const std::vector<SiteLine> struts = struts_of(sites, distances);
+        const std::vector<SiteLine> struts = struts_of(body, sites, distances);
         REQUIRE(struts.size() == 1);
         const SiteLine& line = struts.front();
         CHECK(line.front().place.z == Approx(6).margin(0.25));
@@ -54,10 +56,31 @@ TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", 
 
 TEST_CASE("what begins at the bottom of the body needs supports, not struts", "[pattern]") {
     // Two legs, each a piece of its own, and a wall between them that ends above.
-    const SurfaceSites sites = sites_of(make_box({dvec3(0), dvec3(10, 10, 8)}));
+    const FieldPtr body = make_box({dvec3(0), dvec3(10, 10, 8)});
+    const SurfaceSites sites = sites_of(body);
     std::vector<float> distances;
     for (const dvec3 p : sites.places) distances.push_back(p.z > 5 || std::abs(p.x - 5) > 3 ? 1.0F : -1.0F);
-    CHECK(struts_of(sites, distances).empty());
+    CHECK(struts_of(body, sites, distances).empty());
+}
+
+TEST_CASE("a disc in a level ceiling gets a strut to what walls hold, and then hangs no more", "[pattern]") {
+    // No way over the surface leads down from the disc: it rises nowhere above the ceiling's lower face.
+    const FieldPtr body = make_box({dvec3(0), dvec3(12, 12, 8)});
+    const SurfaceSites sites = sites_of(body);
+    std::vector<float> distances;
+    for (const dvec3 p : sites.places) {
+        const double radius = glm::length(dvec2(p) - dvec2(6));
+        distances.push_back(
+            p.z < 7.9 ? 1.0F : static_cast<float>(std::clamp(std::max(2 - radius, radius - 4), -1.0, 1.0)));
+    }
+    const std::vector<SiteLine> struts = struts_of(body, sites, distances);
+    REQUIRE(struts.size() == 1);
+    const auto from_middle = [&](const SitePoint& at) { return glm::length(dvec2(at.place) - dvec2(6)); };
+    CHECK(from_middle(struts.front().front()) < 2.3);
+    CHECK(from_middle(struts.front().back()) > 3.7);
+    const std::vector<float> drawn = struts_along(sites, struts.front(), strut, 2);
+    for (std::size_t i = 0; i < sites.size(); ++i) distances[i] = std::max(distances[i], drawn[i]);
+    CHECK(HangingPieces(sites, *body, depth).find(distances).empty());
 }
 
 TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]") {
@@ -70,10 +93,10 @@ TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]
         levels_on(*body, example, {.example = settings, .axis = dvec3(0, 0, 1)});
     const SurfaceSites& sites = levels.back().sites;
     const SoundPattern plain = synthesise_example(example, levels, settings, nullptr);
-    StrutsBelow below(sites, depth, strut, nullptr);
+    StrutsBelow below(sites, *body, depth, strut, nullptr);
     const SoundPattern held = synthesise_example(example, levels, settings, &below);
     const auto hanging = [&](const SoundPattern& pattern) {
-        return struts_of(sites, pattern.printed.distance).size();
+        return struts_of(body, sites, pattern.printed.distance).size();
     };
     CAPTURE(hanging(plain), hanging(held), held.bridges);
     CHECK(hanging(plain) > 5);
