@@ -167,7 +167,7 @@ TEST_CASE("a search that was stopped goes on to the same result", "[optimization
     CHECK(nothing.code == 2);
     CHECK(mentions(nothing.err, "keeps no search of this recipe that was stopped"));
     const pid_t child = start_lamella(command, folder);
-    for (int i = 0; i < 600 && !mentions(contents(folder / "err"), "30/150"); ++i) usleep(20'000);
+    for (int i = 0; i < 6000 && !mentions(contents(folder / "err"), "30/150"); ++i) usleep(20'000);
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);
