@@ -26,6 +26,9 @@ enum class Shape : unsigned char { none, sphere, box, cylinder, capsule, torus, 
 /// The length unit of mesh files whose format states none.
 enum class LengthUnit : unsigned char { mm, cm, m, inch };
 
+/// The coordinate of the part that a mirror negates.
+enum class Mirror : unsigned char { no, x, y, z };
+
 struct PartRecipe {
     std::string mesh;   ///< path of the mesh file; empty when the body is something else
     std::string field;  ///< name of a [[field]]; empty when the body is something else
@@ -38,7 +41,12 @@ struct PartRecipe {
     double thickness = 0;  ///< gyroid, of the sheet, mm
     LengthUnit unit = LengthUnit::mm;
     double scale = 1;
-    std::string name;  ///< empty: taken from the input
+    dvec3 fit{0};                ///< box that the part is scaled to fit once it is turned, mm; 0: any size
+    Mirror mirror = Mirror::no;  ///< before anything turns
+    dvec3 lay_on{0};             ///< outward direction of the face that is laid on the bed; 0: none
+    NumberRows lay_on_at;        ///< a point of that face instead, mm; empty: none
+    dvec3 turn{0};               ///< rotation about x, then y, then z, degrees, after laying it on a face
+    std::string name;            ///< empty: taken from the input
 };
 
 /// An object that an embedding program puts into a recipe. Empty when it gives none.
@@ -119,11 +127,15 @@ struct GradingRecipe {
     HostGiven<GradingPtr> host;
 };
 
+/// What a foam stays fixed to when the part is turned.
+enum class FoamFrame : unsigned char { part, bed };
+
 struct FoamRecipe {
     std::string kind = "voronoi";  ///< a word of the registered kinds
-    GradedNumber cell;             ///< mean cell diameter, mm
-    GradedNumber beam;             ///< radius of the beams, mm
-    double cell_min = 0.05;        ///< the printable range of graded cells and beams, mm
+    FoamFrame frame = FoamFrame::part;
+    GradedNumber cell;       ///< mean cell diameter, mm
+    GradedNumber beam;       ///< radius of the beams, mm
+    double cell_min = 0.05;  ///< the printable range of graded cells and beams, mm
     double cell_max = 1000;
     double beam_min = 0.005;
     double beam_max = 500;

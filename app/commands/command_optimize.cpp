@@ -136,6 +136,7 @@ int analyze(const StructureCommand& command) {
     optimizing.plans = command.plans;
     optimizing.threads = command.threads;
     optimizing.cancel = &cancel;
+    optimizing.as_designed = true;  // loads and anchors are those of the part before it is turned
     const BuiltJob built = build_job(recipe, optimizing);
     AnalysisOptions options;
     options.model = command.model == "law"        ? AnalysisModel::law

@@ -1,4 +1,5 @@
 // Affine maps of solids. An axis-aligned map only rewrites the requested band.
+#include "engine/base/box_image.h"
 #include "engine/base/error.h"
 #include "engine/solids/closed_slice.h"
 #include "engine/solids/csg.h"
@@ -42,21 +43,6 @@ class AlignedSlice : public SliceField {
     dvec2 scale_, shift_;
     double value_scale_;
 };
-
-Box image_of(const Box& box, const glm::dmat3& linear, dvec3 translation) {
-    if (box.empty()) return box;
-    Box image{translation, translation};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            const double m = linear[column][row];
-            if (m == 0) continue;
-            const double a = m * box.lo[column], b = m * box.hi[column];
-            image.lo[row] += std::min(a, b);
-            image.hi[row] += std::max(a, b);
-        }
-    }
-    return image;
-}
 
 /// Smallest stretch of the map: 1 over the largest singular value of the inverse, bounded by its Frobenius
 /// norm. Exact for similarities, whose columns are orthogonal and of equal length.

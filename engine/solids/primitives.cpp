@@ -1,8 +1,13 @@
 // Primitives: exact distances, closed-form offsets, closed-form intersections with a line.
 #include "engine/solids/primitives.h"
 
+#include <optional>
+#include <utility>
+
+#include "engine/base/box_image.h"
 #include "engine/base/error.h"
 #include "engine/solids/closed_slice.h"
+#include "engine/solids/torus.h"
 
 namespace lamella {
 namespace {
@@ -163,9 +168,9 @@ class RoundConeField : public ClosedShape<RoundConeField> {
     Beam beam_;
 };
 
-class Torus : public ClosedShape<Torus> {
+class UprightTorus : public ClosedShape<UprightTorus> {
   public:
-    Torus(dvec3 center, double major, double minor) : center_(center), major_(major), minor_(minor) {}
+    UprightTorus(dvec3 center, double major, double minor) : center_(center), major_(major), minor_(minor) {}
     double value(dvec3 p) const override {
         const dvec3 d = p - center_;
         const double ring = std::sqrt(d.x * d.x + d.y * d.y) - major_;
@@ -200,6 +205,81 @@ class Torus : public ClosedShape<Torus> {
   private:
     dvec3 center_;
     double major_, minor_;
+};
+
+/// A shape of its own space that is rotated or mirrored, then moved. Shape has value(), offset(), bounds()
+/// and cut() there.
+template <typename Shape>
+class Turned : public ClosedShape<Turned<Shape>> {
+  public:
+    Turned(Shape shape, const glm::dmat3& axes, dvec3 at)
+        : shape_(std::move(shape)), axes_(axes), back_(glm::transpose(axes)), at_(at) {}
+    double value(dvec3 p) const override { return shape_.value(back_ * (p - at_)); }
+    FieldPtr offset(double d) const override {
+        const std::optional<Shape> grown = shape_.offset(d);
+        return grown ? std::make_shared<Turned>(*grown, axes_, at_) : nullptr;
+    }
+    Box bounds() const override { return image_of(shape_.bounds(), axes_, at_); }
+    void cut(Axis axis, double across, double z, std::vector<Interval>& out) const {
+        const dvec3 direction = axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+        shape_.cut(back_ * (dvec3(on_plane(axis, 0, across), z) - at_), back_ * direction, out);
+    }
+
+  private:
+    Shape shape_;
+    glm::dmat3 axes_, back_;
+    dvec3 at_;
+};
+
+/// A box of its own space.
+class LineCutBox {
+  public:
+    explicit LineCutBox(const Box& box) : box_(box) {}
+    double value(dvec3 p) const {
+        const dvec3 q = glm::max(box_.lo - p, p - box_.hi);
+        return length(glm::max(q, dvec3(0.0))) + std::min(std::max(q.x, std::max(q.y, q.z)), 0.0);
+    }
+    /// Only inward: outward, edges become round.
+    std::optional<LineCutBox> offset(double d) const {
+        const Box smaller = grown(box_, d);
+        if (d > 0 || smaller.empty()) return std::nullopt;
+        return LineCutBox(smaller);
+    }
+    Box bounds() const { return box_; }
+    void cut(dvec3 p, dvec3 direction, std::vector<Interval>& out) const {
+        Interval solid{-infinity, infinity};
+        for (int i = 0; i < 3; ++i) {
+            if (direction[i] == 0) {
+                // As an upright box, it owns its lower faces only.
+                if (!(box_.lo[i] <= p[i] && p[i] < box_.hi[i])) return;
+                continue;
+            }
+            const double a = (box_.lo[i] - p[i]) / direction[i], b = (box_.hi[i] - p[i]) / direction[i];
+            solid = {std::max(solid.lo, std::min(a, b)), std::min(solid.hi, std::max(a, b))};
+        }
+        if (solid.lo < solid.hi) out.push_back(solid);
+    }
+
+  private:
+    Box box_;
+};
+
+class LineCutTorus {
+  public:
+    explicit LineCutTorus(const Torus& torus) : torus_(torus) {}
+    double value(dvec3 p) const { return signed_distance(torus_, p); }
+    std::optional<LineCutTorus> offset(double d) const {
+        const Torus other{torus_.large, torus_.small + d};
+        if (!(other.small > 0) || !(other.small < other.large)) return std::nullopt;
+        return LineCutTorus(other);
+    }
+    Box bounds() const { return lamella::bounds(torus_); }
+    void cut(dvec3 p, dvec3 direction, std::vector<Interval>& out) const {
+        lamella::cut(torus_, p, direction, out);
+    }
+
+  private:
+    Torus torus_;
 };
 
 class HalfSpace : public ClosedShape<HalfSpace> {
@@ -266,7 +346,20 @@ FieldPtr make_torus(dvec3 center, double major_radius, double minor_radius) {
     require(
         is_finite(center) && positive(major_radius) && positive(minor_radius) && minor_radius < major_radius,
         "a torus needs a positive tube radius that is smaller than the ring's");
-    return std::make_shared<Torus>(center, major_radius, minor_radius);
+    return std::make_shared<UprightTorus>(center, major_radius, minor_radius);
+}
+
+FieldPtr make_turned_box(const Box& box, const glm::dmat3& axes, dvec3 at) {
+    const dvec3 size = box.size();
+    require(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0,
+            "a box needs three positive, finite sides");
+    return std::make_shared<Turned<LineCutBox>>(LineCutBox(box), axes, at);
+}
+
+FieldPtr make_turned_torus(double major_radius, double minor_radius, const glm::dmat3& axes, dvec3 at) {
+    require(positive(major_radius) && positive(minor_radius) && minor_radius < major_radius,
+            "a torus needs a positive tube radius that is smaller than the ring's");
+    return std::make_shared<Turned<LineCutTorus>>(LineCutTorus({major_radius, minor_radius}), axes, at);
 }
 
 FieldPtr make_half_space(dvec3 normal, double offset) {

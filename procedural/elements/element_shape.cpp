@@ -2,11 +2,12 @@
 #include "procedural/elements/element_shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/root_between.h"
+#include "engine/solids/torus.h"
 
 namespace lamella {
 
@@ -113,103 +114,19 @@ void Outline::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const
     }
 }
 
-/// Returns where a function whose values at `a` and `b` have opposite signs is 0, to a billionth of their
-/// distance: the Illinois variant of the false position (Dowell and Jarratt 1971).
-template <typename Function>
-double root_between(const Function& function, double a, double at_a, double b, double at_b) {
-    constexpr int most = 60;
-    const double enough = 1e-9 * std::abs(b - a);
-    int last_side = 0;
-    for (int k = 0; k < most && std::abs(b - a) > enough; ++k) {
-        const double t = b + (a - b) * (at_b / (at_b - at_a)), value = function(t);
-        if (value == 0) return t;
-        const int side = (value < 0) == (at_b < 0) ? 1 : -1;
-        if (side > 0) {
-            b = t;
-            at_b = value;
-            if (last_side == side) at_a *= 0.5;
-        } else {
-            a = t;
-            at_a = value;
-            if (last_side == side) at_b *= 0.5;
-        }
-        last_side = side;
-    }
-    return b;
-}
-
-/// A torus. With t counted from the point of a line that is nearest to the middle, it lies inside where a
-/// quartic without a cubic term is negative:
-///     (|q|^2 + R^2 - r^2)^2 - 4 R^2 (q_x^2 + q_y^2) = t^4 + c2 t^2 + c1 t + c0.
+/// A torus.
 class Ring : public ElementShape {
   public:
-    Ring(double diameter, double width) : large_(0.5 * (diameter - width)), small_(0.5 * width) {}
-    double distance(dvec3 p) const override { return length(dvec2(length(dvec2(p)) - large_, p.z)) - small_; }
-    void cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const override;
-    Box bounds() const override {
-        const dvec3 half(large_ + small_, large_ + small_, small_);
-        return {-half, half};
+    Ring(double diameter, double width) : torus_{0.5 * (diameter - width), 0.5 * width} {}
+    double distance(dvec3 p) const override { return signed_distance(torus_, p); }
+    void cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const override {
+        lamella::cut(torus_, p, direction, inside);
     }
+    Box bounds() const override { return lamella::bounds(torus_); }
 
   private:
-    /// Whether a part of a line is nearer to the axis than the tube: the distance is greatest at an end.
-    bool in_hole(dvec3 p, dvec3 way, const Interval& part) const {
-        const double hole = (large_ - small_) * (1 - 1e-6);
-        const dvec2 a(p + part.lo * way), b(p + part.hi * way);
-        return std::max(squared_length(a), squared_length(b)) < hole * hole;
-    }
-
-    double large_, small_;
+    Torus torus_;
 };
-
-void Ring::cut(dvec3 p, dvec3 direction, std::vector<Interval>& inside) const {
-    // A little more than the ball around it, which it touches along its equator.
-    const double speed = length(direction), outside = (large_ + small_) * (1 + 1e-6);
-    const dvec3 way = direction / speed;
-    const double nearest = -dot(p, way);
-    const dvec3 middle = p + nearest * way;
-    const double square = squared_length(middle);
-    if (!(square < outside * outside)) return;
-    // The part of the line in the ball, and between the planes that touch the tube.
-    const double reach = std::sqrt(outside * outside - square);
-    Interval part{-reach, reach};
-    const double thick = small_ * (1 + 1e-6);
-    if (way.z != 0) {
-        const double a = (-thick - middle.z) / way.z, b = (thick - middle.z) / way.z;
-        part = {std::max(part.lo, std::min(a, b)), std::min(part.hi, std::max(a, b))};
-    } else if (std::abs(middle.z) > thick) {
-        return;
-    }
-    if (!(part.lo < part.hi) || in_hole(middle, way, part)) return;
-    const double k = square + large_ * large_ - small_ * small_, four = 4 * large_ * large_;
-    const double c2 = 2 * k - four * (1 - way.z * way.z), c1 = 2 * four * middle.z * way.z,
-                 c0 = k * k - four * (square - middle.z * middle.z);
-    const auto value = [&](double t) { return (t * t + c2) * t * t + c1 * t + c0; };
-    const auto slope = [&](double t) { return (4 * t * t + 2 * c2) * t + c1; };
-    // The slope is monotone between these, the value between the roots of the slope.
-    const double bend = c2 < 0 ? std::sqrt(-c2 / 6) : 0;
-    std::array<double, 5> turns{part.lo};
-    std::size_t count = 1;
-    double from = part.lo;
-    for (double to : {-bend, bend, part.hi}) {
-        to = std::min(to, part.hi);
-        if (to > from && (slope(from) < 0) != (slope(to) < 0))
-            turns[count++] = root_between(slope, from, slope(from), to, slope(to));
-        from = std::max(from, to);
-    }
-    turns[count++] = part.hi;
-    std::optional<double> begin;
-    for (std::size_t i = 0; i + 1 < count; ++i) {
-        const double a = value(turns[i]), b = value(turns[i + 1]);
-        if ((a < 0) == (b < 0)) continue;
-        const double t = nearest + root_between(value, turns[i], a, turns[i + 1], b);
-        if (b < 0) {
-            begin = t;
-        } else if (begin) {
-            inside.push_back({*begin / speed, t / speed});
-        }
-    }
-}
 
 class FieldShape : public ElementShape {
     /// A place along a line, and the distance there.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/field/turned_grading.h"
 
 namespace lamella {
 namespace {
@@ -55,7 +56,9 @@ NodeRadius wall_radius(const ClosedFoamSettings& settings, const FoamSeeding& gr
             walls.lo, ground.cells.hi, max_wall_share * ground.cells.hi));
     }
     if (constant && walls.lo <= max_wall_share * ground.cells.lo) return NodeRadius(walls.lo / 2);
-    return {std::make_shared<HalfWall>(make_clamped_grading(settings.wall.pointer(), walls), ground.cell),
+    const GradingPtr wall =
+        make_turned_grading(make_clamped_grading(settings.wall.pointer(), walls), settings.foam.turn.axes);
+    return {std::make_shared<HalfWall>(wall, ground.cell),
             0.5 * std::min(walls.hi, max_wall_share * ground.cells.hi)};
 }
 
@@ -63,7 +66,8 @@ Graded window_share(const ClosedFoamSettings& settings) {
     const Interval shares =
         range_within(settings.window, settings.foam.region, {0, 1},
                      "the share of the foam's walls that is window", "from 0 (closed) to 1 (no wall)");
-    return make_clamped_grading(settings.window.pointer(), shares);
+    return make_turned_grading(make_clamped_grading(settings.window.pointer(), shares),
+                               settings.foam.turn.axes);
 }
 
 }  // namespace
@@ -72,8 +76,8 @@ ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings)
     : ClosedFoam(settings, prepare_foam(settings.foam)) {}
 
 ClosedFoam::ClosedFoam(const ClosedFoamSettings& settings, const FoamSeeding& ground)
-    : ClosedFoam(settings.foam.region, ground, {wall_radius(settings, ground), window_share(settings), 0},
-                 settings.foam.cache_bytes) {}
+    : ClosedFoam(settings.foam.turned_region(), ground,
+                 {wall_radius(settings, ground), window_share(settings), 0}, settings.foam.cache_bytes) {}
 
 ClosedFoam::ClosedFoam(const Box& region, const FoamSeeding& ground, const WallSettings& walls,
                        std::size_t cache_bytes)

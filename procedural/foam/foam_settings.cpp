@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/field/turned_grading.h"
 #include "procedural/voronoi/graded_density.h"
 
 namespace lamella {
@@ -117,7 +118,9 @@ std::optional<SurfaceFrame> surface_frame(const FoamSettings& settings, const No
     const NodeRadius radius =
         constant ? NodeRadius(largest)
                  : NodeRadius(std::make_shared<RadiusOverBeams>(
-                                  make_clamped_grading(frame.radius.pointer(), radii), beams),
+                                  make_turned_grading(make_clamped_grading(frame.radius.pointer(), radii),
+                                                      settings.turn.axes),
+                                  beams),
                               largest);
     return SurfaceFrame(frame.body, radius, frame.interior);
 }
@@ -153,13 +156,14 @@ FoamSeeding prepare_foam(const FoamSettings& settings) {
     }
     const double coarse = (cells.lo == cells.hi ? cells_per_coarse_side : graded_cells_per_coarse_side) *
                           (settings.pattern == SeedPattern::bcc ? bcc_side : 1);
-    const NodeRadius radius = node_radius(settings, cell, cells);
+    const glm::dmat3& axes = settings.turn.axes;
+    const NodeRadius radius = node_radius(settings, cell, cells).turned(axes);
     return {std::make_shared<const SeedTree>(std::move(density), coarse * cells.hi, settings.seed,
                                              settings.pattern, settings.jitter, settings.repeats_after),
-            cell,
+            make_turned_grading(cell, axes),
             cells,
             radius,
-            settings.stretch,
+            settings.stretch.turned(axes),
             surface_frame(settings, radius)};
 }
 

@@ -14,6 +14,14 @@
 
 namespace lamella {
 
+/// Rotation or mirror about the origin of a foam that is made.
+struct FoamTurn {
+    glm::dmat3 axes{1};  ///< orthogonal
+    Box region{};        ///< where the turned foam is wanted, mm; must be finite unless the axes are unit
+
+    bool identity() const { return axes == glm::dmat3(1); }
+};
+
 /// Parameters of a foam.
 struct FoamSettings {
     /// Mean spacing of the seeds, mm: one seed per cell^3 before the stretch. May vary by a factor of 40 over
@@ -30,14 +38,18 @@ struct FoamSettings {
     Stretch stretch{};                     ///< of the cells
     std::optional<FrameSettings> frame{};  ///< beams along a body's surface; the foam then ends there
     Box region{};                          ///< where the foam is wanted, mm; must be finite
+    FoamTurn turn{};                       ///< of all that is above, but for the frame's body
     std::size_t cache_bytes = std::size_t{256}
                               << 20;  ///< memory bound for cached cells, and as much again for distances
+
+    /// Returns where the foam is wanted once it is turned, mm.
+    const Box& turned_region() const { return turn.identity() ? region : turn.region; }
 };
 
 /// Seeds, cell sizes and radii that follow from valid settings; the basis of all foams on seeds.
 struct FoamSeeding {
     std::shared_ptr<const SeedTree> tree;
-    GradingPtr cell;  ///< mm, in part space, clamped to `cells`
+    GradingPtr cell;  ///< mm, where the foam is once it is turned, clamped to `cells`
     Interval cells;   ///< range of cell sizes in the region, mm
     NodeRadius radius;
     Stretch stretch;

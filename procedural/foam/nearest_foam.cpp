@@ -87,7 +87,8 @@ NearestSource::NearestSource(const FoamSeeding& ground, const NearestFoamSetting
       neighbours_(static_cast<std::size_t>(settings.neighbours)),
       stretch_(settings.stretch),
       turn_(settings.turn),
-      farthest_ratio_(farthest_ratio) {}
+      farthest_ratio_(farthest_ratio),
+      turned_(ground.stretch) {}
 
 LocalMetric NearestSource::metric_at(dvec3 p) const {
     const dvec3 factor(stretch_[0]->at(p), stretch_[1]->at(p), stretch_[2]->at(p));
@@ -170,7 +171,7 @@ void NearestSource::append(const Seed& own, std::vector<Beam>& beams) {
             const auto is_own = [&](const Seed& seed) { return seed.key == own.key; };
             if (std::any_of(theirs.begin(), theirs.end(), is_own)) continue;
         }
-        tapered_.add(own.position, other.position);
+        tapered_.add(turned_.to_part(own.position), turned_.to_part(other.position));
     }
     tapered_.append(beams);
 }
@@ -179,7 +180,7 @@ NearestFoam::NearestFoam(const NearestFoamSettings& settings)
     : NearestFoam(within_limits(settings), prepare_foam(settings.foam)) {}
 
 NearestFoam::NearestFoam(const NearestFoamSettings& settings, const FoamSeeding& ground)
-    : BeamFoam(settings.foam.region, ground.cell, ground.cells, ground.radius.largest(),
+    : BeamFoam(settings.foam.turned_region(), ground.cell, ground.cells, ground.radius.largest(),
                settings.foam.cache_bytes),
       ground_(ground),
       units_(ground.tree, NearestSource(ground, settings, check_metric(settings)),

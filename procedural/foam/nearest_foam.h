@@ -51,7 +51,7 @@ class NearestSource {
     double growth(const Box& box) const { return tapered_.radius().largest_in(box); }
     double largest_growth() const { return tapered_.radius().largest(); }
     bool avoids(const Box& /*box*/) const { return false; }
-    const Stretch& stretch() const { return none_; }
+    const Stretch& stretch() const { return turned_; }
 
     /// Returns the k nearest seeds, by distance, then key.
     const std::vector<Seed>& nearest(const Seed& own);
@@ -67,7 +67,7 @@ class NearestSource {
     std::size_t neighbours_;
     std::array<Graded, 3> stretch_, turn_;
     double farthest_ratio_;  ///< upper bound of any metric's largest factor over its smallest
-    Stretch none_;
+    Stretch turned_;
     std::map<SeedKey, std::vector<Seed>> known_;
 };
 

@@ -81,7 +81,7 @@ class PieceUnits {
         }
         Interval z_extent() const { return {extent.lo.z, extent.hi.z}; }
     };
-    /// How far the pieces of a node's seeds can be from the node, in seed space.
+    /// How far the pieces of a node's seeds can be from the node, in seed space; z in part space.
     struct Reach {
         double distance;
         Interval z;
@@ -92,9 +92,18 @@ class PieceUnits {
     struct Request {
         const Box& box;  ///< in part space
         Box seed_box;    ///< bounding box of the query's box in seed space
-        double z;        ///< height of the layer in seed space, for the caches
+        double z;        ///< height of the layer in part space, for the caches
         Source source;
         std::vector<Piece> pieces;
+
+        /// Whether a box of seed space is farther than a distance in seed space from the query's box. A thin
+        /// box that is oblique in seed space is told apart in part space only.
+        bool is_beyond(const Box& seeds, double within) const {
+            if (distance(seeds, seed_box) > within) return true;
+            const Stretch& stretch = source.stretch();
+            return !stretch.identity() &&
+                   distance(stretch.to_part(seeds), box) > within * stretch.part_per_seeds();
+        }
     };
 
     static int parts_of(const SeedNode& node) { return node.seed_count > slabless_seeds ? slabs : 1; }
@@ -130,7 +139,8 @@ double PieceUnits<Source>::reach(const SeedBlock& block, std::size_t node, doubl
         const double axes = source_.reach(block, node);
         const Stretch& stretch = source_.stretch();
         const double growth = source_.growth(stretch.to_part(grown(box, axes)));
-        return Reach{(axes + growth * stretch.seeds_per_part()) * rounding_margin, {box.lo.z, box.hi.z}};
+        const Box place = stretch.to_part(box);
+        return Reach{(axes + growth * stretch.seeds_per_part()) * rounding_margin, {place.lo.z, place.hi.z}};
     };
     return reaches_.find_or_make(key, z, make)->distance;
 }
@@ -140,7 +150,7 @@ std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box)
     if (box.empty()) return {};
     const Stretch& stretch = source_.stretch();
     const Box seed_box = stretch.to_seeds(box);
-    Request request{box, seed_box, seed_box.center().z, source_, {}};
+    Request request{box, seed_box, box.center().z, source_, {}};
     const double farthest =
         (source_.farthest() + source_.largest_growth() * stretch.seeds_per_part()) * rounding_margin;
     const Box about = grown(seed_box, farthest);
@@ -148,7 +158,7 @@ std::vector<typename Source::Piece> PieceUnits<Source>::touching(const Box& box)
     for (std::int64_t z = lo.z; z <= hi.z; ++z) {
         for (std::int64_t y = lo.y; y <= hi.y; ++y) {
             for (std::int64_t x = lo.x; x <= hi.x; ++x) {
-                if (distance(tree_->block_box({x, y, z}), seed_box) > farthest) continue;
+                if (request.is_beyond(tree_->block_box({x, y, z}), farthest)) continue;
                 const auto block = tree_->block({x, y, z});
                 visit(*block, 0, farthest, request);
             }
@@ -163,13 +173,12 @@ void PieceUnits<Source>::visit(const SeedBlock& block, std::size_t node, double 
                                Request& request) const {
     const SeedNode& here = block.nodes[node];
     if (here.seed_count == 0) return;
-    const double away = distance(here.box, request.seed_box);
-    if (away > within) return;
+    if (request.is_beyond(here.box, within)) return;
     // If all leaves share one level, one reach serves all nodes; otherwise it is worth computing at every
     // node.
     if (node == 0 || block.leaf_level < 0) {
         within = std::min(within, reach(block, node, request.z));
-        if (away > within) return;
+        if (request.is_beyond(here.box, within)) return;
     }
     if (here.seed_count <= unit_seeds || here.first_child < 0) {
         collect(block, node, within, request);
@@ -193,7 +202,7 @@ void PieceUnits<Source>::collect(const SeedBlock& block, std::size_t node, doubl
     };
     for (int part = 0; part < parts_of(here); ++part) {
         const Box box = part_box(here, part);
-        if (distance(box, request.seed_box) > within) continue;
+        if (request.is_beyond(box, within)) continue;
         const auto at = static_cast<std::size_t>(part);
         units[at] = units_.find(key(part), request.z);
         missing[at] = !units[at];

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/field/grading.h"
+#include "engine/field/turned_grading.h"
 #include "engine/solids/beam.h"
 
 namespace lamella {
@@ -23,6 +23,10 @@ class NodeRadius {
     const Grading& grading() const { return *radius_; }
     /// Returns the radius plus `by`, mm.
     NodeRadius grown(double by) const;
+    /// Returns the radius rotated or mirrored about the origin by orthogonal axes.
+    NodeRadius turned(const glm::dmat3& axes) const {
+        return NodeRadius(make_turned_grading(radius_.pointer(), axes), largest_);
+    }
     /// Upper bound of the radius, mm.
     double largest() const { return largest_; }
     /// Upper bound of the radius in the box, mm.

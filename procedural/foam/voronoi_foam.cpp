@@ -8,17 +8,19 @@ namespace lamella {
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings) : VoronoiFoam(settings, prepare_foam(settings)) {}
 
 VoronoiFoam::VoronoiFoam(const FoamSettings& settings, FoamSeeding ground)
-    : BeamFoam(settings.region, ground.cell, ground.cells, ground.largest_radius(), settings.cache_bytes),
+    : BeamFoam(settings.turned_region(), ground.cell, ground.cells, ground.largest_radius(),
+               settings.cache_bytes),
       settings_(settings),
       ground_(std::move(ground)),
       units_(std::make_shared<const CellUnits<FramedMaker<BeamMaker>>>(
-          ground_.tree, FramedMaker<BeamMaker>(BeamMaker(ground_.radius, settings.stretch), ground_.frame),
+          ground_.tree, FramedMaker<BeamMaker>(BeamMaker(ground_.radius, ground_.stretch), ground_.frame),
           settings.cache_bytes)) {}
 
 FieldPtr VoronoiFoam::offset(double d) const {
     if (!(d >= 0) || !std::isfinite(d)) return nullptr;
     FoamSettings thicker = settings_;
     thicker.region = grown(settings_.region, d);
+    if (!thicker.turn.identity()) thicker.turn.region = grown(settings_.turn.region, d);
     return FieldPtr(new VoronoiFoam(thicker, ground_.grown(d)));
 }
 

@@ -24,6 +24,16 @@ Stretch::Stretch(const glm::dmat3& axes, dvec3 factors) {
     forward_ = axes * scale * back;
     inverse_ = axes * unscale * back;
     seeds_per_part_ = 1 / std::min({factors.x, factors.y, factors.z});
+    part_per_seeds_ = std::max({factors.x, factors.y, factors.z});
+}
+
+Stretch Stretch::turned(const glm::dmat3& axes) const {
+    if (axes == glm::dmat3(1)) return *this;
+    Stretch both = *this;
+    both.identity_ = false;
+    both.forward_ = axes * forward_;
+    both.inverse_ = inverse_ * glm::transpose(axes);
+    return both;
 }
 
 Box Stretch::image(const glm::dmat3& map, const Box& box) {

@@ -1,6 +1,10 @@
 // Reads, closes and places meshes; makes shapes in place; bounds and places formulas.
 #include "recipe/build/build_fields.h"
 
+#include <cmath>
+#include <utility>
+
+#include "engine/base/box_image.h"
 #include "engine/base/error.h"
 #include "engine/base/whole_file.h"
 #include "engine/formula/formula_field.h"
@@ -18,20 +22,6 @@ namespace lamella {
 
 namespace {
 
-Placement placement(const FieldRecipe& field) {
-    Placement place{turned_axes(field.turn), field.at};
-    // Rotation by right angles yields 1e-17 instead of 0, which would prevent the closed forms of
-    // axis-parallel shapes.
-    constexpr double rounding = 1e-15;
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            double& entry = place.axes[column][row];
-            if (std::abs(entry) < rounding) entry = 0;
-        }
-    }
-    return place;
-}
-
 FieldPtr placed(FieldPtr solid, const Placement& place) {
     if (place.axes == glm::dmat3(1) && place.at == dvec3(0)) return solid;
     return make_transform(std::move(solid), place.axes, place.at);
@@ -48,18 +38,6 @@ FieldPtr mesh_field(const FieldBuildContext& making) {
     return read_solid(field.file, field.unit, field.scale, making.place, making.report);
 }
 
-/// Returns the bounding box of a box of the part in the space of the formula before it is placed.
-Box before_placing(const Box& box, const Placement& place) {
-    const glm::dmat3 back = glm::transpose(place.axes);
-    Box image;
-    for (int corner = 0; corner < 8; ++corner) {
-        const dvec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                      corner & 4 ? box.hi.z : box.lo.z);
-        image.include(back * (p - place.at));
-    }
-    return image;
-}
-
 /// Bounds a formula's inside by the recipe's box, or else the box around the part, or else the result of a
 /// search.
 FieldPtr bounded(const FieldBuildContext& making, GradedFormula formula) {
@@ -67,7 +45,8 @@ FieldPtr bounded(const FieldBuildContext& making, GradedFormula formula) {
     if (!making.recipe.bounds.empty()) {
         for (const auto& corner : making.recipe.bounds) bounds.include({corner[0], corner[1], corner[2]});
     } else if (making.within) {
-        bounds = before_placing(*making.within, making.place);
+        const glm::dmat3 back = glm::transpose(making.place.axes);
+        bounds = image_of(*making.within, back, -(back * making.place.at));
     } else {
         bounds = formula_bounds(formula.formula, formula.others);
     }
@@ -108,6 +87,20 @@ FieldPtr host_field(const FieldBuildContext& making) {
 
 }  // namespace
 
+glm::dmat3 exact_axes(dvec3 degrees) {
+    // Rotation by right angles yields 1e-17 instead of 0, which would prevent the closed forms of
+    // axis-parallel shapes.
+    constexpr double rounding = 1e-15;
+    glm::dmat3 axes = turned_axes(degrees);
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            double& entry = axes[column][row];
+            if (std::abs(entry) < rounding) entry = 0;
+        }
+    }
+    return axes;
+}
+
 std::span<const FieldBuilder> field_builders() {
     static const std::vector<FieldBuilder> list{
         {{"formula", {"formula"}, {"bounds", "at", "turn"}}, formula_field},
@@ -116,7 +109,9 @@ std::span<const FieldBuilder> field_builders() {
         {{"3mf", {"file"}, {"object", "function", "bounds", "at", "turn"}}, package_field},
         {{std::string(host_kind), {}, {"at", "turn"}}, host_field},
         {{std::string(optimized_kind), {}, {}},
-         [](const FieldBuildContext& making) { return making.gradings.result().dense; }},
+         [](const FieldBuildContext& making) {
+             return placed(making.gradings.result().dense, making.place);
+         }},
         {{"sphere", {"radius"}, {"at"}}, shape_field<Shape::sphere>},
         {{"box", {"size"}, {"at", "turn"}}, shape_field<Shape::box>},
         {{"cylinder", {"radius", "height"}, {"at", "turn"}}, shape_field<Shape::cylinder>},
@@ -126,10 +121,11 @@ std::span<const FieldBuilder> field_builders() {
 }
 
 FieldPtr build_field(const FieldRecipe& field, Gradings& gradings, const std::optional<Box>& within,
-                     std::optional<MeshReport>& report) {
+                     std::optional<MeshReport>& report, const glm::dmat3& axes) {
     for (const FieldBuilder& builder : field_builders()) {
         if (builder.kind.word != field.kind) continue;
-        return builder.make({field, gradings, within, placement(field), report});
+        const Placement place{axes * exact_axes(field.turn), axes * field.at};
+        return builder.make({field, gradings, within, place, report});
     }
     throw InputError(field.where + ": kind " + field.kind + " is unknown");
 }
@@ -143,7 +139,7 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
             return make_sphere(place.at, sizes.radius);
         case Shape::box:
             return upright ? make_box(Box{place.at - half, place.at + half})
-                           : placed(make_box(Box{-half, half}), place);
+                           : make_turned_box(Box{-half, half}, place.axes, place.at);
         case Shape::cylinder:
             return make_cylinder(place.at - end, place.at + end, sizes.radius);
         case Shape::capsule: {
@@ -152,7 +148,7 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
         }
         case Shape::torus:
             return upright ? make_torus(place.at, sizes.radius, sizes.tube)
-                           : placed(make_torus(dvec3(0), sizes.radius, sizes.tube), place);
+                           : make_turned_torus(sizes.radius, sizes.tube, place.axes, place.at);
         case Shape::gyroid:
         case Shape::none:
             break;
@@ -167,6 +163,9 @@ FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, cons
     MeshFile file = read_mesh(path, options);
     if (scale != 1 || place.axes != glm::dmat3(1) || place.at != dvec3(0)) {
         for (dvec3& vertex : file.mesh.vertices) vertex = place.axes * (vertex * scale) + place.at;
+    }
+    if (glm::determinant(place.axes) < 0) {
+        for (auto& triangle : file.mesh.triangles) std::swap(triangle[1], triangle[2]);
     }
     MeshReport& found = report.emplace();
     found.path = path;

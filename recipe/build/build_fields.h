@@ -23,11 +23,14 @@ struct MeshReport {
     std::vector<std::string> notes;  ///< repairs, and parts of the file that were ignored
 };
 
-/// Rotation about a solid's origin, followed by a translation (mm).
+/// Rotation or mirror about a solid's origin by orthogonal axes, followed by a translation (mm).
 struct Placement {
     glm::dmat3 axes{1};
     dvec3 at{0};
 };
+
+/// Returns the axes rotated about x, then y, then z, by angles in degrees; right angles give whole numbers.
+glm::dmat3 exact_axes(dvec3 degrees);
 
 /// Reads a mesh file as a solid. Throws InputError when it cannot be read or is empty.
 FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
@@ -42,11 +45,11 @@ struct ShapeSizes {
 };
 FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place);
 
-/// Makes the solid of a [[field]]. A formula without bounds is cut off by the box `within` if it is given;
-/// otherwise its bounds are found by a search. A mesh fills in the report. Throws InputError when a file
-/// cannot be read or the solid is empty.
+/// Makes the solid of a [[field]], turned about the origin by orthogonal axes. A formula without bounds is
+/// cut off by the box `within` around the turned part if it is given; otherwise its bounds are found by a
+/// search. A mesh fills in the report. Throws InputError when a file cannot be read or the solid is empty.
 FieldPtr build_field(const FieldRecipe& field, Gradings& gradings, const std::optional<Box>& within,
-                     std::optional<MeshReport>& report);
+                     std::optional<MeshReport>& report, const glm::dmat3& axes = glm::dmat3(1));
 
 /// The inputs from which a [[field]] is made.
 struct FieldBuildContext {

@@ -19,7 +19,7 @@ namespace lamella {
 
 struct BuiltFoam {
     FieldPtr field;
-    GradedUse cell;
+    GradedUse cell;                 ///< in the job's space, as all that follows
     GradedUse member;               ///< radius of the beams, or thickness of the walls of foams without beams
     std::vector<GradedUse> others;  ///< further numbers of the kind: walls, windows, stretch factors
     /// Return the beams whose solid touches a box, and the seeds in it; null for foams without beams or
@@ -33,15 +33,25 @@ struct BuiltFoam {
     std::function<double(dvec3)> volume_fraction;
 };
 
+/// The spaces of a foam: that of the gradings (the part's), that in which its cells are made, and the job's.
+/// The axes are orthogonal.
+struct FoamPlace {
+    Box region;               ///< that the cells fill, where they are made, mm
+    glm::dmat3 from_part{1};  ///< turns the part into the space in which cells are made
+    glm::dmat3 to_job{1};     ///< turns that space into the job's
+    Box job_region{};         ///< where the job needs the foam, mm; unused unless `to_job` turns
+    FieldPtr job_body{};      ///< for a frame; null: that of the gradings
+};
+
 /// Makes the foam, with cells that fill at least the region. Seeds repeat after `repeats_after` coarse cells;
 /// 0: never.
-BuiltFoam build_foam(const FoamRecipe& foam, const Box& region, Gradings& gradings,
+BuiltFoam build_foam(const FoamRecipe& foam, const FoamPlace& place, Gradings& gradings,
                      std::int64_t repeats_after = 0);
 
 /// The inputs from which a foam is made, and the result that its kind completes.
 struct FoamBuildContext {
     const FoamRecipe& recipe;
-    const Box& region;
+    const FoamPlace& place;
     Gradings& gradings;
     const std::map<std::string, GradingPtr>& names;  ///< names that formulas may use besides the recipe's
     std::int64_t repeats_after;

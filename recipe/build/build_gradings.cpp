@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/field/turned_grading.h"
 #include "engine/formula/formula_grading.h"
 #include "engine/formula/formula_parser.h"
 #include "procedural/grading/attractors.h"
@@ -164,6 +165,12 @@ GradingPtr Gradings::resolve(const GradedNumber& number, const std::map<std::str
     if (!number.is_formula()) return make_constant_grading(number.number());
     GradedFormula graded = formula_of(number, more);
     return make_formula_grading(std::move(graded.formula), std::move(graded.others));
+}
+
+GradedUse turned(GradedUse use, const glm::dmat3& axes) {
+    use.asked = make_turned_grading(std::move(use.asked), axes);
+    use.made = make_turned_grading(std::move(use.made), axes);
+    return use;
 }
 
 void Gradings::override_number(const std::string& key, RegionalNumber number) {

@@ -34,6 +34,9 @@ struct GradedUse {
     std::string unit;  ///< of the numbers and limits: "mm"; empty for dimensionless ones
 };
 
+/// Returns a graded number where it is once the part is turned about the origin by orthogonal axes.
+GradedUse turned(GradedUse use, const glm::dmat3& axes);
+
 /// A number that replaces another one inside a region.
 struct RegionalNumber {
     FieldPtr region;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 
+#include "engine/base/box_image.h"
 #include "engine/base/error.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/solids/box_solid.h"
 #include "engine/solids/csg.h"
 #include "recipe/build/build_process.h"
 #include "recipe/build/fill_body.h"
+#include "recipe/build/part_placement.h"
 #include "recipe/identity.h"
 #include "recipe/structure/place_elements.h"
 
@@ -66,18 +68,9 @@ void drive_foam(OptimizeResult result, const OptimizedPart& optimized, FoamRecip
     if (driven.where.empty()) driven.where = "optimize.result";
 }
 
-}  // namespace
-
-BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
-    BuiltJob built;
-    Gradings gradings(recipe);
-    built.body = build_body(recipe, gradings, built.mesh);
-    Job& job = built.designed;
-    job.bounds = built.body->bounds();
-    const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
-    if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
-    gradings.set_body(built.body);
-    built.regions = build_regions(recipe, job.bounds, gradings, WhichRegions::before_search);
+/// Optimises the body or builds it of elements, as the recipe asks, and returns the foam for it.
+std::optional<FoamRecipe> design(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& built,
+                                 Gradings& gradings) {
     std::optional<FoamRecipe> foam = recipe.foam;
     if (recipe.optimize) {
         built.optimized = optimize_part(recipe, built.body, built.regions, gradings, optimizing);
@@ -86,7 +79,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         gradings.set_result({built.optimized->density, built.optimized->dense});
         if (built.regions.list.size() < recipe.regions.size()) {
             gradings.forget_overrides();
-            built.regions = build_regions(recipe, job.bounds, gradings);
+            built.regions = build_regions(recipe, built.designed.bounds, gradings);
         }
         if (foam && built.optimized->foam_sizes)
             drive_foam(recipe.optimize->result, *built.optimized, *foam, gradings);
@@ -99,7 +92,54 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         built.elements = std::move(placed.plan);
         gradings.set_body(built.body);
     }
-    if (foam) built.foam = build_foam(*foam, job.bounds, gradings);
+    return foam;
+}
+
+/// Turns the designed body and the regions into the job's space. Gradings stay those of the designed part. A
+/// body that no search has changed is made anew, since turned meshes and shapes are exact.
+void turn(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& built, Gradings& gradings) {
+    if (optimizing.as_designed) return;
+    built.axes = part_axes(recipe.part);
+    if (built.axes == glm::dmat3(1)) return;
+    if (recipe.optimize && recipe.optimize->overhang && built.axes[2] != dvec3(0, 0, 1)) {
+        throw InputError(
+            "optimize.overhang: the part was optimised to be printed as it was designed, but is turned; "
+            "accepted: a turn about z alone, or no limit of overhangs");
+    }
+    const bool is_as_given = !built.optimized && !built.elements;
+    built.body = is_as_given ? build_body(recipe, gradings, built.mesh, built.axes)
+                             : make_transform(built.body, built.axes, dvec3(0));
+    built.designed.bounds = built.body->bounds();
+    built.regions = turned_regions(recipe, built.designed.bounds, gradings, built.axes);
+}
+
+/// Returns the spaces of a foam that stays fixed to the part or to the bed.
+FoamPlace foam_place(const FoamRecipe& foam, const Recipe& recipe, const Box& designed,
+                     const BuiltJob& built) {
+    if (foam.frame == FoamFrame::part)
+        return {designed, glm::dmat3(1), built.axes, built.designed.bounds, built.body};
+    const glm::dmat3 to_bed = part_axes(recipe.part);
+    if (built.axes == to_bed) return {built.designed.bounds, to_bed, glm::dmat3(1), {}, built.body};
+    return {image_of(designed, to_bed), to_bed, glm::transpose(to_bed), designed, built.body};
+}
+
+}  // namespace
+
+BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
+    const Recipe recipe = with_known_placement(given);
+    BuiltJob built;
+    Gradings gradings(recipe);
+    built.body = build_body(recipe, gradings, built.mesh);
+    Job& job = built.designed;
+    job.bounds = built.body->bounds();
+    const std::string where = recipe.part.mesh.empty() ? "part" : recipe.part.mesh;
+    if (job.bounds.empty()) throw InputError(where + ": the part is empty; a solid with a volume is needed");
+    gradings.set_body(built.body);
+    built.regions = build_regions(recipe, job.bounds, gradings, WhichRegions::before_search);
+    const std::optional<FoamRecipe> foam = design(recipe, optimizing, built, gradings);
+    const Box designed_bounds = job.bounds;
+    turn(recipe, optimizing, built, gradings);
+    if (foam) built.foam = build_foam(*foam, foam_place(*foam, recipe, designed_bounds, built), gradings);
     set_layers(recipe, job);
     job.part = with_regions(
         fill_body(recipe, built, gradings,
@@ -121,7 +161,7 @@ BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing) {
         job.part = without_dowels(job.part, *built.dowels);
     }
     job.name = recipe.part.name;
-    job.identity = job_identity(recipe);
+    job.identity = job_identity(given);
     if (built.foam && built.foam->modulus) {
         built.modulus = modulus_report(*built.foam->modulus, *built.body);
         job.notes = modulus_lines(*built.modulus);
@@ -155,7 +195,7 @@ BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region, std::int64_t
     }
     Gradings gradings(recipe);
     build_regions(recipe, region, gradings);
-    return build_foam(*recipe.foam, region, gradings, repeats_after);
+    return build_foam(*recipe.foam, {.region = region}, gradings, repeats_after);
 }
 
 }  // namespace lamella

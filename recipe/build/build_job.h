@@ -30,6 +30,7 @@ struct RepairReport {
 struct BuiltJob {
     Job job;                                 ///< the job to print
     Job designed;                            ///< before [process]; its layers correspond to those of `job`
+    glm::dmat3 axes{1};                      ///< orthogonal: turn the part as it was designed into the job's
     FieldPtr body;                           ///< the part without foam and skin
     std::optional<OptimizedPart> optimized;  ///< empty unless the recipe optimises
     std::optional<ElementPlan> elements;     ///< empty unless the part is built of elements

@@ -25,8 +25,8 @@ constexpr double beyond_part = 1e6;
 /// The fields of regions, each made on first use.
 class RegionFields {
   public:
-    RegionFields(Gradings& gradings, const Box& part, std::vector<std::string>& notes)
-        : gradings_(gradings), part_(part), notes_(notes) {}
+    RegionFields(Gradings& gradings, const Box& part, const glm::dmat3& axes, std::vector<std::string>& notes)
+        : gradings_(gradings), part_(part), axes_(axes), notes_(notes) {}
 
     /// Returns the region's field; if the region blends, one whose values are distances.
     FieldPtr make(const RegionRecipe& region) {
@@ -52,7 +52,7 @@ class RegionFields {
   private:
     FieldPtr make(const FieldRecipe& field) {
         std::optional<MeshReport> mesh;
-        FieldPtr made = build_field(field, gradings_, grown(part_, beyond_part), mesh);
+        FieldPtr made = build_field(field, gradings_, grown(part_, beyond_part), mesh, axes_);
         if (!mesh) return made;
         for (const std::string& note : mesh->notes) notes_.push_back(mesh->path + ": " + note);
         return made;
@@ -60,6 +60,7 @@ class RegionFields {
 
     Gradings& gradings_;
     Box part_;
+    glm::dmat3 axes_;
     std::vector<std::string>& notes_;
     std::map<std::string, FieldPtr> made_, even_;
 };
@@ -130,6 +131,10 @@ FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regio
     return beyond_body ? make_intersection({body, std::move(part)}) : part;
 }
 
+std::string region_name(int number, const RegionRecipe& region) {
+    return fmt::format("region {} (`{}`)", number, region.field);
+}
+
 bool has(const BuiltRegions& regions, RegionMake make) {
     for (const BuiltRegion& region : regions.list) {
         if (region.make == make) return true;
@@ -141,18 +146,29 @@ bool has(const BuiltRegions& regions, RegionMake make) {
 
 BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings, WhichRegions which) {
     BuiltRegions built;
-    RegionFields fields(gradings, part, built.warnings);
+    RegionFields fields(gradings, part, glm::dmat3(1), built.warnings);
     const ResultDependents late(recipe);
     int number = 0;
     for (const RegionRecipe& region : recipe.regions) {
         ++number;
         if (which == WhichRegions::before_search && late.fields.contains(region.field)) continue;
         const FieldPtr field = fields.make(region);
-        built.list.push_back(
-            {fmt::format("region {} (`{}`)", number, region.field), region.make, region.blend, field});
+        built.list.push_back({region_name(number, region), region.make, region.blend, field});
         for (const RegionNumber& given : numbers_of(region)) {
             gradings.override_number(given.key, {field, region.blend, *given.number});
         }
+    }
+    return built;
+}
+
+BuiltRegions turned_regions(const Recipe& recipe, const Box& part, Gradings& gradings,
+                            const glm::dmat3& axes) {
+    BuiltRegions built;
+    RegionFields fields(gradings, part, axes, built.warnings);
+    int number = 0;
+    for (const RegionRecipe& region : recipe.regions) {
+        const FieldPtr field = fields.make(region);
+        built.list.push_back({region_name(++number, region), region.make, region.blend, field});
     }
     return built;
 }

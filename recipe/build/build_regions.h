@@ -32,6 +32,11 @@ enum class WhichRegions : std::uint8_t { all, before_search };
 BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& gradings,
                            WhichRegions which = WhichRegions::all);
 
+/// Returns the same regions where they are once the part is turned about the origin by orthogonal axes;
+/// `part` encloses the turned part.
+BuiltRegions turned_regions(const Recipe& recipe, const Box& part, Gradings& gradings,
+                            const glm::dmat3& axes);
+
 /// Returns the part with its solid and empty regions applied in order, clipped by the body. `filled`: the
 /// part is not solid throughout. Warns of regions that do not touch the body. Throws InputError when nothing
 /// remains.

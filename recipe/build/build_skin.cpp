@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/field/turned_grading.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "procedural/skin/image_windows.h"
@@ -21,7 +22,7 @@ SurfaceWindowSettings window_settings(PatternBuildContext& making) {
     const SkinRecipe& skin = *making.recipe.skin;
     SurfaceWindowSettings settings;
     settings.window = skin.window;
-    settings.strut = making.gradings.resolve(skin.strut);
+    settings.strut = make_turned_grading(making.gradings.resolve(skin.strut), making.axes);
     const auto strut = settings.strut->constant();
     settings.corner = skin.corner;
     if (skin.corner < 0) settings.corner = strut ? 0.5 * *strut : 0.125 * skin.window;
@@ -69,6 +70,14 @@ FieldPtr image(PatternBuildContext& making) {
         making.shell, std::make_shared<ImageWindows>(std::move(picture), *making.body, strut, making.depth));
 }
 
+void refuse_turned(const PatternBuildContext& making, const char* what) {
+    if (making.axes == glm::dmat3(1)) return;
+    throw InputError(
+        fmt::format("{} cannot be turned with the part; accepted: no turn, mirror or lay_on, and a "
+                    "mesh file that is turned already",
+                    what));
+}
+
 /// Returns the recipe's loads on elements of the skin.
 LoadedSkin loaded_skin(PatternBuildContext& making, const SkinElements& elements,
                        std::span<const float> shares) {
@@ -91,7 +100,8 @@ LoadedSkin loaded_skin(PatternBuildContext& making, const SkinElements& elements
 /// Sets the width of the picture, the same everywhere or graded.
 void set_size(PatternBuildContext& making, ExampleSettings& example) {
     constexpr Interval sizes{0.01, 1e5};
-    const GradedUse size = graded("skin.image_size", making.recipe.skin->image_size, sizes, making.gradings);
+    const GradedUse size = turned(
+        graded("skin.image_size", making.recipe.skin->image_size, sizes, making.gradings), making.axes);
     if (const auto constant = size.made->constant()) {
         example.size = *constant;
         return;
@@ -109,7 +119,8 @@ FieldPtr by_example(PatternBuildContext& making) {
         .strut = constant_strut(making), .gap = skin.gap, .invert = skin.invert, .reinforce = skin.reinforce};
     set_size(making, settings.example);
     if (!skin.second_image.empty()) {
-        const GradedUse weight = graded("skin.second_weight", skin.second_weight, {0, 1}, making.gradings);
+        const GradedUse weight =
+            turned(graded("skin.second_weight", skin.second_weight, {0, 1}, making.gradings), making.axes);
         settings.example.second = {std::make_shared<const Volume>(read_picture(skin.second_image)),
                                    weight.made};
     }
@@ -117,10 +128,11 @@ FieldPtr by_example(PatternBuildContext& making) {
     settings.example.synthesis.seed = static_cast<std::uint64_t>(skin.seed);
     settings.example.synthesis.cancel = making.work.cancel;
     settings.self_supporting = skin.self_supporting;
-    if (skin.direction != dvec3(0)) settings.axis = skin.direction;
+    if (skin.direction != dvec3(0)) settings.axis = making.axes * skin.direction;
     settings.depth = making.depth;
     settings.shell = making.shell;
     if (!making.recipe.loads.empty() && !making.recipe.anchors.empty()) {
+        refuse_turned(making, "loads on a skin");
         settings.loads = [&making](const SkinElements& elements, std::span<const float> shares) {
             return loaded_skin(making, elements, shares);
         };
@@ -149,6 +161,7 @@ FieldPtr by_example(PatternBuildContext& making) {
 }
 
 FieldPtr elements(PatternBuildContext& making) {
+    refuse_turned(making, "a skin of elements");
     PlaceElementsOptions options{making.work.plans, making.work.threads, making.work.cancel};
     if (making.work.on_synthesis)
         options.on_iteration = [&](const ElementIteration&, int) { making.work.on_synthesis(); };
@@ -181,13 +194,13 @@ bool has_cut_skin(const Recipe& recipe) {
            (recipe.skin->pattern != "closed" || recipe.skin->drains > 0 || !recipe.holes.empty());
 }
 
-FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const TurnedBody& body, double depth,
                      Gradings& gradings, const PatternWork& work, std::optional<PatternReport>& report) {
     for (const PatternBuilder& builder : pattern_builders()) {
         if (builder.kind.word != recipe.skin->pattern || !builder.cut) continue;
         report.emplace().pattern = builder.kind.word;
         try {
-            PatternBuildContext making{recipe, shell, body, depth, gradings, work, *report};
+            PatternBuildContext making{recipe, shell, body.field, body.axes, depth, gradings, work, *report};
             return builder.cut(making);
         } catch (const LocatedError&) {
             throw;
@@ -223,11 +236,12 @@ DrilledHole drill(const Field& body, dvec3 at, dvec3 direction, double radius, d
             radius, false};
 }
 
-std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, double depth) {
+std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const TurnedBody& body, double depth) {
     std::vector<DrilledHole> holes;
     for (const HoleRecipe& hole : recipe.holes) {
         try {
-            holes.push_back(drill(body, hole.at, hole.direction, hole.radius, hole.depth, depth));
+            holes.push_back(drill(*body.field, body.axes * hole.at, body.axes * hole.direction, hole.radius,
+                                  hole.depth, depth));
             holes.back().through = hole.through;
         } catch (const InputError& error) {
             throw LocatedError(hole.where + ": " + error.what());

@@ -55,13 +55,19 @@ struct PatternWork {
     std::function<void()> on_synthesis{};
 };
 
+/// A body that was turned about the origin by `axes`; gradings are those of the body before.
+struct TurnedBody {
+    const FieldPtr& field;
+    const glm::dmat3& axes;
+};
+
 /// The shell cut by the windows of the recipe's pattern. `depth` is the thickest the shell is, mm. Throws
 /// InputError for what the pattern refuses, Interrupted when cancelled.
-FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const FieldPtr& body, double depth,
+FieldPtr cut_windows(const Recipe& recipe, FieldPtr shell, const TurnedBody& body, double depth,
                      Gradings& gradings, const PatternWork& work, std::optional<PatternReport>& report);
 
 /// Where the recipe's holes are drilled through a skin at most `depth` mm thick.
-std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const Field& body, double depth);
+std::vector<DrilledHole> drilled_holes(const Recipe& recipe, const TurnedBody& body, double depth);
 
 /// A hole of the given radius into the body from the point of its surface nearest to `at`: in `direction`, or
 /// at right angles to the surface where that is zero; `deep` mm, or where that is 0 as deep as a skin of
@@ -76,7 +82,8 @@ struct PatternBuildContext {
     const Recipe& recipe;
     const FieldPtr& shell;
     const FieldPtr& body;
-    double depth;  ///< mm
+    const glm::dmat3& axes;  ///< that turn the space of the gradings into that of the body
+    double depth;            ///< mm
     Gradings& gradings;
     const PatternWork& work;
     PatternReport& report;

@@ -22,7 +22,9 @@ struct SkinThickness {
 SkinThickness skin_thickness(const SkinRecipe& skin, BuiltJob& built, Gradings& gradings) {
     if (!skin.thickness.is_formula() && gradings.overrides("skin.thickness").empty())
         return {skin.thickness.number()};
-    built.skin = graded("skin.thickness", skin.thickness, {skin.thickness_min, skin.thickness_max}, gradings);
+    built.skin =
+        turned(graded("skin.thickness", skin.thickness, {skin.thickness_min, skin.thickness_max}, gradings),
+               built.axes);
     return {0, &*built.skin};
 }
 
@@ -50,8 +52,9 @@ FieldPtr under_cut_skin(const Recipe& recipe, BuiltJob& built, const FieldPtr& f
                          ? make_shell(built.body, thickness.number)
                          : make_shell(built.body, thickness.graded->asked, thickness.graded->limits);
     const double depth = thickness.thickest(*built.body);
-    shell = cut_windows(recipe, std::move(shell), built.body, depth, gradings, work, built.pattern);
-    built.holes = drilled_holes(recipe, *built.body, depth);
+    shell =
+        cut_windows(recipe, std::move(shell), {built.body, built.axes}, depth, gradings, work, built.pattern);
+    built.holes = drilled_holes(recipe, {built.body, built.axes}, depth);
     FieldPtr part = drilled(built, foam, shell, built.holes);
     if (recipe.skin->drains == 0) return part;
     Job job = built.designed;

@@ -14,6 +14,8 @@ namespace lamella {
 /// row uses.
 const std::vector<std::string>& choice_names(Shape);
 const std::vector<std::string>& choice_names(LengthUnit);
+const std::vector<std::string>& choice_names(Mirror);
+const std::vector<std::string>& choice_names(FoamFrame);
 const std::vector<std::string>& choice_names(Falloff);
 const std::vector<std::string>& choice_names(SkinSide);
 const std::vector<std::string>& choice_names(Reinforcement);

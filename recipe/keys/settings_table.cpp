@@ -13,6 +13,14 @@ const std::vector<std::string>& choice_names(LengthUnit) {
     static const std::vector<std::string> list{"mm", "cm", "m", "inch"};
     return list;
 }
+const std::vector<std::string>& choice_names(Mirror) {
+    static const std::vector<std::string> list{"none", "x", "y", "z"};
+    return list;
+}
+const std::vector<std::string>& choice_names(FoamFrame) {
+    static const std::vector<std::string> list{"part", "bed"};
+    return list;
+}
 const std::vector<std::string>& choice_names(Falloff) {
     static const std::vector<std::string> list{"linear", "smooth", "gaussian", "inverse"};
     return list;
@@ -21,6 +29,37 @@ const std::vector<std::string>& choice_names(Falloff) {
 namespace {
 
 constexpr Limits any_number{-1e9, 1e9};
+
+void add_placement(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.fit; }>(
+        "part", "fit", "--fit",
+        {.unit = "mm",
+         .limits = {0, 1e6},
+         .fallback = "as large as it is",
+         .help =
+             "Box that the turned part is scaled to fit, on top of `scale`; 0 along an axis: any size."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.mirror; }>(
+        "part", "mirror", "--mirror",
+        {.fallback = "none", .help = "Coordinate that is negated, before the part is turned."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.lay_on; }>(
+        "part", "lay_on", "--lay-on",
+        {.limits = place_limits,
+         .fallback = "none",
+         .help = "Outward direction of the face that is laid on the bed, before the part is turned."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.lay_on_at; }>(
+        "part", "lay_on_at", "--lay-on-at",
+        {.unit = "mm",
+         .limits = place_limits,
+         .shape = {3, 1, "one point [[x, y, z]]"},
+         .fallback = "none",
+         .help = "A point of the face that is laid on the bed, instead of its direction."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.turn; }>(
+        "part", "turn", "--turn",
+        {.unit = "degrees",
+         .limits = {-360, 360},
+         .fallback = "0, 0, 0",
+         .help = "Rotation about x, then y, then z; all that stands on the part turns with it."}));
+}
 
 void add_part(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.mesh; }>(
@@ -78,6 +117,7 @@ void add_part(std::vector<Setting>& t) {
         {.limits = {1e-6, 1e6},
          .fallback = "1",
          .help = "Scale factor of the part, applied after the unit."}));
+    add_placement(t);
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
         "part", "name", "--name",
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
@@ -275,11 +315,16 @@ void add_foam(std::vector<Setting>& t) {
                                .help = "Stretch factors of the cells along x, y and z, or along these axes "
                                        "rotated by turn; formulas only for k-nearest."});
     add_foam_row<&F::turn>(
-        t, "turn", "--turn",
+        t, "turn", "--foam-turn",
         {.unit = "degrees",
          .limits = {-360, 360},
          .fallback = "0, 0, 0",
          .help = "Rotation of the axes of stretch about x, then y, then z; formulas only for k-nearest."});
+    add_foam_row<&F::frame>(
+        t, "frame", "--foam-frame",
+        {.fallback = "part",
+         .help = "Whether the foam stays fixed to the part or to the bed when the part is "
+                 "turned."});
     add_foam_row<&F::drop_islands>(
         t, "drop_islands", "--drop-islands",
         {.fallback = "false",

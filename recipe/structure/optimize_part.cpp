@@ -17,6 +17,7 @@
 #include "procedural/volume/volume_grading.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/build/kept_plan.h"
+#include "recipe/build/part_placement.h"
 #include "recipe/identity.h"
 #include "recipe/recipe_formulas.h"
 #include "recipe/result_dependents.h"
@@ -34,7 +35,7 @@ namespace {
 Recipe search_problem(const Recipe& recipe) {
     Recipe kept;
     const ResultDependents late(recipe);
-    kept.part = recipe.part;
+    kept.part = not_turned(recipe.part);
     std::ranges::copy_if(recipe.fields, std::back_inserter(kept.fields),
                          [&](const FieldRecipe& field) { return !late.fields.contains(field.name); });
     std::ranges::copy_if(recipe.gradings, std::back_inserter(kept.gradings),

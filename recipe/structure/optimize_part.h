@@ -35,6 +35,7 @@ struct OptimizeOptions {
     /// As in PlaceElementsOptions::on_iteration.
     std::function<void(const ElementIteration&, int iterations)> on_elements{};
     SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
+    bool as_designed = false;  ///< the job is that of the part before it is turned, mirrored or laid down
 };
 
 /// An optimised part.

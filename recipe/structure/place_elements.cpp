@@ -8,6 +8,7 @@
 #include "engine/base/parallel.h"
 #include "engine/solids/csg.h"
 #include "recipe/build/kept_plan.h"
+#include "recipe/build/part_placement.h"
 #include "recipe/identity.h"
 #include "recipe/structure/build_elements.h"
 #include "recipe/structure/element_solid.h"
@@ -21,7 +22,7 @@ namespace {
 /// Returns the recipe without what does not decide where elements are.
 Recipe elements_problem(const Recipe& recipe) {
     Recipe kept;
-    kept.part = recipe.part;
+    kept.part = has_skin_of_elements(recipe) ? recipe.part : not_turned(recipe.part);
     kept.fields = recipe.fields;
     kept.gradings = recipe.gradings;
     const bool is_on_skin = has_skin_of_elements(recipe);
