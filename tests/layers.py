@@ -13,11 +13,11 @@ ORDER = """
 engine/base engine/runs engine/field engine/solids engine/formula engine/contours engine/mesh engine/layers
 engine/morphology engine/io engine/checks engine/surveys
 procedural/grading procedural/volume procedural/voronoi procedural/scaffold procedural/foam procedural/skin
-procedural/elasticity procedural/optimization procedural/appearance procedural/texture procedural/elements
+procedural/elasticity procedural/optimization procedural/appearance procedural/texture procedural/orientation procedural/elements
 procedural/pattern procedural/lattice
 printers/common printers/polygons printers/readers printers/archive printers/toolpath printers/masks printers/vector
 printers/gcode printers/serial printers
-recipe recipe/keys recipe/build recipe/structure recipe/output
+recipe recipe/keys recipe/build recipe/placement recipe/structure recipe/output
 bindings
 app/console app/ranks app/reports app/commands
 """.split()
@@ -25,7 +25,7 @@ app/console app/ranks app/reports app/commands
 APART = [("procedural", "printers")]
 # recipe/ names kinds that recipe/build makes, and recipe/build reads what recipe/ holds; the body that it builds may be
 # one that recipe/structure optimises.
-TOGETHER = {"recipe", "recipe/keys", "recipe/build", "recipe/structure"}
+TOGETHER = {"recipe", "recipe/keys", "recipe/build", "recipe/placement", "recipe/structure"}
 MODULES = {"engine/io/modules": "engine/io", "app/ranks/modules": "app/ranks"}
 MOST_SOURCES = 45
 

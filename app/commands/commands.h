@@ -19,6 +19,7 @@ void add_info_command(CLI::App& root);
 void add_extract_command(CLI::App& root);
 void add_dump_command(CLI::App& root);
 void add_supports_command(CLI::App& root);
+void add_orient_command(CLI::App& root);
 void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
 void add_serve_command(CLI::App& root);

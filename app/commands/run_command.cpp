@@ -71,6 +71,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_extract_command(root);
         add_section_command(root);
         add_dump_command(root);
+        add_orient_command(root);
         add_supports_command(root);
         add_check_command(root);
         add_serve_command(root);

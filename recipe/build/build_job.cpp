@@ -12,8 +12,8 @@
 #include "engine/solids/csg.h"
 #include "recipe/build/build_process.h"
 #include "recipe/build/fill_body.h"
-#include "recipe/build/part_placement.h"
 #include "recipe/identity.h"
+#include "recipe/placement/part_placement.h"
 #include "recipe/structure/place_elements.h"
 
 namespace lamella {

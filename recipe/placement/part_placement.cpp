@@ -1,5 +1,5 @@
 // Axes from the recipe's angles and directions; surfaces and bounds where the recipe names a point or a box.
-#include "recipe/build/part_placement.h"
+#include "recipe/placement/part_placement.h"
 
 #include <fmt/format.h>
 

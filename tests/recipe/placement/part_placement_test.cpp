@@ -1,5 +1,5 @@
 // Parts that are turned, mirrored, laid on a face and scaled: against the part before, point by point.
-#include "recipe/build/part_placement.h"
+#include "recipe/placement/part_placement.h"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>

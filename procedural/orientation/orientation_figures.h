@@ -1,0 +1,47 @@
+// OrientationFigures: what printing a body with one of its directions upward costs, from a sampled surface.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/cancel_token.h"
+#include "engine/field/field.h"
+#include "procedural/texture/surface_sites.h"
+
+namespace lamella {
+
+/// Points of a body's surface, each with the area that it stands for. Edges take half a spacing from the
+/// faces beside them.
+struct SurfaceCover {
+    SurfaceSites sites;
+    std::vector<double> areas;  ///< mm^2
+};
+
+/// Samples the surface of a body with about `sites` points. Throws InputError for an empty or unbounded body,
+/// Interrupted when cancelled.
+SurfaceCover cover_surface(const Field& body, std::size_t sites, const CancelToken* cancel);
+
+/// What needs supports, and what these are made of. Lengths in mm.
+struct OrientationRules {
+    double overhang = 1;      ///< that holds itself: horizontal mm for each mm of height
+    double spacing = 3;       ///< of support points
+    double pillar_area = 1;   ///< of the cross-section of the pillar below a point, mm^2
+    double foot_volume = 0;   ///< of a pillar that stands on the bed, mm^3
+    double lift = 0;          ///< of the part above the bed
+    double layer_height = 0;  ///< surfaces that lie lower rest on the bed
+};
+
+struct OrientationFigures {
+    dvec3 up{0, 0, 1};          ///< unit vector
+    double support_volume = 0;  ///< estimate: a pillar below each spacing's square of overhang, mm^3
+    double overhang_area = 0;   ///< surface that needs supports, mm^2
+    double height = 0;          ///< mm
+    double bed_area = 0;        ///< surface that lies on the bed, mm^2
+    double largest_layer = 0;   ///< area of the largest horizontal section, mm^2
+};
+
+/// Returns the figures of a body that is printed along `up`, a unit vector. An overhang's pillar goes down to
+/// the surface below it, or to the bed. Sections follow from the surface below them: by the divergence
+/// theorem, their area is the flux of `up` through it.
+OrientationFigures orientation_figures(const SurfaceCover& cover, dvec3 up, const OrientationRules& rules);
+
+}  // namespace lamella
