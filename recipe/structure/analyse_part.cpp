@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "procedural/elasticity/cut_cells.h"
 #include "procedural/optimization/density_shape.h"
+#include "recipe/placement/part_placement.h"
 #include "recipe/structure/bare_faces.h"
 
 namespace lamella {
@@ -78,7 +79,7 @@ StructureReport analysed(const Recipe& recipe, const BuiltJob& built, ElementDom
 }  // namespace
 
 StructureReport analyse_part(const Recipe& given, const BuiltJob& built, const AnalysisOptions& options) {
-    Recipe recipe = given;
+    Recipe recipe = with_known_placement(given);
     if (options.elements > 0) {
         if (!recipe.optimize) recipe.optimize.emplace();  // the part is built: this says the elements only
         recipe.optimize->elements = options.elements;
