@@ -51,6 +51,13 @@ bool is_lowest(const SurfaceSites& sites, std::uint32_t site, dvec3 up) {
     });
 }
 
+/// Returns the material of a support of this height, mm^3.
+double support_volume(const OrientationRules& rules, double height, bool is_on_bed) {
+    const double tip = std::min(height, rules.connector), pillar = height - tip;
+    const double foot = is_on_bed && pillar > 0 ? std::min(pillar / rules.foot_width, 1.0) : 0;
+    return rules.tip_area * tip + rules.pillar_area * pillar + rules.foot_volume * foot;
+}
+
 /// Returns the area of the largest section, from the flux through the surface below it.
 double largest_section(const SurfaceCover& cover, dvec3 up) {
     const SurfaceSites& sites = cover.sites;
@@ -123,9 +130,8 @@ OrientationFigures orientation_figures(const SurfaceCover& cover, dvec3 up, cons
             is_on_bed = false;
             break;
         }
-        const double pillar =
-            rules.pillar_area * (point.height - landing) + (is_on_bed ? rules.foot_volume : 0);
-        figures.support_volume += (hangs ? area / (rules.spacing * rules.spacing) : 1) * pillar;
+        figures.support_volume += (hangs ? area / (rules.spacing * rules.spacing) : 1) *
+                                  support_volume(rules, point.height - landing, is_on_bed);
     }
     figures.largest_layer = largest_section(cover, up);
     return figures;

@@ -24,8 +24,11 @@ SurfaceCover cover_surface(const Field& body, std::size_t sites, const CancelTok
 struct OrientationRules {
     double overhang = 1;      ///< that holds itself: horizontal mm for each mm of height
     double spacing = 3;       ///< of support points
-    double pillar_area = 1;   ///< of the cross-section of the pillar below a point, mm^2
-    double foot_volume = 0;   ///< of a pillar that stands on the bed, mm^3
+    double connector = 0;     ///< height of the thin tip between a pillar and the part
+    double tip_area = 0;      ///< of the tip's cross-section, mm^2
+    double pillar_area = 1;   ///< of the cross-section of the pillar below it, mm^2
+    double foot_volume = 0;   ///< of a pillar on the bed that is at least as high as its foot is wide, mm^3
+    double foot_width = 0;    ///< lower pillars have a smaller one
     double lift = 0;          ///< of the part above the bed
     double layer_height = 0;  ///< surfaces that lie lower rest on the bed
 };

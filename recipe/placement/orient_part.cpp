@@ -25,6 +25,9 @@ OrientationRules rules_of(const PrinterProfile& printer, double layer_height) {
     constexpr double quarter = std::numbers::pi / 4;
     const double wall = s.wall > 0 ? s.wall : printer.filament.line_width;
     rules.pillar_area = s.round_pillars ? quarter * s.pillar * s.pillar : wall * (2 * s.pillar - wall);
+    rules.connector = s.connector;
+    rules.tip_area = quarter * s.tip * s.tip;
+    rules.foot_width = s.foot;
     rules.foot_volume = quarter * s.foot * s.foot * s.foot_height;
     rules.lift = s.lift;
     rules.layer_height = layer_height;
