@@ -35,7 +35,8 @@ const std::map<std::string, OrientGoal> goals{{"supports", OrientGoal::supports}
 Json as_json(const Orientation& orientation) {
     const OrientationFigures& figures = orientation.figures;
     return {{"lay_on", json_triple(orientation.lay_on)},
-            {"supports_mm3", figures.support_volume},
+            {"supports_mm3", orientation.planned ? Json(*orientation.planned) : Json()},
+            {"estimated_supports_mm3", figures.support_volume},
             {"overhang_mm2", figures.overhang_area},
             {"height_mm", figures.height},
             {"on_bed_mm2", figures.bed_area},
@@ -50,14 +51,16 @@ Json as_json(const OrientReport& report) {
 
 std::string row(const std::string& name, const Orientation& orientation) {
     const OrientationFigures& f = orientation.figures;
-    return fmt::format("{:<4} {:>12.0f} {:>12.0f} {:>10.1f} {:>11.0f} {:>14.0f}   {}\n", name,
+    const std::string planned = orientation.planned ? fmt::format("{:.0f}", *orientation.planned) : "";
+    return fmt::format("{:<4} {:>12} {:>12.0f} {:>12.0f} {:>10.1f} {:>11.0f} {:>14.0f}   {}\n", name, planned,
                        f.support_volume, f.overhang_area, f.height, f.bed_area, f.largest_layer,
                        lay_on_text(orientation.lay_on));
 }
 
 std::string as_text(const OrientReport& report) {
-    std::string text = fmt::format("{:<4} {:>12} {:>12} {:>10} {:>11} {:>14}   {}\n", "", "supports mm3",
-                                   "overhang mm2", "height mm", "on bed mm2", "largest layer", "lay_on");
+    std::string text =
+        fmt::format("{:<4} {:>12} {:>12} {:>12} {:>10} {:>11} {:>14}   {}\n", "", "supports mm3",
+                    "estimate mm3", "overhang mm2", "height mm", "on bed mm2", "largest layer", "lay_on");
     text += row("now", report.now);
     for (std::size_t i = 0; i < report.best.size(); ++i)
         text += row(fmt::format("{}", i + 1), report.best[i]);
@@ -93,6 +96,11 @@ void add_orient_command(CLI::App& root) {
                     "What the orientation is to be good for; default: supports")
         ->transform(CLI::CheckedTransformer(goals))
         ->type_name("supports|height|surface|area");
+    command
+        .add_option("--plan", options->orient.plan,
+                    "Plan the supports of this many of the best by estimate, where supports are the goal; "
+                    "default: 3")
+        ->check(CLI::Range(0, 100));
     command.add_option("--count", options->orient.count, "Orientations to list; default: 10")
         ->check(CLI::Range(1, 100));
     command
@@ -103,10 +111,11 @@ void add_orient_command(CLI::App& root) {
     command.add_option("-o,--output", options->output, "File; default: standard output")->type_name("FILE");
     command.add_option("--threads", options->orient.threads, "Threads to use; 0: one per core")
         ->check(CLI::Range(0, 1024));
-    finish_command(command,
-                   "  lamella orient model.stl --printer marlin --layer-height 0.2\n"
-                   "  lamella orient figure.toml --for area --write 1\n"
-                   "Supports are estimated: a pillar below each overhang. `lamella supports` plans them.");
+    finish_command(
+        command,
+        "  lamella orient model.stl --printer marlin --layer-height 0.2\n"
+        "  lamella orient figure.toml --for area --write 1\n"
+        "Supports are estimated by a pillar below each overhang; those of the first three are planned.");
     command.callback([options] { run(*options); });
 }
 

@@ -219,7 +219,7 @@ class Turned : public ClosedShape<Turned<Shape>> {
         const std::optional<Shape> grown = shape_.offset(d);
         return grown ? std::make_shared<Turned>(*grown, axes_, at_) : nullptr;
     }
-    Box bounds() const override { return image_of(shape_.bounds(), axes_, at_); }
+    Box bounds() const override { return shape_.bounds(axes_, at_); }
     void cut(Axis axis, double across, double z, std::vector<Interval>& out) const {
         const dvec3 direction = axis == Axis::x ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         shape_.cut(back_ * (dvec3(on_plane(axis, 0, across), z) - at_), back_ * direction, out);
@@ -245,7 +245,7 @@ class LineCutBox {
         if (d > 0 || smaller.empty()) return std::nullopt;
         return LineCutBox(smaller);
     }
-    Box bounds() const { return box_; }
+    Box bounds(const glm::dmat3& axes, dvec3 at) const { return image_of(box_, axes, at); }
     void cut(dvec3 p, dvec3 direction, std::vector<Interval>& out) const {
         Interval solid{-infinity, infinity};
         for (int i = 0; i < 3; ++i) {
@@ -273,7 +273,12 @@ class LineCutTorus {
         if (!(other.small > 0) || !(other.small < other.large)) return std::nullopt;
         return LineCutTorus(other);
     }
-    Box bounds() const { return lamella::bounds(torus_); }
+    Box bounds(const glm::dmat3& axes, dvec3 at) const {
+        const dvec3 n = axes[2];
+        const dvec3 half =
+            torus_.large * glm::sqrt(glm::max(dvec3(1.0) - n * n, dvec3(0.0))) + dvec3(torus_.small);
+        return {at - half, at + half};
+    }
     void cut(dvec3 p, dvec3 direction, std::vector<Interval>& out) const {
         lamella::cut(torus_, p, direction, out);
     }

@@ -109,7 +109,8 @@ void turn(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& bui
     const bool is_as_given = !built.optimized && !built.elements;
     built.body = is_as_given ? build_body(recipe, gradings, built.mesh, built.axes)
                              : make_transform(built.body, built.axes, dvec3(0));
-    built.designed.bounds = built.body->bounds();
+    const bool is_exact = is_as_given && recipe.part.field.empty() && recipe.part.shape != Shape::gyroid;
+    built.designed.bounds = is_exact ? built.body->bounds() : tight_bounds(*built.body);
     built.regions = turned_regions(recipe, built.designed.bounds, gradings, built.axes);
 }
 

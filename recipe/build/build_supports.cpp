@@ -217,6 +217,27 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     return supports;
 }
 
+double support_volume(const Job& job) {
+    constexpr double pitch = 0.2;
+    if (!job.supports) return 0;
+    const Box box = job.supports->bounds();
+    RowBand band;
+    band.along_origin = box.lo.x;
+    band.across_origin = box.lo.y;
+    band.along_pitch = band.across_pitch = pitch;
+    band.count = static_cast<int>(box.size().y / pitch) + 1;
+    band.hi = static_cast<int>(box.size().x / pitch) + 1;
+    double units = 0;
+    for (int i = 0; i < job.layer_count && job.plane(i) <= box.hi.z; ++i) {
+        SliceContext context;
+        Scratch scratch;
+        const auto rows = scratch.rows();
+        context.slice(*job.supports, job.plane(i)).runs(band, scratch, *rows);
+        units += static_cast<double>(rows->total_length());
+    }
+    return units / run_unit * pitch * pitch * job.layer_height;
+}
+
 std::string supports_text(const BuiltSupports& supports) {
     const OverhangSurvey& survey = supports.plan.survey;
     const Scaffold& scaffold = supports.plan.scaffold;

@@ -33,6 +33,9 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
 /// Returns the number of layers by which add_supports will raise the part: its lift, rounded up.
 int lifted_layers(const Recipe& recipe, const Job& job);
 
+/// Returns the material of the supports, mm^3: their runs, 0.2 mm apart, on every layer.
+double support_volume(const Job& job);
+
 /// Returns a line such as "84 points on 10 bridges, 11 pillars", and one line for each problem.
 std::string supports_text(const BuiltSupports& supports);
 

@@ -1,13 +1,16 @@
 // Samples the body, mirrored as the recipe says, and searches directions on it.
 #include "recipe/placement/orient_part.h"
 
+#include <algorithm>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "printers/registry.h"
 #include "recipe/build/build_body.h"
+#include "recipe/build/build_supports.h"
 #include "recipe/placement/part_placement.h"
 
 namespace lamella {
@@ -48,6 +51,35 @@ OrientationScore score_of(OrientGoal goal) {
     return [](const OrientationFigures& f) { return f.support_volume; };
 }
 
+/// Returns the material of supports of the solid body, mm^3.
+double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions& options) {
+    Recipe solid;
+    solid.part = recipe.part;
+    solid.part.lay_on = lay_on;
+    solid.part.turn = dvec3(0);
+    solid.fields = recipe.fields;
+    solid.gradings = recipe.gradings;
+    solid.layer_height = recipe.layer_height;
+    solid.printer = recipe.printer;
+    solid.support = recipe.support == SupportKind::none ? SupportKind::pillars : recipe.support;
+    BuiltJob built = build_job(solid, {.threads = options.threads, .cancel = options.cancel});
+    SupportOptions planning;
+    planning.plans.clear();
+    planning.threads = options.threads;
+    planning.cancel = options.cancel;
+    add_supports(solid, built, planning);
+    return support_volume(built.job);
+}
+
+/// Plans the supports of the first orientations, and sorts these by the material.
+void plan_first(const Recipe& recipe, const OrientOptions& options, std::vector<Orientation>& best) {
+    const auto planned = std::span(best).first(std::min(options.plan, best.size()));
+    for (Orientation& orientation : planned)
+        orientation.planned = planned_supports(recipe, orientation.lay_on, options);
+    std::ranges::stable_sort(planned, {},
+                             [](const Orientation& orientation) { return *orientation.planned; });
+}
+
 }  // namespace
 
 OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
@@ -60,19 +92,20 @@ OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
     const FieldPtr body = build_body(recipe, gradings, mesh, mirror);
     const OrientationRules rules = rules_of(recipe.printer, recipe.layer_height);
     ThreadArena arena(options.threads);
-    return arena.execute([&] {
+    OrientReport report;
+    arena.execute([&] {
         const SurfaceCover cover = cover_surface(*body, sites, options.cancel);
         const auto placed = [&](const OrientationFigures& figures) {
             return Orientation{figures, mirror * -figures.up};
         };
-        OrientReport report;
         const glm::dmat3 turn = part_axes(recipe.part) * mirror;
         report.now = placed(orientation_figures(cover, glm::transpose(turn) * dvec3(0, 0, 1), rules));
         for (const OrientationFigures& figures :
              best_orientations(cover, rules, score_of(options.goal), options.count, apart, options.cancel))
             report.best.push_back(placed(figures));
-        return report;
     });
+    if (options.goal == OrientGoal::supports) plan_first(recipe, options, report.best);
+    return report;
 }
 
 }  // namespace lamella

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "procedural/orientation/best_orientations.h"
@@ -20,22 +21,27 @@ enum class OrientGoal : std::uint8_t {
 struct OrientOptions {
     OrientGoal goal = OrientGoal::supports;
     std::size_t count = 10;               ///< orientations to return
+    std::size_t plan = 3;                 ///< of these, to plan supports for, when they are the goal
     int threads = 0;                      ///< 0: one per core
     const CancelToken* cancel = nullptr;  ///< may be null
 };
 
 struct Orientation {
     OrientationFigures figures;
-    dvec3 lay_on{0};  ///< for part.lay_on: the direction of the part that points down
+    dvec3 lay_on{0};                  ///< for part.lay_on: the direction of the part that points down
+    std::optional<double> planned{};  ///< material of planned supports, mm^3; empty where none were planned
 };
 
 struct OrientReport {
-    Orientation now;                ///< as the recipe turns the part
-    std::vector<Orientation> best;  ///< the best first, at least ten degrees from each other
+    Orientation now;  ///< as the recipe turns the part
+    /// The best first, at least ten degrees from each other: those with planned supports before the others.
+    std::vector<Orientation> best;
 };
 
-/// Measures and searches orientations of the part's body on its machine, with pillars below overhangs. A pure
-/// function of the recipe. Throws InputError when the body cannot be made, Interrupted when cancelled.
+/// Measures and searches orientations of the part's body on its machine, with pillars below overhangs. For
+/// few supports, those of the best by estimate are planned as for a solid body (on bridges if the recipe says
+/// so). A pure function of the recipe. Throws InputError when the body cannot be made, Interrupted when
+/// cancelled.
 OrientReport orient_part(const Recipe& recipe, const OrientOptions& options);
 
 }  // namespace lamella

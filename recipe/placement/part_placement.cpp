@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/field/solid_search.h"
 #include "procedural/skin/surface_walk.h"
 #include "recipe/build/build_body.h"
 
@@ -66,7 +67,9 @@ Recipe with_known_placement(const Recipe& recipe) {
         part.lay_on_at.clear();
     }
     if (part.fit != dvec3(0)) {
-        const Box box = body_of(known, part_axes(part))->bounds();
+        const FieldPtr body = body_of(known, part_axes(part));
+        const bool is_exact = part.field.empty() && part.shape != Shape::gyroid;
+        const Box box = is_exact ? body->bounds() : tight_bounds(*body);
         if (box.empty()) throw InputError("part.fit: the part is empty; accepted: a part with a volume");
         double factor = infinity;
         for (int axis = 0; axis < 3; ++axis) {
@@ -76,6 +79,25 @@ Recipe with_known_placement(const Recipe& recipe) {
         part.fit = dvec3(0);
     }
     return known;
+}
+
+Box tight_bounds(const Field& body) {
+    constexpr int halvings = 20;
+    Box box = body.bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const bool is_low : {true, false}) {
+            // Nothing lies between the side and `clear`; something does between the side and `met`.
+            double clear = is_low ? box.lo[axis] : box.hi[axis], met = is_low ? box.hi[axis] : box.lo[axis];
+            for (int k = 0; k < halvings; ++k) {
+                const double middle = 0.5 * (clear + met);
+                Box beyond = box;
+                (is_low ? beyond.hi : beyond.lo)[axis] = middle;
+                (find_solid_point(body, beyond) ? met : clear) = middle;
+            }
+            (is_low ? box.lo : box.hi)[axis] = clear;
+        }
+    }
+    return box;
 }
 
 PartRecipe not_turned(PartRecipe part) {

@@ -1,6 +1,7 @@
 // How the part is mirrored, laid on a face, turned and scaled before it is printed.
 #pragma once
 
+#include "engine/field/field.h"
 #include "recipe/recipe.h"
 
 namespace lamella {
@@ -13,6 +14,10 @@ glm::dmat3 part_axes(const PartRecipe& part);
 /// to fit by a scale. Throws InputError where the body cannot be made, or no point of its surface is nearest
 /// to that point.
 Recipe with_known_placement(const Recipe& recipe);
+
+/// Returns the bounds of a body within its bounds, which are loose once a sampled body is turned: each side
+/// is moved inward, to a millionth of the box, as far as find_solid_point() finds nothing beyond.
+Box tight_bounds(const Field& body);
 
 /// Returns the part's recipe as it was designed: not turned, mirrored or laid on a face.
 PartRecipe not_turned(PartRecipe part);

@@ -200,6 +200,23 @@ TEST_CASE("right angles keep whole numbers", "[placement]") {
     CHECK(built.job.bounds.hi == dvec3(4, 7, 5));
 }
 
+TEST_CASE("a turned part stands on the bed, whatever it is made of", "[placement]") {
+    const std::string ball =
+        "[part]\nfield = \"ball\"\n[[field]]\nname = \"ball\"\nformula = \"sqrt(x*x + y*y + z*z) - "
+        "6\"\nbounds = [[-6, -6, -6], [6, 6, 6]]\n";
+    std::string leaning = ball;
+    leaning.insert(leaning.find("[[field]]"), "turn = [45, 30, 0]\n");
+    const Box bounds = build_job(recipe_of(leaning)).job.bounds;
+    CHECK(length(bounds.lo - dvec3(-6)) < 1e-3);
+    CHECK(length(bounds.hi - dvec3(6)) < 1e-3);
+    const Box torus =
+        build_job(recipe_of("[part]\nshape = \"torus\"\nradius = 6\ntube = 2\nturn = [0, 30, 0]\n"))
+            .job.bounds;
+    CHECK(torus.size().x == Approx(2 * (6 * std::cos(std::numbers::pi / 6) + 2)));
+    CHECK(torus.size().y == Approx(16));
+    CHECK(torus.size().z == Approx(2 * (6 * std::sin(std::numbers::pi / 6) + 2)));
+}
+
 TEST_CASE("what cannot be turned says so", "[placement]") {
     const std::string loaded =
         "turn = [90, 0, 0]\n[skin]\nthickness = 1\npattern = \"elements\"\n[[element]]\nkind = "
