@@ -177,7 +177,7 @@ TEST_CASE("a part is laid on a face by its direction or a point of it", "[placem
     const BuiltJob by_direction = build_job(recipe_of(block + "lay_on = [1, 0, 0]\n"));
     CHECK(by_direction.job.bounds.size().z == Approx(14));
     for (const std::string point : {"[7, 1, 1]", "[-7, 1, 1]"}) {
-        const BuiltJob by_point = build_job(recipe_of(block + "lay_on_at = [" + point + "]\n"));
+        const BuiltJob by_point = build_job(recipe_of(fmt::format("{}lay_on_at = [{}]\n", block, point)));
         CHECK(by_point.job.bounds.size().z == Approx(14));
         CHECK(by_point.axes[0].z == Approx(point[1] == '7' ? -1 : 1));
     }
