@@ -311,6 +311,12 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
         refuse(0, fmt::format("{}: {} mm fills a gyroid of period {} mm; accepted: less than {:.4g} mm",
                               where("part", "thickness"), part.thickness, part.period, thickest));
     }
+    if (part.lay_on != dvec3(0) && !part.lay_on_at.empty()) {
+        refuse(0,
+               fmt::format("{}: cannot be combined with part.lay_on; accepted: a face's direction or a point "
+                           "of it",
+                           where("part", "lay_on_at")));
+    }
     if (part.name.find_first_of("/\\") != std::string::npos || part.name == "." || part.name == "..") {
         refuse(0, fmt::format("{}: \"{}\" cannot name a file; accepted: a text without / and \\",
                               where("part", "name"), part.name));

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 struct OrientCommand {
     RecipeOptions recipe;
     OrientOptions orient;
+    std::string goal = "supports";
     std::string output;
     bool json = false;
     int write = 0;  ///< the orientation to write into the recipe, from 1; 0: none
@@ -71,7 +72,9 @@ void run(const OrientCommand& command) {
     CancelToken cancel;
     const InterruptGuard guard(cancel);
     OrientOptions options = command.orient;
+    options.goal = goals.at(command.goal);
     options.cancel = &cancel;
+    if (command.write > 0) check_is_recipe(command.recipe.input());
     const OrientReport report = orient_part(command.recipe.read(), options);
     if (command.write > 0) {
         const auto chosen = static_cast<std::size_t>(command.write);
@@ -92,10 +95,11 @@ void add_orient_command(CLI::App& root) {
     CLI::App& command = *root.add_subcommand("orient", "Rank the ways to stand a part on the bed");
     options->recipe.add_to(command);
     command
-        .add_option("--for", options->orient.goal,
-                    "What the orientation is to be good for; default: supports")
-        ->transform(CLI::CheckedTransformer(goals))
-        ->type_name("supports|height|surface|area");
+        .add_option("--for", options->goal,
+                    "What the orientation is to be good for: supports, height, surface or area; default: "
+                    "supports")
+        ->check(CLI::IsMember({"supports", "height", "surface", "area"}))
+        ->type_name("WORD");
     command
         .add_option("--plan", options->orient.plan,
                     "Plan the supports of this many of the best by estimate, where supports are the goal; "

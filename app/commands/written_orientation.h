@@ -11,9 +11,12 @@ namespace lamella {
 /// along an axis.
 std::string lay_on_text(dvec3 direction);
 
+/// Throws InputError for a file that is no recipe.
+void check_is_recipe(const std::string& recipe);
+
 /// Sets part.lay_on in a recipe file and removes part.turn and part.lay_on_at; all other lines stay as they
-/// are. The file is replaced at once. Throws InputError for a file that is no recipe, and for a recipe whose
-/// [part] is not a table with one key a line.
+/// are. The file is replaced at once. Throws InputError for a recipe whose [part] is not a table with one key
+/// a line.
 void write_orientation(const std::string& recipe, dvec3 lay_on);
 
 }  // namespace lamella

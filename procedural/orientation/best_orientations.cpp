@@ -85,9 +85,7 @@ Scored improved(const SurfaceCover& cover, const OrientationRules& rules, const 
         for (bool is_better = true; is_better;) {
             is_better = false;
             const dvec3 up = best.figures.up;
-            const dvec3 a =
-                glm::normalize(std::abs(up.z) < 0.9 ? cross(up, dvec3(0, 0, 1)) : cross(up, dvec3(1, 0, 0)));
-            const dvec3 b = cross(up, a);
+            const auto [a, b] = across(up);
             for (const dvec3& way : {a, -a, b, -b}) {
                 const dvec3 turned = glm::normalize(up + std::tan(step * degree) * way);
                 Scored other{orientation_figures(cover, turned, rules), 0};

@@ -19,13 +19,6 @@ struct ColumnPoint {
     std::uint32_t site;
 };
 
-/// Two unit vectors at right angles to a third and to each other (Duff et al., "Building an Orthonormal
-/// Basis, Revisited", 2017).
-std::pair<dvec3, dvec3> across(dvec3 n) {
-    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    return {dvec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), dvec3(b, sign + n.y * n.y * a, -n.y)};
-}
-
 /// Returns the points by column, each from below.
 std::vector<ColumnPoint> columns_of(const SurfaceCover& cover, dvec3 up) {
     const SurfaceSites& sites = cover.sites;
@@ -74,6 +67,11 @@ double largest_section(const SurfaceCover& cover, dvec3 up) {
 }
 
 }  // namespace
+
+std::pair<dvec3, dvec3> across(dvec3 n) {
+    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    return {dvec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), dvec3(b, sign + n.y * n.y * a, -n.y)};
+}
 
 SurfaceCover cover_surface(const Field& body, std::size_t sites, const CancelToken* cancel) {
     const dvec3 size = body.bounds().size();

@@ -1,6 +1,7 @@
 // OrientationFigures: what printing a body with one of its directions upward costs, from a sampled surface.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "engine/base/cancel_token.h"
@@ -41,6 +42,10 @@ struct OrientationFigures {
     double bed_area = 0;        ///< surface that lies on the bed, mm^2
     double largest_layer = 0;   ///< area of the largest horizontal section, mm^2
 };
+
+/// Returns two unit vectors at right angles to a third, `n`, and to each other (Duff et al., "Building an
+/// Orthonormal Basis, Revisited", 2017).
+std::pair<dvec3, dvec3> across(dvec3 n);
 
 /// Returns the figures of a body that is printed along `up`, a unit vector. An overhang's pillar goes down to
 /// the surface below it, or to the bed. Sections follow from the surface below them: by the divergence

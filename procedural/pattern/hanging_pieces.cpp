@@ -54,14 +54,13 @@ const HangingPieces::Sample* HangingPieces::sample_at(glm::i64vec3 at) const {
 }
 
 /// Positive in the solid.
-double HangingPieces::value(const CarriedDistance& carried, const Sample& sample) const {
-    return std::min(carried.at(dvec3(sample.at) * sites_.spacing, sample.site),
+double HangingPieces::value(const CarriedDistance& pattern, const Sample& sample) const {
+    return std::min(pattern.at(dvec3(sample.at) * sites_.spacing, sample.site),
                     static_cast<double>(sample.depth));
 }
 
 /// Returns the intervals by y, x, and begin.
-std::vector<HangingPieces::Interval> HangingPieces::intervals_of(std::span<const float> distances) const {
-    const CarriedDistance carried(sites_, distances);
+std::vector<HangingPieces::Interval> HangingPieces::intervals_of(const CarriedDistance& pattern) const {
     const double spacing = sites_.spacing;
     std::vector<Interval> intervals;
     glm::i64vec3 last(0);
@@ -70,7 +69,7 @@ std::vector<HangingPieces::Interval> HangingPieces::intervals_of(std::span<const
     for (std::uint32_t i = 0; i < samples_.size(); ++i) {
         const Sample& sample = samples_[i];
         const dvec3 p = dvec3(sample.at) * spacing;
-        const double value = this->value(carried, sample);
+        const double value = this->value(pattern, sample);
         const bool goes_on = !is_first && sample.at == last + glm::i64vec3(0, 0, 1);
         if (value > 0) {
             const bool is_inside = goes_on && last_value > 0;
@@ -109,8 +108,8 @@ std::vector<HangingPieces::Joint> HangingPieces::joints_of(std::span<const Inter
     return joints;
 }
 
-std::vector<std::uint32_t> HangingPieces::find(std::span<const float> distances) const {
-    const std::vector<Interval> intervals = intervals_of(distances);
+std::vector<std::uint32_t> HangingPieces::find(const CarriedDistance& pattern) const {
+    const std::vector<Interval> intervals = intervals_of(pattern);
     std::vector<Joint> joints = joints_of(intervals);
     std::ranges::sort(joints, {},
                       [](const Joint& joint) { return std::tuple(joint.height, joint.a, joint.b); });
@@ -137,7 +136,7 @@ std::vector<std::uint32_t> HangingPieces::find(std::span<const float> distances)
     return found;
 }
 
-std::vector<std::uint32_t> HangingPieces::way_down(std::span<const float> distances,
+std::vector<std::uint32_t> HangingPieces::way_down(const CarriedDistance& pattern,
                                                    std::uint32_t sample) const {
     constexpr std::int64_t most_rise = 2;
     constexpr double rising = 10, above = 100;  // steps that a step up, and one above the sample, are worth
@@ -148,7 +147,6 @@ std::vector<std::uint32_t> HangingPieces::way_down(std::span<const float> distan
             return std::tie(cost, sample, from) > std::tie(other.cost, other.sample, other.from);
         }
     };
-    const CarriedDistance carried(sites_, distances);
     const std::int64_t top = samples_[sample].at.z;
     std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
     std::unordered_map<std::uint32_t, std::uint32_t> from;
@@ -158,7 +156,7 @@ std::vector<std::uint32_t> HangingPieces::way_down(std::span<const float> distan
         open.pop();
         if (!from.emplace(here.sample, here.from).second) continue;
         const Sample& at = samples_[here.sample];
-        if (at.at.z < top && value(carried, at) > 0) return strut_along(carried, from, here.sample);
+        if (at.at.z < top && value(pattern, at) > 0) return strut_along(pattern, from, here.sample);
         for (int k = 0; k < 27; ++k) {
             const glm::i64vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
             const std::int64_t z = at.at.z + step.z;
@@ -174,13 +172,13 @@ std::vector<std::uint32_t> HangingPieces::way_down(std::span<const float> distan
 
 /// Returns the sites along the way to a sample; none if all of the way is solid.
 std::vector<std::uint32_t> HangingPieces::strut_along(
-    const CarriedDistance& carried, const std::unordered_map<std::uint32_t, std::uint32_t>& from,
+    const CarriedDistance& pattern, const std::unordered_map<std::uint32_t, std::uint32_t>& from,
     std::uint32_t end) const {
     std::vector<std::uint32_t> way;
     bool is_over_void = false;
     for (std::uint32_t at = end;; at = from.at(at)) {
         if (way.empty() || way.back() != site(at)) way.push_back(site(at));
-        is_over_void |= !(value(carried, samples_[at]) > 0);
+        is_over_void |= !(value(pattern, samples_[at]) > 0);
         if (from.at(at) == at) break;
     }
     if (!is_over_void) return {};

@@ -18,11 +18,11 @@ class HangingPieces {
     /// Sites of a body's surface, which have to outlive the object; `depth` is the skin's thickness, mm.
     HangingPieces(const SurfaceSites& sites, const Field& body, double depth);
 
-    /// Returns the lowest point of each piece of the solid that hangs, the lowest first: it begins higher
-    /// than the part does, and stays alone for more than a quarter of a spacing of height before it joins a
-    /// piece that began lower. Numbers of samples, for the other functions. `distances` are those of the
-    /// pattern at the sites, mm, positive in the solid.
-    std::vector<std::uint32_t> find(std::span<const float> distances) const;
+    /// Returns the lowest point of each piece of the solid that hangs, the lowest first, as numbers of
+    /// samples: it begins higher than the part does, and stays alone for more than a quarter of a spacing of
+    /// height before it joins a piece that began lower. `pattern` is that of the sites, mm, positive in the
+    /// solid.
+    std::vector<std::uint32_t> find(const CarriedDistance& pattern) const;
 
     /// The site nearest to a sample.
     std::uint32_t site(std::uint32_t sample) const { return samples_[sample].site; }
@@ -30,7 +30,7 @@ class HangingPieces {
     /// Returns the sites along the shortest way through the skin, from a sample to solid that is lower. The
     /// way rises only where it has to, and at most two spacings above the sample. Empty if there is none, or
     /// if all of it is solid.
-    std::vector<std::uint32_t> way_down(std::span<const float> distances, std::uint32_t sample) const;
+    std::vector<std::uint32_t> way_down(const CarriedDistance& pattern, std::uint32_t sample) const;
 
   private:
     /// A sample on a line.
@@ -52,11 +52,11 @@ class HangingPieces {
     };
 
     const Sample* sample_at(glm::i64vec3 at) const;
-    double value(const CarriedDistance& carried, const Sample& sample) const;
-    std::vector<std::uint32_t> strut_along(const CarriedDistance& carried,
+    double value(const CarriedDistance& pattern, const Sample& sample) const;
+    std::vector<std::uint32_t> strut_along(const CarriedDistance& pattern,
                                            const std::unordered_map<std::uint32_t, std::uint32_t>& from,
                                            std::uint32_t end) const;
-    std::vector<Interval> intervals_of(std::span<const float> distances) const;
+    std::vector<Interval> intervals_of(const CarriedDistance& pattern) const;
     static std::vector<Joint> joints_of(std::span<const Interval> intervals);
 
     const SurfaceSites& sites_;

@@ -8,15 +8,16 @@ namespace lamella {
 
 std::vector<SiteLine> struts_below(const SurfaceSites& sites, const HangingPieces& pieces,
                                    std::span<const float> distances, double apart) {
+    const CarriedDistance pattern(sites, distances);
     std::vector<SiteLine> struts;
-    for (const std::uint32_t sample : pieces.find(distances)) {
+    for (const std::uint32_t sample : pieces.find(pattern)) {
         const auto is_near = [&](const SiteLine& other) {
             const dvec3 way = sites.way(sites.places[pieces.site(sample)], other.front().place);
             return glm::dot(way, way) < apart * apart;
         };
         if (std::ranges::any_of(struts, is_near)) continue;
         SiteLine line;
-        for (const std::uint32_t site : pieces.way_down(distances, sample))
+        for (const std::uint32_t site : pieces.way_down(pattern, sample))
             line.push_back({site, sites.places[site]});
         if (!line.empty()) struts.push_back(std::move(line));
     }

@@ -18,8 +18,6 @@ class Stretch {
     Stretch turned(const glm::dmat3& axes) const;
 
     bool identity() const { return identity_; }
-    /// Whether lengths in both spaces are the same.
-    bool keeps_lengths() const { return identity_ || (seeds_per_part_ == 1 && part_per_seeds_ == 1); }
     dvec3 to_part(dvec3 seed_space) const { return identity_ ? seed_space : forward_ * seed_space; }
     dvec3 to_seeds(dvec3 part_space) const { return identity_ ? part_space : inverse_ * part_space; }
     /// Returns the bounding box of the box's image.

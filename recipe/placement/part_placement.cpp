@@ -84,6 +84,7 @@ Recipe with_known_placement(const Recipe& recipe) {
 Box tight_bounds(const Field& body) {
     constexpr int halvings = 20;
     Box box = body.bounds();
+    if (box.empty() || !find_solid_point(body, box)) return box;
     for (int axis = 0; axis < 3; ++axis) {
         for (const bool is_low : {true, false}) {
             // Nothing lies between the side and `clear`; something does between the side and `met`.

@@ -16,7 +16,8 @@ glm::dmat3 part_axes(const PartRecipe& part);
 Recipe with_known_placement(const Recipe& recipe);
 
 /// Returns the bounds of a body within its bounds, which are loose once a sampled body is turned: each side
-/// is moved inward, to a millionth of the box, as far as find_solid_point() finds nothing beyond.
+/// is moved inward, to a millionth of the box, as far as find_solid_point() finds nothing beyond;
+/// the body's own where it finds nothing at all.
 Box tight_bounds(const Field& body);
 
 /// Returns the part's recipe as it was designed: not turned, mirrored or laid on a face.

@@ -60,6 +60,9 @@ TEST_CASE("orient says what it cannot write", "[orientation]") {
     const Outcome shape = run_lamella("orient --shape box --shape-size 4,5,6 --write 1");
     CHECK(shape.code == 2);
     CHECK(mentions(shape.err, "--lay-on="));
+    const Outcome goal = run_lamella("orient --shape box --shape-size 4,5,6 --for strength");
+    CHECK(goal.code == 2);
+    CHECK(mentions(goal.err, "supports,height,surface,area"));
 }
 
 }  // namespace command_orient_test

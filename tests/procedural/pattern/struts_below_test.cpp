@@ -80,7 +80,7 @@ TEST_CASE("a disc in a level ceiling gets a strut to what walls hold, and then h
     CHECK(from_middle(struts.front().back()) > 3.7);
     const std::vector<float> drawn = struts_along(sites, struts.front(), strut, 2);
     for (std::size_t i = 0; i < sites.size(); ++i) distances[i] = std::max(distances[i], drawn[i]);
-    CHECK(HangingPieces(sites, *body, depth).find(distances).empty());
+    CHECK(HangingPieces(sites, *body, depth).find(CarriedDistance(sites, distances)).empty());
 }
 
 TEST_CASE("a pattern that supports itself begins nowhere in the air", "[pattern]") {

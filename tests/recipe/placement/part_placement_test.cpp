@@ -224,6 +224,12 @@ TEST_CASE("what cannot be turned says so", "[placement]") {
         "4\nwidth = 1\n[elements]\ncount = 10\n";
     CHECK(mentions(complaint_about(block + loaded), "cannot be turned with the part"));
     CHECK(mentions(complaint_about(block + "lay_on_at = [[0, 0, 0]]\n"), "accepted: a point on a face"));
+    CHECK(mentions(complaint_about(block + "lay_on = [0, 0, 1]\nlay_on_at = [[7, 0, 0]]\n"),
+                   "lay_on_at: cannot be combined with part.lay_on"));
+    const std::string overhang =
+        "turn = [90, 0, 0]\n[[load]]\nface = \"+z\"\nforce = [0, 0, -1]\n[[anchor]]\nface = "
+        "\"-z\"\n[optimize]\nvolume = 0.5\nelements = 8\niterations = 2\noverhang = true\n";
+    CHECK(mentions(complaint_about(block + overhang), "optimize.overhang: "));
 }
 
 }  // namespace part_placement_test
