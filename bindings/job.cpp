@@ -21,12 +21,12 @@ std::function<void(const char*, const Progress&)> progress_to(lamella_on_progres
 
 lamella_job_info job_info(const Job& job) {
     lamella_job_info info{};
-    info.layer_count = job.layer_count;
+    info.layer_count = job.layers.count();
     for (int axis = 0; axis < 3; ++axis) {
         info.lower[axis] = job.bounds.lo[axis];
         info.upper[axis] = job.bounds.hi[axis];
     }
-    info.layer_height = job.layer_height;
+    info.layer_height = job.layers.height(0);
     info.has_supports = job.supports != nullptr;
     info.name = job.name.c_str();
     info.identity = job.identity.c_str();
@@ -111,8 +111,17 @@ std::int32_t lamella_job_layer_z(lamella_context* context, const lamella_job* jo
                                  double* z) {
     return guarded(context, [&] {
         const Job& made = job_of(job).job;
-        if (layer < 0 || layer >= made.layer_count) throw BadCall("layer: the job has no such layer");
+        if (layer < 0 || layer >= made.layers.count()) throw BadCall("layer: the job has no such layer");
         wanted(z, "z") = made.plane(layer);
+    });
+}
+
+std::int32_t lamella_job_layer_height(lamella_context* context, const lamella_job* job, std::int32_t layer,
+                                      double* height) {
+    return guarded(context, [&] {
+        const Job& made = job_of(job).job;
+        if (layer < 0 || layer >= made.layers.count()) throw BadCall("layer: the job has no such layer");
+        wanted(height, "height") = made.layers.height(layer);
     });
 }
 

@@ -219,7 +219,7 @@ typedef struct lamella_job_info {
     uint32_t struct_size;
     int32_t layer_count;
     double lower[3], upper[3]; /* bounds of part and supports; the bed lies at lower[2] */
-    double layer_height;       /* mm */
+    double layer_height;       /* of the first layer, mm; see lamella_job_layer_height() */
     int32_t has_supports;      /* 1 or 0 */
     const char* name;          /* of the part */
     const char* identity;      /* 32 hexadecimal digits; jobs with equal ones make equal layers */
@@ -232,6 +232,9 @@ LAMELLA_API int32_t lamella_job_build(lamella_context* context, const lamella_re
 LAMELLA_API void lamella_job_destroy(lamella_job* job);
 LAMELLA_API int32_t lamella_job_info_get(lamella_context* context, const lamella_job* job,
                                          lamella_job_info* info);
+/* Returns how high a layer is, mm. */
+LAMELLA_API int32_t lamella_job_layer_height(lamella_context* context, const lamella_job* job, int32_t layer,
+                                             double* height);
 /* Returns the height at which a layer is cut, half-way up the layer: mm in part coordinates. */
 LAMELLA_API int32_t lamella_job_layer_z(lamella_context* context, const lamella_job* job, int32_t layer,
                                         double* z);

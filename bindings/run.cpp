@@ -13,10 +13,10 @@ void stream(const lamella_job& job, Backend& backend, const lamella_run_options&
             lamella_run_report* report) {
     StreamOptions with;
     with.range = {options.first, options.last};
-    if (options.first == 0 && options.last == 0) with.range = {0, job.job.layer_count};
-    if (options.first < 0 || with.range.count() < 1 || with.range.last > job.job.layer_count) {
+    if (options.first == 0 && options.last == 0) with.range = {0, job.job.layers.count()};
+    if (options.first < 0 || with.range.count() < 1 || with.range.last > job.job.layers.count()) {
         throw BadCall(fmt::format("options: layers {} to {} are none of the {} that there are", options.first,
-                                  options.last, job.job.layer_count));
+                                  options.last, job.job.layers.count()));
     }
     if (options.threads < 0 || options.look_ahead < 0)
         throw BadCall("options: threads or look_ahead is below 0");

@@ -24,7 +24,7 @@ void set_bounds(lamella_section& section) {
     }
 }
 
-std::unique_ptr<lamella_section> cut_at(const Job& job, double z, int layer) {
+std::unique_ptr<lamella_section> cut_at(const Job& job, double z, int layer = -1) {
     auto made = std::make_unique<lamella_section>();
     made->parts = {job.part, job.supports};
     made->context = std::make_unique<SliceContext>();
@@ -32,7 +32,7 @@ std::unique_ptr<lamella_section> cut_at(const Job& job, double z, int layer) {
     if (job.supports) made->supports = &made->context->slice(*job.supports, z);
     made->info.layer = layer;
     made->info.z = z;
-    made->info.thickness = job.layer_height;
+    made->info.thickness = job.layers.height(layer >= 0 ? layer : job.layers.layer_at(z - job.z0()));
     set_bounds(*made);
     return made;
 }
@@ -153,7 +153,7 @@ std::int32_t lamella_section_open(lamella_context* context, const lamella_job* j
     return guarded(context, [&] {
         wanted(section, "section");
         if (!std::isfinite(z)) throw BadCall("z: must be finite");
-        *section = cut_at(wanted(job, "job").job, z, -1).release();
+        *section = cut_at(wanted(job, "job").job, z).release();
     });
 }
 
@@ -162,7 +162,7 @@ std::int32_t lamella_section_open_layer(lamella_context* context, const lamella_
     return guarded(context, [&] {
         wanted(section, "section");
         const Job& cut = wanted(job, "job").job;
-        if (layer < 0 || layer >= cut.layer_count) throw BadCall("layer: the job has no such layer");
+        if (layer < 0 || layer >= cut.layers.count()) throw BadCall("layer: the job has no such layer");
         *section = cut_at(cut, cut.plane(layer), layer).release();
     });
 }

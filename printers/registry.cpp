@@ -67,6 +67,7 @@ constexpr std::array backend_table = {
                 .default_supports = resin_supports,
                 .build_volume = display_build_volume,
                 .embeds_picture = previews,
+                .layer_heights = LayerHeights::first,
                 .streams = true},
     BackendInfo{.name = "goo",
                 .description = "file for resin printers with 8-bit displays",
@@ -87,6 +88,7 @@ constexpr std::array backend_table = {
                 .process = always<Process::resin>,
                 .default_supports = resin_supports,
                 .build_volume = display_build_volume,
+                .layer_heights = LayerHeights::equal,
                 .streams = true},
     BackendInfo{.name = "ember",
                 .description = "tar.gz for the resin printer Autodesk Ember",
@@ -97,6 +99,7 @@ constexpr std::array backend_table = {
                 .process = always<Process::resin>,
                 .default_supports = resin_supports,
                 .build_volume = display_build_volume,
+                .layer_heights = LayerHeights::equal,
                 .streams = true},
     BackendInfo{.name = "svg",
                 .description = "contours in mm: one SVG with a group a layer, or one file a layer",
@@ -151,6 +154,7 @@ constexpr std::array backend_table = {
         .make = make_image3d,
         .content = LayerContent::voxels,
         .process = always<Process::powder>,
+        .layer_heights = LayerHeights::equal,
         .streams = true,
         .warning = "programs that do not know 3MF volumes refuse the file or show a plain box"},
 };
@@ -202,6 +206,13 @@ dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height) {
 Process process_of(const PrinterProfile& profile) {
     if (profile.check.process != Process::from_backend) return profile.check.process;
     return find_backend(profile.backend).process(profile);
+}
+
+void check_layer_heights(const PrinterProfile& profile, const LayerPlan& layers) {
+    const BackendInfo& backend = find_backend(profile.backend);
+    const bool cuts = process_of(profile) == Process::cutting;
+    check_layer_heights(cuts ? LayerHeights::equal : backend.layer_heights, layers, {0, layers.count()},
+                        cuts ? "a sheet of material" : backend.name);
 }
 
 bool cuts_sheets(const PrinterProfile& profile) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/layers/backend.h"
+#include "printers/common/layer_heights.h"
 #include "printers/common/profile.h"
 
 namespace lamella {
@@ -43,6 +44,7 @@ struct BackendInfo {
     bool (*embeds_picture)(const PrinterProfile& profile) = nullptr;
     /// Whether its output is sheets of material to be cut, which take no supports; null: never.
     bool (*cuts_sheets)(const PrinterProfile& profile) = nullptr;
+    LayerHeights layer_heights = LayerHeights::any;
     bool streams = false;           ///< writes to standard output as well
     const char* warning = nullptr;  ///< what a recipient of its files should know
 };
@@ -56,6 +58,10 @@ dvec3 build_volume_limits(const PrinterProfile& profile, double layer_height);
 
 /// Returns the process that a profile's machine works by: the profile's own, or else that of its back-end.
 Process process_of(const PrinterProfile& profile);
+
+/// Throws InputError for layers that differ more in height than a profile's back-end allows; layers that are
+/// cut out of sheets are equal.
+void check_layer_heights(const PrinterProfile& profile, const LayerPlan& layers);
 
 /// Whether the back-end of a profile turns layers into beads.
 bool makes_beads(const PrinterProfile& profile);

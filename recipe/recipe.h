@@ -253,6 +253,16 @@ struct HoleRecipe {
     bool through = false;  ///< the hole also passes through the foam
 };
 
+/// How the print is cut into layers.
+struct LayersRecipe {
+    double height = 0.05;  ///< mm
+    double first = 0;      ///< height of the first layer, mm; 0: as the others
+    NumberRows heights;  ///< rows of a height over the bed and of the layers' from there on, mm; empty: none
+    double cusp = 0;     ///< largest distance between steps and surface, mm; 0: layers do not adapt to it
+    double least = 0;    ///< height of adapted layers at least, mm; 0: half of `height`
+    double most = 0;     ///< and at most, mm; 0: one and a half times `height`
+};
+
 /// Copies of the part on one plate.
 struct PlateRecipe {
     int copies = 1;
@@ -287,7 +297,7 @@ struct Recipe {
     std::optional<RepairRecipe> repair;
     std::vector<HoleRecipe> holes;
     SupportKind support = SupportKind::none;
-    double layer_height = 0.05;  ///< mm
+    LayersRecipe layers;
     PlateRecipe plate;
     OutputRecipe output;
     PrinterProfile printer;

@@ -119,6 +119,7 @@ class RecipeDraft {
     void check_second_image();
     void check_cut_skin(const Recipe& recipe);
     void check_drains(const Recipe& recipe);
+    void check_layers(const LayersRecipe& layers);
     void check_enclosures(const Recipe& recipe);
     void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);

@@ -238,6 +238,43 @@ void RecipeDraft::check_drains(const Recipe& recipe) {
 }
 
 /// Checks cavities and the shield against the settings that they depend on.
+void RecipeDraft::check_layers(const LayersRecipe& layers) {
+    constexpr double thinnest = 0.001, thickest = 10;  // mm
+    double from = -1;
+    for (const std::vector<double>& row : layers.heights) {
+        if (row[0] <= from) {
+            refuse(0,
+                   fmt::format(
+                       "{}: {} mm over the bed does not come after {} mm; accepted: pairs in ascending order",
+                       where("layers", "heights"), row[0], from));
+        }
+        if (row[1] < thinnest || row[1] > thickest) {
+            refuse(0, fmt::format("{}: layers of {} mm; accepted: {} to {} mm", where("layers", "heights"),
+                                  row[1], thinnest, thickest));
+        }
+        from = row[0];
+    }
+    if (layers.cusp > 0 && !layers.heights.empty()) {
+        refuse(0, fmt::format("{}: cannot be combined with layers.cusp; accepted: one of the two",
+                              where("layers", "heights")));
+    }
+    for (const char* key : {"least", "most"}) {
+        if (const Entry* given = entry("layers", key); given && layers.cusp == 0) {
+            refuse(0, fmt::format(
+                          "{}: has no effect without layers.cusp; accepted: layers.cusp / --cusp as well",
+                          given->where));
+        }
+    }
+    const double least = layers.least > 0 ? layers.least : layers.height / 2;
+    const double most = layers.most > 0 ? layers.most : layers.height * 3 / 2;
+    if (layers.cusp > 0 && least > most) {
+        refuse(0,
+               fmt::format("{}: layers of {:.6g} mm at least and {:.6g} mm at most; accepted: layers.least / "
+                           "--least-layer of no more than layers.most / --most-layer",
+                           where("layers", layers.least > 0 ? "least" : "most"), least, most));
+    }
+}
+
 void RecipeDraft::check_enclosures(const Recipe& recipe) {
     if (recipe.cavity && (recipe.foam || recipe.skin)) {
         refuse(
@@ -277,6 +314,7 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     if (recipe.material) check_material(recipe);
     if (recipe.frame) check_frame(recipe);
     check_output(recipe.output);
+    check_layers(recipe.layers);
     check_enclosures(recipe);
     check_scripts(recipe.printer.gcode);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);

@@ -18,6 +18,7 @@
 #include "app/reports/job_report.h"
 #include "app/reports/memory_bound.h"
 #include "engine/base/text.h"
+#include "printers/common/layer_heights.h"
 #include "printers/readers/read_job.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/json_triple.h"
@@ -156,8 +157,9 @@ Json describe(const Recipe& recipe, const BuiltJob& built, int threads) {
               {"identity", job.identity},
               {"bounds_mm", {{"lo", json_triple(job.bounds.lo)}, {"hi", json_triple(job.bounds.hi)}}},
               {"size_mm", json_triple(job.bounds.size())},
-              {"layer_height_mm", job.layer_height},
-              {"layers", job.layer_count}};
+              {"layer_height_mm", layer_heights_json(job.layers)},
+              {"layers", job.layers.count()}};
+    if (built.layers.cusp) info["cusp_mm"] = *built.layers.cusp;
     if (built.mesh) info["mesh"] = mesh_json(*built.mesh);
     if (built.foam) info["foam"] = foam_json(*recipe.foam, *built.foam, built.designed.bounds);
     if (built.elements) info["elements"] = elements_json(*built.elements);
@@ -304,8 +306,9 @@ std::string as_text(const Json& info, const BuiltJob& built) {
         fmt::format("part      {}, {}\n", info["name"].get<std::string>(), size_text(info["size_mm"]));
     text += fmt::format("bounds    {} to {}\n", point_text(info["bounds_mm"]["lo"]),
                         point_text(info["bounds_mm"]["hi"]));
-    text += fmt::format("layers    {} of {} mm\n", info["layers"].get<int>(),
-                        info["layer_height_mm"].get<double>());
+    text += fmt::format("layers    {} of {}", info["layers"].get<int>(), built.job.layers.heights_text());
+    if (built.layers.cusp) text += fmt::format(", cusps up to {:.3g} mm", *built.layers.cusp);
+    text += "\n";
     if (info.contains("mesh")) text += mesh_text(info["mesh"]);
     if (info.contains("foam")) text += foam_text(info["foam"]);
     if (built.elements) text += fmt::format("elements  {}\n", elements_text(*built.elements));

@@ -193,7 +193,7 @@ void check_sharing(const SliceOptions& options, const Ranks* ranks) {
 std::unique_ptr<Backend> layers_to(const SliceOptions& options, const std::vector<Output>& outputs,
                                    const Job& job) {
     if (options.shard.empty()) return make_outputs(outputs, options.force);
-    return make_shard_writer(make_renderer(outputs, {0, job.layer_count}), options.shard,
+    return make_shard_writer(make_renderer(outputs, {0, job.layers.count()}), options.shard,
                              settings_of(outputs), options.force);
 }
 

@@ -10,9 +10,11 @@
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
 #include "engine/layers/plate.h"
+#include "printers/registry.h"
 #include "procedural/elements/element_optimizer.h"
 #include "recipe/build/repair_job.h"
 #include "recipe/layer_range.h"
+#include "recipe/layering/plan_layers.h"
 #include "recipe/output/job_picture.h"
 #include "recipe/printer_choice.h"
 #include "recipe/read_recipe.h"
@@ -37,7 +39,7 @@ std::vector<Recipe> read_beside(const JobOptions& options, const Recipe& first) 
     for (const std::string& input : options.beside) {
         Recipe recipe = read_recipe(input, options.recipe.profiles());
         recipe.printer = first.printer;
-        recipe.layer_height = first.layer_height;
+        recipe.layers = first.layers;
         recipe.support = first.support;
         recipes.push_back(std::move(recipe));
     }
@@ -158,12 +160,13 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
         std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
     // Surveys take time: report mistakes before them.
-    parse_layers(options.layers, built.job.layer_count + lifted_layers(recipe, built.job));
+    check_layer_heights(recipe.printer, built.job.layers.raised(lift_layers(recipe)));
+    parse_layers(options.layers, built.job.layers.count() + lift_layers(recipe).count());
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
     if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;
-    stream.range = parse_layers(options.layers, built.job.layer_count);
+    stream.range = parse_layers(options.layers, built.job.layers.count());
     stream.threads = options.threads;
     stream.look_ahead = options.look_ahead;
     stream.resume = options.resume;

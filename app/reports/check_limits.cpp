@@ -65,8 +65,9 @@ CheckPlan plan_check(const PrinterProfile& printer, const Job& job, int parts) {
     plan.process = process_of(printer);
     PrintLimits& limits = plan.options.limits;
     limits = process_limits(printer);
-    limits.overhang = printable_overhang(printer, job.layer_height);
-    limits.build_volume = build_volume_limits(printer, job.layer_height);
+    limits.overhang = printable_overhang(printer, job.layers.least_height());
+    limits.overhang_grows = printer.support.overhang == 0 && !makes_beads(printer);
+    limits.build_volume = build_volume_limits(printer, job.layers.height(0));
     if (limits.build_volume == dvec3(infinity)) verdict_of(limits, Check::build_volume) = Severity::off;
     plan.options.max_places = static_cast<std::size_t>(printer.check.places);
     allow_several(plan, parts);

@@ -177,7 +177,7 @@ std::string card(const CheckResult& result, const Fault& fault, std::size_t numb
         "<figure>{}{}<figcaption><b>{}. {}</b><br/>at {}<br/>{}, in a box of {:.4g} x {:.4g} x {:.4g} mm<br/>"
         "section of layer {}, {:.2f} mm over the plate</figcaption></figure>\n",
         picture(fault, wrong, report, job), side, number, size, place_text(fault.at), layers_text(fault),
-        box.x, box.y, box.z, fault.layer, (fault.layer + 0.5) * job.layer_height);
+        box.x, box.y, box.z, fault.layer, job.layers.middle(fault.layer));
 }
 
 std::string section_of(const CheckResult& result, const CheckOutcome& outcome, const Job& job) {
@@ -212,11 +212,11 @@ std::string facts(const CheckOutcome& outcome, const Job& job) {
     const dvec3 size = job.bounds.size();
     std::string text = fmt::format(
         "<dl><dt>machine</dt><dd>{} ({})</dd><dt>size</dt><dd>{:.5g} x {:.5g} x {:.5g} mm{}</dd>"
-        "<dt>layers</dt><dd>{} of {:.4g} mm</dd><dt>material</dt><dd>{:.1f} mm3</dd>"
+        "<dt>layers</dt><dd>{} of {}</dd><dt>material</dt><dd>{:.1f} mm3</dd>"
         "<dt>looked at</dt><dd>in rows {:.3g} mm apart</dd></dl>\n",
         escaped(outcome.machine), process_name(outcome.plan.process), size.x, size.y, size.z,
-        job.supports ? " with supports" : "", job.layer_count, job.layer_height, outcome.report.volume,
-        outcome.plan.options.pitch);
+        job.supports ? " with supports" : "", job.layers.count(), job.layers.heights_text(),
+        outcome.report.volume, outcome.plan.options.pitch);
     if (const std::string out = left_out(outcome.report); !out.empty())
         text += fmt::format("<p>Not looked at: {}.</p>\n", out);
     for (const std::string& note : outcome.plan.notes) text += fmt::format("<p>{}</p>\n", escaped(note));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/checks/check_table.h"
+#include "printers/common/layer_heights.h"
 #include "recipe/build/json_triple.h"
 #include "recipe/keys/check_words.h"
 
@@ -182,8 +183,8 @@ nlohmann::ordered_json check_json(const CheckOutcome& outcome, const Job& job) {
               {"process", process_name(outcome.plan.process)},
               {"passed", outcome.report.passed()},
               {"identity", job.identity},
-              {"layers", job.layer_count},
-              {"layer_height_mm", job.layer_height},
+              {"layers", job.layers.count()},
+              {"layer_height_mm", layer_heights_json(job.layers)},
               {"pitch_mm", outcome.plan.options.pitch},
               {"volume_mm3", outcome.report.volume},
               {"limits_mm", limits_mm_json(outcome.plan.options.limits)},

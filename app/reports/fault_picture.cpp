@@ -84,7 +84,7 @@ Blocks blocks_of(const Job& job, int first, const Fault& fault, const RowBand& b
     wrong.add(fault.runs, band);
     printed.back().subtract(wrong);
     for (RunCoverage& shares : printed) shares.blur();
-    const auto bottom = [&](int layer) { return job.z0() + layer * job.layer_height; };
+    const auto bottom = [&](int layer) { return job.z0() + job.layers.bottom(layer); };
     const dvec3 top{rect.hi, bottom(fault.layer + 1)};
     return {std::make_shared<LayerBlock>(Box{{rect.lo, bottom(first)}, top}, std::move(printed)),
             std::make_shared<LayerBlock>(Box{{rect.lo, bottom(fault.layer)}, top}, std::vector{wrong})};
@@ -108,8 +108,9 @@ SectionPicture draw_section(const Job& job, int layer, const Rect& shown, int wi
 
 Picture draw_fault(const Job& job, const Fault& fault, const RowBand& band, int width) {
     const Rect rect = about_fault(fault, band, job);
-    const int depth = static_cast<int>(std::ceil(rect.size().y / 2 / job.layer_height));
-    const Blocks blocks = blocks_of(job, std::max(0, fault.layer - depth), fault, band, rect, width / 2);
+    const double depth = rect.size().y / 2;
+    const int first = job.layers.layer_at(job.layers.bottom(fault.layer) - depth);
+    const Blocks blocks = blocks_of(job, first, fault, band, rect, width / 2);
     PreviewOptions options;
     options.width = width;
     options.height = width * 3 / 4;

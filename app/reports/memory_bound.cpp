@@ -43,7 +43,7 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
     const int workers = thread_count(threads);
     const dvec3 size = built.job.bounds.size();
     MemoryBound bound;
-    bound.layers_in_flight = std::min(2 * workers, built.job.layer_count);
+    bound.layers_in_flight = std::min(2 * workers, built.job.layers.count());
     bound.base_bytes = program_bytes;
     bound.picture_bytes = picture_bytes(recipe, size);
     if (built.mesh) {
@@ -57,8 +57,8 @@ MemoryBound memory_bound(const Recipe& recipe, const BuiltJob& built, int thread
         const double seeds_per_mm = size.x * size.y * foam.densest_plane;  // per mm of height
         const double met = beam_length_per_cell / std::cbrt(foam.densest_plane) / 2 + 2 * foam.mean_member;
         bound.beams_per_layer = seeds_per_mm * beams_per_seed / 2 * met;
-        const double reach =
-            bound.layers_in_flight * built.designed.layer_height + reach_in_cells * foam.greatest_cell;
+        const double reach = bound.layers_in_flight * built.designed.layers.greatest_height() +
+                             reach_in_cells * foam.greatest_cell;
         bound.cell_bytes = static_cast<std::int64_t>(
             seeds_per_mm * std::min(reach, size.z + 2 * foam.greatest_cell) * bytes_per_seed);
     }

@@ -25,7 +25,6 @@ const CheckInfo& check_info(Check check);
 /// What a check is made for.
 struct CheckContext {
     CheckGrid grid;
-    int layer_count = 0;
     PrintLimits limits;
     std::size_t max_faults = 10;  ///< of each kind that are kept
 };

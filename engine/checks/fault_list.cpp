@@ -2,6 +2,7 @@
 #include "engine/checks/fault_list.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamella {
 namespace {
@@ -18,7 +19,13 @@ bool worse(const Fault& a, const Fault& b) {
 Box CheckGrid::box(const ComponentExtent& extent) const {
     const dvec2 lo = on_band(band, extent.along.begin, extent.first_row),
                 hi = on_band(band, extent.along.end, extent.last_row + 1);
-    return {{lo, z0 + extent.first_layer * layer_height}, {hi, z0 + (extent.last_layer + 1) * layer_height}};
+    return {{lo, z0 + layers.bottom(extent.first_layer)}, {hi, z0 + layers.top(extent.last_layer)}};
+}
+
+void CheckGrid::weigh(LabelledLayer& labelled, int layer) const {
+    if (layers.equal()) return;
+    const std::int64_t weight = std::llround(layers.height(layer) / unit_height());
+    for (ComponentExtent& component : labelled.components) component.length *= weight;
 }
 
 Fault CheckGrid::fault(const StreamingComponent& component) const {

@@ -2,29 +2,40 @@
 #pragma once
 
 #include "engine/checks/print_check.h"
+#include "engine/layers/layer_plan.h"
 #include "engine/runs/streaming_components.h"
 
 namespace lamella {
 
 /// The positions of a check's rows and layers.
 struct CheckGrid {
-    RowBand band;             ///< rows of every layer, one line per row
-    double z0 = 0;            ///< lower side of layer 0, mm
-    double layer_height = 0;  ///< mm
+    RowBand band;   ///< rows of every layer, one line per row
+    double z0 = 0;  ///< lower side of layer 0, mm
+    LayerPlan layers;
 
     /// Returns the area (mm^2) of runs from the sum of their lengths (run units).
     double area(std::int64_t length) const {
         return static_cast<double>(length) / run_unit * band.along_pitch * band.across_pitch;
     }
-    /// Returns the volume (mm^3) of runs from the sum of their lengths (run units).
-    double volume(std::int64_t length) const { return area(length) * layer_height; }
+    /// Returns the volume (mm^3) of runs from the sum of their lengths (run units), weighed where layers
+    /// vary.
+    double volume(std::int64_t length) const {
+        return area(length) * (layers.equal() ? layers.least_height() : unit_height());
+    }
+    /// Weighs the lengths of a layer's components by its height, for volume(); leaves them where layers are
+    /// equal.
+    void weigh(LabelledLayer& labelled, int layer) const;
     /// Returns the height of a layer's cutting plane, mm.
-    double plane(int layer) const { return z0 + (layer + 0.5) * layer_height; }
+    double plane(int layer) const { return z0 + layers.middle(layer); }
     Box box(const ComponentExtent& extent) const;
     /// Makes a fault of a component. The caller sets its size.
     Fault fault(const StreamingComponent& component) const;
     /// Makes a fault of a patch in one layer. The caller sets its size.
     Fault fault(const LayerPatch& patch) const;
+
+  private:
+    /// The height that a weight of one stands for, mm: fine enough for a part in two thousand.
+    double unit_height() const { return layers.least_height() / 1024; }
 };
 
 /// Keeps the `most` largest faults. Of equally large ones it prefers the lowest, then the least y, then the

@@ -27,7 +27,7 @@ void EmptyCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
     if (begin_ < 0) begin_ = layer.index;
 }
 
-void EmptyCheck::finish() { end_gap(layer_count_); }
+void EmptyCheck::finish() { end_gap(grid_.layers.count()); }
 
 void EmptyCheck::end_gap(int end) {
     if (begin_ < 0) return;
@@ -35,7 +35,7 @@ void EmptyCheck::end_gap(int end) {
     fault.layer = fault.first_layer = begin_;
     fault.end_layer = end;
     const Rect plane = grid_.band.rect();
-    const double lo = grid_.z0 + begin_ * grid_.layer_height, hi = grid_.z0 + end * grid_.layer_height;
+    const double lo = grid_.z0 + grid_.layers.bottom(begin_), hi = grid_.z0 + grid_.layers.bottom(end);
     fault.at = {(plane.lo + plane.hi) / 2.0, grid_.plane(begin_)};
     fault.size = hi - lo;
     fault.box = {{plane.lo, lo}, {plane.hi, hi}};
@@ -65,13 +65,15 @@ void ReachCheck::finish() {
     judge(along, size[along], along_);
     judge(across, size[across], across_);
     // Heights count from the bed, even if the first layers are empty.
-    judge(2, (extent_.last_layer + 1) * grid_.layer_height, top_);
+    judge(2, grid_.layers.top(extent_.last_layer), top_);
 }
 
 void ReachCheck::judge(glm::length_t axis, double size, const PlacedRun& end) {
     // Extents across rows and layers are exact to one row or layer.
     const bool is_along = axis == (grid_.band.axis == Axis::x ? 0 : 1);
-    const double known = axis == 2 ? grid_.layer_height : is_along ? 1e-6 : grid_.band.across_pitch;
+    const double known = axis == 2  ? grid_.layers.height(end.layer)
+                         : is_along ? 1e-6
+                                    : grid_.band.across_pitch;
     if (size <= build_volume_[axis] + known) return;
     LayerPatch patch{.layer = end.layer};
     patch.include(end);

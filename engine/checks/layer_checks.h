@@ -20,8 +20,7 @@ class SheetCheck : public LayerCheck {
 /// Empty-layer check: consecutive empty layers are one fault.
 class EmptyCheck : public LayerCheck {
   public:
-    explicit EmptyCheck(const CheckContext& context)
-        : grid_(context.grid), layer_count_(context.layer_count), faults_(context.max_faults) {}
+    explicit EmptyCheck(const CheckContext& context) : grid_(context.grid), faults_(context.max_faults) {}
     void add(LayerSample& layer, PreparedRows prepared) override;
     void finish() override;
     const FaultList& faults(Check /*check*/) const override { return faults_; }
@@ -30,7 +29,6 @@ class EmptyCheck : public LayerCheck {
     void end_gap(int end);
 
     CheckGrid grid_;
-    int layer_count_;
     int begin_ = -1;  // first of the current empty layers; -1: none
     FaultList faults_;
 };

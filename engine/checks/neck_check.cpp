@@ -30,22 +30,26 @@ CheckSampling NeckCheck::sampling_for(const CheckGrid& grid, double thickness) {
     const auto one_of = [&](double pitch, double samples) {
         return std::max(1, static_cast<int>(thickness / (samples * pitch) * (1 + 1e-9)));
     };
-    return {one_of(grid.band.across_pitch, rows_in_a_neck), one_of(grid.layer_height, layers_in_a_neck)};
+    const double least = grid.layers.least_height();
+    return {one_of(grid.band.across_pitch, rows_in_a_neck), one_of(least, layers_in_a_neck),
+            std::max(least, thickness / layers_in_a_neck)};
 }
 
 NeckCheck::NeckCheck(const CheckContext& context, const CheckSampling& sampling)
-    : grid_(sampling.subsample(context.grid)),
+    : whole_(context.grid),
+      grid_(sampling.subsample(context.grid)),
       sampling_(sampling),
       large_part_(context.limits.large_part),
       thin_(thin_layers(
-          sampled_ball(grid_.band, grid_.layer_height, context.limits.neck, context.limits.neck))),
+          sampled_ball(grid_.band, grid_.layers.least_height(), context.limits.neck, context.limits.neck))),
       necks_(context.max_faults) {}
 
 void NeckCheck::add(LayerSample& layer, PreparedRows /*prepared*/) {
-    if (!sampling_.samples(pushed_++)) return;
-    solid_.push_back(sampling_.subsample(layer.rows.part));
-    thin_.push(solid_.back());
-    carry_on();
+    for (int k = sampling_.samples(whole_.layers, layer.index); k > 0; --k) {
+        solid_.push_back(sampling_.subsample(layer.rows.part));
+        thin_.push(solid_.back());
+        carry_on();
+    }
 }
 
 void NeckCheck::carry_on() {
@@ -138,7 +142,7 @@ void NeckCheck::finish() {
 Fault NeckCheck::neck(const StreamingComponent& rest) const {
     Fault fault = grid_.fault(rest);
     fault.size = grid_.volume(rest.extent.length);
-    return sampling_.to_full_resolution(std::move(fault), grid_, pushed_);
+    return sampling_.to_full_resolution(std::move(fault), whole_);
 }
 
 }  // namespace lamella

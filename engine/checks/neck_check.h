@@ -40,9 +40,8 @@ class NeckCheck : public LayerCheck {
     void forget_what_is_settled();
     Fault neck(const StreamingComponent& rest) const;
 
-    CheckGrid grid_;  // sampled
+    CheckGrid whole_, grid_;  // grid_ is sampled
     CheckSampling sampling_;
-    int pushed_ = 0;  // number of layers
     double large_part_;
     ThinFeatureStream thin_;
     std::deque<RunRows> solid_;  // layers that are not split yet

@@ -122,7 +122,7 @@ std::size_t layers_of_slope(const CheckGrid& grid, const PrintLimits& limits) {
 }
 
 std::size_t layers_of_small_island(const CheckGrid& grid, const PrintLimits& limits) {
-    const double layers = std::sqrt(limits.island) / grid.layer_height;
+    const double layers = std::sqrt(limits.island) / grid.layers.greatest_height();
     return limits.island > 0 ? static_cast<std::size_t>(std::clamp(layers, 1.0, max_island_layers)) : 0;
 }
 
@@ -133,14 +133,20 @@ OverhangCheck::OverhangCheck(const CheckContext& context)
       limits_(context.limits),
       follows_overhangs_(limits_.verdict(Check::overhangs) != Severity::off ||
                          limits_.verdict(Check::bridges) != Severity::off),
-      step_(limits_.overhang / grid_.band.along_pitch),
       slope_layers_(follows_overhangs_ ? layers_of_slope(grid_, limits_) : 0),
-      support_layers_(1 + layers_in(limits_.support_gap, grid_.layer_height)),
+      support_layers_(1 + layers_in(limits_.support_gap, grid_.layers.least_height())),
       unheld_layers_(layers_of_small_island(grid_, limits_)),
       supports_(grid_, limits_.support_spacing, limits_.support_gap),
       islands_(context.max_faults),
       overhangs_(context.max_faults),
       bridges_(context.max_faults) {}
+
+double OverhangCheck::allowance(int index, std::size_t layers_below) const {
+    const double step = limits_.overhang / grid_.band.along_pitch;
+    if (!limits_.overhang_grows || grid_.layers.equal()) return static_cast<double>(layers_below) * step;
+    const double height = grid_.layers.height(index + 1 - static_cast<int>(layers_below), index + 1);
+    return step * height / grid_.layers.least_height();
+}
 
 void OverhangCheck::add(LayerSample& sample, PreparedRows /*prepared*/) {
     LayerFootprint layer = std::move(sample.rows);
@@ -169,13 +175,13 @@ void OverhangCheck::follow_overhangs(const LayerFootprint& layer, const RowBitma
                                      const RunRows& islands, Below& next, int index) {
     // Sampled by rows, a border may seem up to a pitch farther in.
     const Below& below = below_.back();
-    const RunRows out =
-        beyond(maybe_beyond(layer.part, outer, *below.inner, step_ + 1), below.rows.part, step_ + 1);
+    const double reach = allowance(index, 1) + 1;
+    const RunRows out = beyond(maybe_beyond(layer.part, outer, *below.inner, reach), below.rows.part, reach);
     const RunRows hanging = without(supports_.unheld(out), islands);
     const RunRows bad = judge_regions(layer, hanging, index);
     next.hung = united(without(hanging, bad), islands);
-    const RunRows steep = too_steep(layer, outer, next.hung);
-    add_overhang(standing_out(layer, united(bad, steep)), index);
+    const RunRows steep = too_steep(layer, outer, next.hung, index);
+    add_overhang(standing_out(layer, united(bad, steep), index), index);
 }
 
 /// Returns the islands of a layer, and adds those that matter to the faults.
@@ -246,12 +252,12 @@ RunRows OverhangCheck::keep_small(const LayerFootprint& layer, const LabelledLay
 }
 
 /// Returns the points that stand out too far over several layers, except those above regions that may hang.
-RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& outer,
-                                 const RunRows& hangs) const {
+RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& hangs,
+                                 int index) const {
     RunRows none = empty_rows(layer.part.lines());
     if (below_.size() < slope_layers_) return none;
     const std::size_t first = below_.size() - slope_layers_;
-    const double far = static_cast<double>(slope_layers_) * step_ + 1;
+    const double far = allowance(index, slope_layers_) + 1;
     // Parts of small pieces are small: no need to test them.
     const auto large = [&](const RunRows& rows) { return large_pieces(rows, limits_.free_stretch, grid_); };
     const Below& lowest = below_[first];
@@ -260,7 +266,7 @@ RunRows OverhangCheck::too_steep(const LayerFootprint& layer, const RowBitmask& 
     RunRows steep = large(maybe_beyond(layer.part, outer, lowest.inner ? *lowest.inner : *anew, far));
     const auto explain = [&](const RunRows& hung, std::size_t layers_below) {
         if (steep.runs().empty() || hung.runs().empty()) return;
-        steep = beyond(steep, hung, static_cast<double>(layers_below) * step_ + 1);
+        steep = beyond(steep, hung, allowance(index, layers_below) + 1);
     };
     explain(hangs, 0);
     for (std::size_t k = below_.size() - 1; k > first; --k) explain(below_[k].hung, below_.size() - k);
@@ -301,9 +307,9 @@ RunRows OverhangCheck::judge_regions(const LayerFootprint& layer, const RunRows&
 
 /// Extends `found` to all points nearby that stand out over the layer below, so that faults are connected
 /// from layer to layer.
-RunRows OverhangCheck::standing_out(const LayerFootprint& layer, const RunRows& found) const {
+RunRows OverhangCheck::standing_out(const LayerFootprint& layer, const RunRows& found, int index) const {
     if (found.runs().empty()) return found;
-    const double reach = 2 * step_ + 2;
+    const double reach = 2 * allowance(index, 1) + 2;
     const CellLattice& lattice = below_.back().inner->lattice();
     const RowBitmask near = LayerCells(found, lattice).outer.grown(outer_disc(reach * run_unit, run_unit));
     const RunRows all = without(near.clip(layer.part, lattice.margin_lines), below_.back().rows.printed());

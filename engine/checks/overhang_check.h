@@ -48,15 +48,17 @@ class OverhangCheck : public LayerCheck {
                                           const std::vector<std::uint8_t>& floats) const;
     RunRows keep_small(const LayerFootprint& layer, const LabelledLayer& printed,
                        const std::vector<std::uint8_t>& floats);
-    RunRows too_steep(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& hangs) const;
+    RunRows too_steep(const LayerFootprint& layer, const RowBitmask& outer, const RunRows& hangs,
+                      int index) const;
     RunRows judge_regions(const LayerFootprint& layer, const RunRows& hanging, int index);
-    RunRows standing_out(const LayerFootprint& layer, const RunRows& found) const;
+    RunRows standing_out(const LayerFootprint& layer, const RunRows& found, int index) const;
     void add_overhang(const RunRows& rows, int index);
+    /// Returns how far a layer may stand out over the one that lies so many layers below it, pitches.
+    double allowance(int index, std::size_t layers_below) const;
 
     CheckGrid grid_;
     PrintLimits limits_;
     bool follows_overhangs_;       // false: looks for islands only
-    double step_;                  // allowed overhang from layer to layer, pitches
     std::size_t slope_layers_;     // number of layers over which a slope is followed
     std::size_t support_layers_;   // number of layers below whose supports may carry an island
     std::deque<Below> below_;      // newest last

@@ -108,11 +108,8 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
 
 struct PrintCheck::State {
     State(const Job& job, const PrintCheckOptions& given)
-        : options(given),
-          rows(check_rows(job, given)),
-          grid{rows.band(), job.z0(), job.layer_height},
-          layer_count(job.layer_count) {
-        const CheckContext context{grid, layer_count, given.limits, given.max_places};
+        : options(given), rows(check_rows(job, given)), grid{rows.band(), job.z0(), job.layers} {
+        const CheckContext context{grid, given.limits, given.max_places};
         std::optional<double> reach;
         for (const CheckPass& pass : check_passes()) {
             const auto wants = [&](Check check) { return given.limits.wants(check); };
@@ -130,7 +127,6 @@ struct PrintCheck::State {
     PrintCheckOptions options;
     CheckRows rows;
     CheckGrid grid;
-    int layer_count;
     std::vector<ActiveCheck> checks;
     std::optional<CellLattice> cells;  // where a check reads cells
     CheckReport report;
@@ -161,7 +157,7 @@ PrintCheck::PrintCheck(const Job& job, const PrintCheckOptions& options) {
 PrintCheck::~PrintCheck() = default;
 
 int PrintCheck::open(const Job& /*job*/, LayerRange range, bool /*resume*/) {
-    if (range.first != 0 || range.last != state_->layer_count)
+    if (range.first != 0 || range.last != state_->grid.layers.count())
         throw InputError("a check looks at all layers of a job; a range of them cannot be checked");
     return 0;
 }
@@ -201,7 +197,7 @@ void PrintCheck::write(const Layer& layer, LayerProduct& product) {
     auto& checked = static_cast<CheckedLayer&>(product);
     LayerSample& sample = checked.layer;
     sample.index = layer.index();
-    state.report.volume += checked.area * state.grid.layer_height;
+    state.report.volume += checked.area * layer.thickness();
     if (state.cells && !sample.cells) sample.cells.emplace(sample.rows.part, *state.cells);
     Scratch scratch;
     sample.rows_in = [&](const RowBand& band) { return printed_rows(layer, band, scratch); };

@@ -46,6 +46,7 @@ struct PrintLimits {
     double neck = 1;                               ///< least thickness of what joins large parts
     double large_part = 1000;                      ///< volume from which a part is large, mm^3
     double overhang = 0.2;                         ///< by which a layer may stand out over the one below
+    bool overhang_grows = false;                   ///< with a layer's height; `overhang` is the least one's
     double free_stretch = 1;                       ///< what hangs and is smaller across needs no hold
     double bridge = 10;                            ///< longest stretch between two holds
     double support_spacing = 3;                    ///< a support holds what lies within this distance

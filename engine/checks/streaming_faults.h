@@ -1,7 +1,6 @@
 // StreamingFaults: joins faulty runs of consecutive layers to faults.
 #pragma once
 
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,16 +15,12 @@ namespace lamella {
 class StreamingFaults {
   public:
     StreamingFaults(const CheckGrid& grid, double least, std::size_t most)
-        : StreamingFaults(grid, {}, std::numeric_limits<int>::max(), least, most) {}
-    /// For subsampled rows and layers; the job has `layer_count` layers in all.
-    StreamingFaults(const CheckGrid& grid, const CheckSampling& sampling, int layer_count, double least,
-                    std::size_t most)
-        : grid_(sampling.subsample(grid)),
-          sampling_(sampling),
-          layer_count_(layer_count),
-          least_(least),
-          faults_(most) {}
+        : StreamingFaults(grid, {}, least, most) {}
+    /// For subsampled rows and layers.
+    StreamingFaults(const CheckGrid& grid, const CheckSampling& sampling, double least, std::size_t most)
+        : whole_(grid), grid_(sampling.subsample(grid)), sampling_(sampling), least_(least), faults_(most) {}
     void add(LabelledLayer layer, int index) {
+        grid_.weigh(layer, index);
         components_.add(std::move(layer), index, {}, ended_);
         take();
     }
@@ -47,13 +42,12 @@ class StreamingFaults {
             if (size.x * size.x + size.y * size.y + size.z * size.z < least_ * least_) continue;
             fault.size = grid_.volume(ended.component.extent.length);
             if (fault.size < least_volume_) continue;
-            faults_.add(sampling_.to_full_resolution(std::move(fault), grid_, layer_count_));
+            faults_.add(sampling_.to_full_resolution(std::move(fault), whole_));
         }
         ended_.clear();
     }
-    CheckGrid grid_;  // sampled
+    CheckGrid whole_, grid_;  // grid_ is sampled
     CheckSampling sampling_;
-    int layer_count_;
     double least_;
     double least_volume_ = 0;
     StreamingComponents components_;

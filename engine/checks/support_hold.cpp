@@ -38,12 +38,12 @@ void take_away(const Run& taken, std::vector<Run>& from) {
 SupportHold::SupportHold(const CheckGrid& grid, double spacing, double gap)
     : spacing_(spacing),
       gap_(gap),
-      layer_height_(grid.layer_height),
+      plan_(grid.layers),
       unit_(grid.band.along_pitch / run_unit),
-      layers_up_(static_cast<std::size_t>((spacing + gap) / grid.layer_height)),
+      layers_up_(static_cast<std::size_t>((spacing + gap) / grid.layers.least_height())),
       last_(empty_rows(static_cast<std::size_t>(grid.band.count))),
       tops_(last_.lines()) {
-    const double most = weight(0);
+    const double most = weight(0, 0);
     for (std::size_t r = 0; r < last_.lines() && square(r) <= most; ++r)
         reaches_.emplace_back(std::sqrt(most - square(r)));
 }
@@ -52,8 +52,9 @@ bool SupportHold::empty() const {
     return last_.runs().empty() && std::ranges::all_of(tops_, &std::vector<Top>::empty);
 }
 
-double SupportHold::weight(std::size_t layers_down) const {
-    const double way = std::max(static_cast<double>(layers_down) * layer_height_ - gap_, 0.0);
+double SupportHold::weight(std::size_t top, std::size_t layer) const {
+    const double apart = plan_.height(static_cast<int>(top), static_cast<int>(layer));
+    const double way = std::max(apart - gap_, 0.0);
     return (spacing_ * spacing_ - way * way) / (unit_ * unit_);
 }
 
@@ -67,7 +68,7 @@ void SupportHold::for_held_by_row(std::size_t row, std::size_t rows_away, const 
     }
     for (const Top& top : tops_[row]) {
         if (!reaches(top.run)) continue;
-        const double left = weight(layers_ - top.layer) - square(rows_away);
+        const double left = weight(top.layer, layers_) - square(rows_away);
         if (left < 0) continue;
         const RoundedExtent reach(std::sqrt(left));
         take({top.run.begin - reach.back, top.run.end + reach.ahead});

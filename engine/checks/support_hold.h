@@ -30,16 +30,17 @@ class SupportHold {
     };
     /// Returns true if no support within reach is left.
     bool empty() const;
-    /// Returns the squared reach, within a layer, of a support that ends `layers_down` below; run units^2,
+    /// Returns the squared reach, within a layer, of a support that ends with layer `top` - 1; run units^2,
     /// negative if there is none.
-    double weight(std::size_t layers_down) const;
+    double weight(std::size_t top, std::size_t layer) const;
     /// Calls take(run) with the intervals that the supports of `row` carry, on a line `rows_away` from it,
     /// near the run `about`.
     template <typename Take>
     void for_held_by_row(std::size_t row, std::size_t rows_away, const Run& about, Take take) const;
 
-    double spacing_, gap_;                // mm
-    double layer_height_, unit_;          // mm; unit_: length of a run unit
+    double spacing_, gap_;  // mm
+    LayerPlan plan_;
+    double unit_;                         // length of a run unit, mm
     std::size_t layers_up_;               // number of layers above its end that a support may carry
     std::vector<RoundedExtent> reaches_;  // reach of supports in the last layer, by rows away
     RunRows last_;                        // supports of the last layer

@@ -10,10 +10,12 @@ namespace {
 
 constexpr double check_slack_share = 1.5;  // slack as a share of the ball's radius; see Thinness
 
-/// Returns of how many layers one is sampled. Layers need not be closer than rows.
-int layers_for(const CheckGrid& grid, double thickness_up) {
+/// Returns the sampling of layers. They need not be closer than rows.
+CheckSampling sampling_for(const CheckGrid& grid, double thickness_up) {
     const double apart = std::min(grid.band.across_pitch, thickness_up / pitches_in_a_thickness);
-    return std::max(1, static_cast<int>(apart / grid.layer_height * (1 + 1e-9)));
+    const double least = grid.layers.least_height();
+    return {1, std::max(1, static_cast<int>(apart / least * (1 + 1e-9))),
+            thickness_up > least ? std::max(apart, least) : 0};
 }
 
 }  // namespace
@@ -25,11 +27,12 @@ ThicknessCheck::ThicknessCheck(const CheckContext& context, FeatureKind kind)
 ThicknessCheck::ThicknessCheck(const CheckContext& context, FeatureKind kind, double thickness,
                                double thickness_up)
     : kind_(kind),
-      sampling_{1, layers_for(context.grid, thickness_up)},
-      found_(context.grid, sampling_, context.layer_count, thickness, context.max_faults) {
+      sampling_(sampling_for(context.grid, thickness_up)),
+      layers_(context.grid.layers),
+      found_(context.grid, sampling_, thickness, context.max_faults) {
     const CheckGrid& grid = context.grid;
     const SampledBall ball =
-        sampled_ball(grid.band, sampling_.subsample(grid).layer_height, thickness, thickness_up);
+        sampled_ball(grid.band, sampling_.subsample(grid).layers.least_height(), thickness, thickness_up);
     // One more pitch of slack: sampled by rows, the border of an opening may seem up to a pitch farther in.
     measure_ = {ball.radius, check_slack_share * ball.radius + run_unit};
     row_pitch_ = ball.lattice.row_pitch;
@@ -49,9 +52,10 @@ bool ThicknessCheck::accepts(const PreparedRows& prepared, std::size_t lines) co
 
 void ThicknessCheck::add(LayerSample& layer, PreparedRows prepared) {
     if (!neighbours_) return found_.add(prepared.rows, next_++);
-    if (!sampling_.samples(pushed_++)) return;
-    neighbours_->push(layer.rows.part);
-    take();
+    for (int k = sampling_.samples(layers_, layer.index); k > 0; --k) {
+        neighbours_->push(layer.rows.part);
+        take();
+    }
 }
 
 void ThicknessCheck::finish() {

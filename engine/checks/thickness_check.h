@@ -39,11 +39,11 @@ class ThicknessCheck : public LayerCheck {
 
     FeatureKind kind_;
     CheckSampling sampling_;
+    LayerPlan layers_;
     Thinness measure_;
     double row_pitch_ = 0;
     std::optional<ThinFeatureSearch> neighbours_;
-    int pushed_ = 0;  // number of layers
-    int next_ = 0;    // number of the next sampled layer to report
+    int next_ = 0;  // number of the next sampled layer to report
     StreamingFaults found_;
 };
 

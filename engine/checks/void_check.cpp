@@ -24,6 +24,7 @@ void VoidCheck::add(LayerSample& layer, PreparedRows prepared) {
     ComponentTags tags;
     tags.flags.assign(voids.components.size(), layer.index == 0 ? on_bed : 0);
     tags.flags[voids.row(0).front().component] |= joined_outside;
+    grid_.weigh(voids, layer.index);
     ended_.clear();
     voids_.add(std::move(voids), layer.index, tags, ended_);
     for (const EndedComponent& ended : ended_) judge(ended, false);

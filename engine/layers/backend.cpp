@@ -6,9 +6,9 @@
 namespace lamella {
 
 void check_range(const Job& job, const LayerRange& range) {
-    if (range.first < 0 || range.last > job.layer_count || range.first >= range.last) {
+    if (range.first < 0 || range.last > job.layers.count() || range.first >= range.last) {
         throw InputError("layers " + std::to_string(range.first) + ":" + std::to_string(range.last) +
-                         " do not exist: the part has layers 0:" + std::to_string(job.layer_count));
+                         " do not exist: the part has layers 0:" + std::to_string(job.layers.count()));
     }
 }
 

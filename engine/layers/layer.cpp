@@ -1,24 +1,20 @@
 // Layer: slices of a job, cut on demand.
 #include "engine/layers/layer.h"
 
-#include "engine/base/error.h"
-
 namespace lamella {
 
-int count_layers(double part_height, double h, double lowest_plane) {
-    if (!(part_height > 0) || !std::isfinite(part_height))
-        throw InputError("the part has no height to cut into layers");
-    if (!(h > 0) || !std::isfinite(h)) throw InputError("the layer height must be positive");
-    constexpr double rounding = 1e-6;  // layers
-    const double count = std::ceil(part_height / h - lowest_plane - rounding);
-    constexpr double max_layers = 10'000'000;
-    if (count > max_layers)
-        throw InputError("the layer height is too small for the part: more than 10 million layers");
-    return std::max(1, static_cast<int>(count));
+Job in_equal_layers(const Job& job) {
+    Job equal = job;
+    if (!job.layers.equal()) equal.layers = equal_layers(job.layers.total(), job.layers.least_height());
+    return equal;
 }
 
 Layer::Layer(const Job& job, int index, const CancelToken* cancel)
-    : job_(&job), index_(index), cancel_(cancel), z_(job.plane(index)), thickness_(job.layer_height) {}
+    : job_(&job),
+      index_(index),
+      cancel_(cancel),
+      z_(job.plane(index)),
+      thickness_(job.layers.height(index)) {}
 
 const SliceField& Layer::part_at(double share) const { return context_.slice(*job_->part, height_of(share)); }
 

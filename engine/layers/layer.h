@@ -11,19 +11,18 @@
 #include "engine/contours/contours.h"
 #include "engine/field/field.h"
 #include "engine/field/slice_context.h"
+#include "engine/layers/layer_plan.h"
 #include "engine/runs/line_cache.h"
 
 namespace lamella {
 
-/// A print job: a solid and how it is cut into layers. Layer i spans [z0 + i h, z0 + (i + 1) h] and is cut at
-/// its mid-height.
+/// A print job: a solid and how it is cut into layers, each at its mid-height.
 struct Job {
-    std::string name = "part";   ///< short name for file names and headers
-    FieldPtr part;               ///< the solid, in its own coordinates, mm
-    FieldPtr supports;           ///< supports, removed after the print; null for none
-    Box bounds;                  ///< finite bounds of part and supports, mm; the bed lies at its lower side
-    double layer_height = 0.05;  ///< h, mm
-    int layer_count = 0;
+    std::string name = "part";  ///< short name for file names and headers
+    FieldPtr part;              ///< the solid, in its own coordinates, mm
+    FieldPtr supports;          ///< supports, removed after the print; null for none
+    Box bounds;                 ///< finite bounds of part and supports, mm; the bed lies at its lower side
+    LayerPlan layers;
     /// Draws the part with its supports, seen from the front, in a square of `size` pixels, for files that
     /// carry a preview. May be empty.
     std::function<Picture(int size)> picture{};
@@ -32,14 +31,12 @@ struct Job {
 
     double z0() const { return bounds.lo.z; }
     /// Height of the cutting plane of layer i, in part coordinates, mm.
-    double plane(int i) const { return z0() + (i + 0.5) * layer_height; }
+    double plane(int i) const { return z0() + layers.middle(i); }
 };
 
-/// Returns the number of layers of height `h` (mm) that hold some of a part of this height (mm): those whose
-/// lowest cutting plane, at this share of the layer, lies below the part's top by more than a millionth of a
-/// layer; at least one. Throws InputError when a height is not positive and finite, or when there would be
-/// more than 10 million layers.
-int count_layers(double part_height, double h, double lowest_plane = 0.5);
+/// Returns a job in layers of one height, its least, for surveys whose rows have to lie at equal distances
+/// along z; the job itself where its layers are equal.
+Job in_equal_layers(const Job& job);
 
 /// A layer in flight. Its contents depend on the job and the index alone. Used by one thread at a time.
 class Layer {
@@ -53,7 +50,9 @@ class Layer {
     double thickness() const { return thickness_; }  ///< mm
     const CancelToken* cancel() const { return cancel_; }
     /// Returns the height of the layer's top above the build plate, mm.
-    double top() const { return (index_ + 1) * thickness_; }
+    double top() const { return job_->layers.top(index_); }
+    /// Returns the height of its underside above the build plate, mm.
+    double bottom() const { return job_->layers.bottom(index_); }
     /// Returns the part's slice. Cut at the first call.
     const SliceField& part() const { return part_at(middle); }
     /// Returns the supports' slice; null if the job has no supports. Cut at the first call.

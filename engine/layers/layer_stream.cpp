@@ -157,7 +157,7 @@ StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions
 }
 
 void survey_layers(const Job& job, LayerPass& pass, const PassControl& control) {
-    const LayerRange all{0, job.layer_count};
+    const LayerRange all{0, job.layers.count()};
     check_range(job, all);
     const int threads = thread_count(control.threads);
     LayerStream stream(job, pass, all, 2 * threads, control);

@@ -42,9 +42,9 @@ struct StreamReport {
 ///     Job job;
 ///     job.part = make_sphere({0, 0, 0}, 10);
 ///     job.bounds = job.part->bounds();
-///     job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+///     job.layers = equal_layers(job.bounds.size().z, 0.05);
 ///     StreamOptions options;
-///     options.range = {0, job.layer_count};
+///     options.range = {0, job.layers.count()};
 ///     const StreamReport report = stream_layers(job, backend, options);
 ///
 /// Layers are rendered in parallel and written in order. Memory is bounded by the look-ahead, not by the

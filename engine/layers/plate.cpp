@@ -1,12 +1,13 @@
 // Plates: parts in rows, with a search for the best row length.
 #include "engine/layers/plate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/base/number_format.h"
 #include "engine/solids/csg.h"
 
 namespace lamella {
@@ -78,10 +79,11 @@ Job arrange_plate(std::span<const PlateItem> items, double gap, dvec2 machine) {
     std::vector<FieldPtr> parts, supports;
     for (const PlateItem& item : items) {
         const Job& job = item.job;
-        if (job.layer_height != plate.layer_height) {
-            throw InputError(job.name + " has layers of " + format_number(job.layer_height, 6) + " mm, " +
-                             plate.name + " of " + format_number(plate.layer_height, 6) +
-                             " mm; on one plate all need the same");
+        const bool is_higher = job.layers.count() > plate.layers.count();
+        if (!(is_higher ? job : plate).layers.begins_like((is_higher ? plate : job).layers)) {
+            throw InputError(fmt::format("{} has layers of {}, {} of {}; on one plate all need the same",
+                                         job.name, job.layers.heights_text(), plate.name,
+                                         plate.layers.heights_text()));
         }
         for (int copy = 0; copy < item.copies; ++copy) {
             const dvec3 place = origin + dvec3(rows.places[parts.size()], 0);
@@ -90,7 +92,7 @@ Job arrange_plate(std::span<const PlateItem> items, double gap, dvec2 machine) {
             if (job.supports) supports.push_back(moved(job.supports, by));
             plate.bounds = unite(plate.bounds, Box{place, place + job.bounds.size()});
         }
-        plate.layer_count = std::max(plate.layer_count, job.layer_count);
+        if (is_higher) plate.layers = job.layers;
         if (&item != items.data()) plate.identity += "+" + job.identity;
         if (item.copies > 1) plate.identity += "x" + std::to_string(item.copies);
     }

@@ -19,7 +19,7 @@ Interval survey_pitch_range(const Job& job) {
     const dvec3 size = job.bounds.size();
     if (!std::isfinite(size.x + size.y + size.z) || job.bounds.empty())
         throw InputError("survey: the part's bounds are empty or infinite");
-    return {std::max(size.x, size.y) / max_pitches, max_layers_in_a_pitch * job.layer_height};
+    return {std::max(size.x, size.y) / max_pitches, max_layers_in_a_pitch * job.layers.least_height()};
 }
 
 RowBand rows_over(const Rect& rect, double pitch) {

@@ -57,7 +57,7 @@ class CavitySurveyor : public LayerPass {
   public:
     CavitySurveyor(const Job& job, const CavitySurveyOptions& options)
         : pitch_(options.pitch),
-          height_(job.layer_height),
+          height_(job.layers.least_height()),
           z0_(job.z0()),
           band_(void_band(job, options.pitch)),
           components_(Growth{}, 0) {
@@ -206,7 +206,8 @@ CavitySurvey CavitySurveyor::result(std::size_t most) {
 
 }  // namespace
 
-CavitySurvey survey_cavities(const Job& job, const CavitySurveyOptions& options) {
+CavitySurvey survey_cavities(const Job& given, const CavitySurveyOptions& options) {
+    const Job job = in_equal_layers(given);
     const Interval suited = survey_pitch_range(job);
     if (!(options.pitch > 0) || !suited.contains(options.pitch)) {
         throw InputError("cavity survey: the pitch of " + format_number(options.pitch, 9) +

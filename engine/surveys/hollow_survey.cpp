@@ -21,7 +21,7 @@ class HollowSurveyor : public LayerPass {
     HollowSurveyor(const Job& job, const HollowOptions& options)
         : options_(options),
           band_(rows_over(job.bounds.rect(), options.pitch)),
-          height_(job.layer_height * options.layers_at_once),
+          height_(job.layers.least_height() * options.layers_at_once),
           middle_(job.bounds.size() / 2.0),
           shrunk_(ball_lattice(band_, height_, reach(), reach()), units(reach())),
           insides_(options.max_bytes, options.pitch),
@@ -177,7 +177,8 @@ void check(const Job& job, const HollowOptions& options) {
 
 }  // namespace
 
-HollowSurvey hollow_out(const Job& job, const HollowOptions& options) {
+HollowSurvey hollow_out(const Job& given, const HollowOptions& options) {
+    const Job job = in_equal_layers(given);
     check(job, options);
     HollowSurveyor surveyor(job, options);
     survey_layers(job, surveyor, options);

@@ -36,9 +36,9 @@ class IslandSurveyor : public LayerPass {
     IslandSurveyor(const Job& job, FieldPtr body, const IslandSurveyOptions& options)
         : body_(std::move(body)),
           options_(options),
-          growth_{run_unit, 1, static_cast<int>(std::ceil(options.pitch / job.layer_height))},
+          growth_{run_unit, 1, static_cast<int>(std::ceil(options.pitch / job.layers.least_height()))},
           band_(rows_over(job.bounds.rect(), options.pitch)),
-          grid_{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), job.layer_height},
+          grid_{{job.bounds.lo.x, job.bounds.lo.y}, options.pitch, job.z0(), job.layers.least_height()},
           part_components_(growth_, options.max_runs),
           body_components_(Growth{}, 0) {}
 
@@ -175,11 +175,17 @@ void check(const Job& job, const IslandSurveyOptions& options) {
 
 }  // namespace
 
-IslandSurvey survey_islands(const Job& job, const FieldPtr& body, const IslandSurveyOptions& options) {
+IslandSurvey survey_islands(const Job& given, const FieldPtr& body, const IslandSurveyOptions& options) {
+    const Job job = in_equal_layers(given);
     check(job, options);
     IslandSurveyor surveyor(job, body, options);
     survey_layers(job, surveyor, options);
-    return surveyor.result();
+    IslandSurvey survey = surveyor.result();
+    for (Island& island : survey.report.largest) {
+        island.first_layer = given.layers.layer_at(job.layers.middle(island.first_layer));
+        island.end_layer = given.layers.layer_at(job.layers.middle(island.end_layer - 1)) + 1;
+    }
+    return survey;
 }
 
 }  // namespace lamella

@@ -66,7 +66,7 @@ class OverhangSurveyor : public LayerPass {
 };
 
 void OverhangSurveyor::compare(const Layer& layer, const SurveyedLayer& surveyed) {
-    const double z = z0_ + layer.index() * layer.thickness();
+    const double z = z0_ + layer.bottom();
     const bool lies = layer.index() == 0 && options_.on_bed;
     const std::size_t points_before = placer_.points().size();
     number_pieces(surveyed, layer.index());

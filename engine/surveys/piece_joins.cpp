@@ -146,7 +146,7 @@ class PieceSurveyor : public LayerPass {
     PieceSurveyor(const Job& job, double pitch)
         : band_(rows_over({dvec2(job.bounds.lo), dvec2(job.bounds.hi)}, pitch)),
           z0_(job.z0()),
-          height_(job.layer_height),
+          height_(job.layers.least_height()),
           components_(Growth{}, 0) {}
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
@@ -279,7 +279,8 @@ void check(const Job& job, const JoinSurveyOptions& options) {
 
 }  // namespace
 
-JoinSurvey survey_joins(const Job& job, const JoinSurveyOptions& options) {
+JoinSurvey survey_joins(const Job& given, const JoinSurveyOptions& options) {
+    const Job job = in_equal_layers(given);
     check(job, options);
     const dvec3 size = job.bounds.size();
     const double cell = std::max(std::sqrt(squared_length(size)) / cells_in_diagonal, 2 * options.pitch);

@@ -94,7 +94,8 @@ void check(const Job& job, const ShieldOptions& options) {
 
 }  // namespace
 
-ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
+ShieldSurvey make_shield(const Job& given, const ShieldOptions& options) {
+    const Job job = in_equal_layers(given);
     check(job, options);
     ShieldSurveyor surveyor(job, options);
     survey_layers(job, surveyor, options);
@@ -104,7 +105,7 @@ ShieldSurvey make_shield(const Job& job, const ShieldOptions& options) {
     constexpr double corner = 2.5;  // steps: corners of 50 degrees and more may move with their sides
     survey.sweeps = enclose(layers, {step, corner * step, run_unit}, options.cancel);
     keep_walls(layers, surveyor.wall());
-    const double height = job.layer_height * options.layers_at_once;
+    const double height = job.layers.least_height() * options.layers_at_once;
     survey.volume =
         static_cast<double>(layers.total_length()) / run_unit * options.pitch * options.pitch * height;
     survey.wall =

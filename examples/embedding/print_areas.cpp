@@ -19,10 +19,9 @@ int main() {
     Job job;
     job.part = make_intersection({body, make_union({foam, make_shell(body, 0.8)})});
     job.bounds = body->bounds();
-    job.layer_height = 2;
-    job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+    job.layers = equal_layers(job.bounds.size().z, 2);
 
-    for (int i = 0; i < job.layer_count; ++i) {
+    for (int i = 0; i < job.layers.count(); ++i) {
         const Layer layer(job, i);
         double area = 0;
         const auto contours = layer.contours(0.05);

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_depth.h"
+#include "printers/common/layer_heights.h"
 
 namespace lamella {
 namespace fs = std::filesystem;
@@ -232,8 +233,8 @@ nlohmann::ordered_json describe_job(const Job& job, LayerRange range, const std:
         {"name", job.name},
         {"identity", job.identity},
         {"unit", "mm"},
-        {"layer_height", job.layer_height},
-        {"layer_count", job.layer_count},
+        {"layer_height", layer_heights_json(job.layers)},
+        {"layer_count", job.layers.count()},
         {"first_layer", range.first},
         {"last_layer", range.last},
         {"files", "%05d" + extension},

@@ -65,13 +65,12 @@ class Gcode : public Backend {
 
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
-        check_filament_profile(profile_, job.layer_height);
+        for (const EqualLayers& layers : job.layers.runs()) check_filament_profile(profile_, layers.height);
         neighbours_.emplace(job, filament_.tolerance);
         supported_ = job.supports != nullptr;
         if (supported_) check_support_speed(profile_.support);
         check_fit(job);
-        height_ = job.layer_height;
-        layer_count_ = job.layer_count;
+        layers_ = job.layers;
         range_ = range;
         const dvec3 center = job.bounds.center();
         shift_ = dvec2(filament_.bed_x, filament_.bed_y) * 0.5 - dvec2(center.x, center.y);
@@ -119,13 +118,13 @@ class Gcode : public Backend {
         GcodeText text(profile_);
         text.line(";LAYER_CHANGE");
         text.line(";Z:" + format_number(layer.top(), 3));
-        text.line(";HEIGHT:" + format_number(height_, 3));
-        text.line(layer_progress(gcode_.flavour, index, layer_count_));
+        text.line(";HEIGHT:" + format_number(layer.thickness(), 3));
+        text.line(layer_progress(gcode_.flavour, index, layers_.count()));
         text.line(fan_line(gcode_.flavour, fan(index)));
         if (index > range_.first) change_heat(index, text);
         text.lines(expand_script(layer_script(gcode_), values(index)));
         const bool prints = !product.text.empty();
-        const double below = index > range_.first ? index * height_ : gcode_.prime_line ? prime_height : 0;
+        const double below = index > range_.first ? layer.bottom() : gcode_.prime_line ? prime_height : 0;
         GcodeMoves moves(profile_, position_, below);
         if (prints) {
             if (moves.retracts()) moves.retract(trail_);
@@ -152,7 +151,7 @@ class Gcode : public Backend {
 
     void finish() override {
         GcodeText text(profile_);
-        const double top = range_.last * height_;
+        const double top = layers_.bottom(range_.last);
         const double parked = std::min(top + 10, std::max(filament_.bed_z, top));
         text.line(";TYPE:Custom");
         GcodeMoves moves(profile_, position_, top);
@@ -170,8 +169,8 @@ class Gcode : public Backend {
     Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density,
                    const LayerNeighborhood& around) const {
         const ToolpathProfile& t = profile_.toolpath;
-        return plan_toolpaths(contours, {line(), t.walls, density, t.infill, t.seam}, layer.index(), around,
-                              layer.cancel());
+        return plan_toolpaths(contours, {line(layer), t.walls, density, t.infill, t.seam}, layer.index(),
+                              around, layer.cancel());
     }
     /// Returns the layer below; empty for the first layer.
     std::optional<LayerBelow> footing(const Layer& layer) const {
@@ -184,7 +183,9 @@ class Gcode : public Backend {
         if (filament_.infill_density >= 1 || t.top_layers + t.bottom_layers == 0) return std::nullopt;
         return neighbours_->core(layer.index(), t.bottom_layers, t.top_layers);
     }
-    LineSettings line() const { return {filament_.line_width, height_, filament_.tolerance}; }
+    LineSettings line(const Layer& layer) const {
+        return {filament_.line_width, layer.thickness(), filament_.tolerance};
+    }
 
     /// Returns brim and skirt of the first layer; empty for other layers.
     Toolpaths round(const Layer& layer, const std::vector<Contour>& part,
@@ -195,7 +196,7 @@ class Gcode : public Backend {
             for (const Contour& contour : *contours) standing.push_back(to_polygon(contour.points));
         }
         Toolpaths paths;
-        paths.beads = skirt_beads(standing, profile_.toolpath, line());
+        paths.beads = skirt_beads(standing, profile_.toolpath, line(layer));
         if (!paths.beads.empty()) paths.outlines.emplace_back();  // empty: travel is not confined
         return paths;
     }
@@ -216,8 +217,8 @@ class Gcode : public Backend {
         const std::vector<Bead>& beads = paths.beads;
         product.first = beads.front().points.front() + shift_;
         GcodeMoves planned(profile_, product.first, layer.top());
-        product.trail =
-            add_beads(paths, profile_, height_, layer.index() == 0, shift_, planned, layer.cancel());
+        product.trail = add_beads(paths, profile_, layer.thickness(), layer.index() == 0, shift_, planned,
+                                  layer.cancel());
         std::vector<GcodeMove>& moves = planned.moves();
         slow_to_time(moves, product.first, gcode_);
         product.slowed = slow_to_rate(moves, gcode_);
@@ -258,9 +259,9 @@ class Gcode : public Backend {
 
     ScriptValues values(int layer) const {
         return {layer + 1,
-                layer_count_,
-                (layer + 1) * height_,
-                height_,
+                layers_.count(),
+                layers_.top(layer),
+                layers_.height(layer),
                 nozzle_temperature(layer),
                 bed_temperature(layer),
                 filament_.nozzle,
@@ -278,11 +279,11 @@ class Gcode : public Backend {
     }
 
     void check_fit(const Job& job) const {
-        const double reach = reach_beside(profile_, job.layer_height);
+        const double reach = reach_beside(profile_, job.layers.height(0));
         const dvec3 size = job.bounds.size() + dvec3(2 * reach, 2 * reach, 0);
         const dvec3 available =
-            gcode_build_volume(profile_, job.layer_height) + dvec3(2 * reach, 2 * reach, 0);
-        const double top = job.layer_count * job.layer_height;
+            gcode_build_volume(profile_, job.layers.height(0)) + dvec3(2 * reach, 2 * reach, 0);
+        const double top = job.layers.total();
         constexpr double slack = 1e-9;
         if (size.x <= available.x * (1 + slack) && size.y <= available.y * (1 + slack) &&
             top <= available.z * (1 + slack)) {
@@ -302,10 +303,10 @@ class Gcode : public Backend {
         text.line("; job: " + comment_text(job.name));
         text.line("; identity: " + comment_text(job.identity));
         text.line("; printer: " + comment_text(profile_.name));
-        text.line(fmt::format("; layers {}:{} of {}", range_.first, range_.last, layer_count_));
+        text.line(fmt::format("; layers {}:{} of {}", range_.first, range_.last, layers_.count()));
         for (const std::string& note : job.notes) text.line("; " + comment_text(note));
         if (gcode_.thumbnails) text.lines(gcode_thumbnails(job.picture));
-        text.line(start_progress(gcode_.flavour, layer_count_));
+        text.line(start_progress(gcode_.flavour, layers_.count()));
         text.lines(expand_script(start_script(gcode_), values(range_.first)));
         for (const char* mode : {"G21", "G90", "M83", "M107"}) text.line(mode);
         if (sets_acceleration(gcode_) && has_travel_acceleration(gcode_.flavour))
@@ -362,7 +363,7 @@ class Gcode : public Backend {
             text.line("; slowed for the segment rate [mm] = " + format_number(slowed_, 1));
         }
         text.line(fmt::format("; total layers count = {}", range_.count()));
-        text.line("; layer_height = " + format_number(height_, 4));
+        text.line("; layer_height = " + format_number(layers_.greatest_height(), 4));
         text.line(fmt::format("; islands too small for a bead = {}", islands_left_out_));
     }
 
@@ -394,8 +395,7 @@ class Gcode : public Backend {
     const GcodeProfile& gcode_;
     std::unique_ptr<GcodeOutput> output_;
     std::optional<NeighbourLayers> neighbours_;  // set by open
-    double height_ = 0;
-    int layer_count_ = 0;
+    LayerPlan layers_;
     LayerRange range_;
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};

@@ -10,6 +10,7 @@
 #include "engine/base/number_format.h"
 #include "printers/archive/tar_gzip.h"
 #include "printers/archive/unfinished_file.h"
+#include "printers/common/layer_heights.h"
 #include "printers/masks/png_mask.h"
 #include "printers/masks/resin.h"
 
@@ -80,12 +81,14 @@ class Ember : public Backend {
     std::string settings(const Job& job) const {
         const ResinProfile& resin = profile_.resin;
         // The first layer has its own exposure; "burn-in" layers are those after it.
-        const nlohmann::ordered_json settings = {{"JobName", job.name},
-                                                 {"LayerThicknessMicrons", micrometres(job.layer_height)},
-                                                 {"BurnInLayers", std::max(resin.first_layers - 1, 0)},
-                                                 {"FirstExposureSec", resin.first_exposure},
-                                                 {"BurnInExposureSec", resin.first_exposure},
-                                                 {"ModelExposureSec", resin.exposure}};
+        const nlohmann::ordered_json settings = {
+            {"JobName", job.name},
+            {"LayerThicknessMicrons",
+             micrometres(equal_layer_height(job.layers, range_, "an Ember archive"))},
+            {"BurnInLayers", std::max(resin.first_layers - 1, 0)},
+            {"FirstExposureSec", resin.first_exposure},
+            {"BurnInExposureSec", resin.first_exposure},
+            {"ModelExposureSec", resin.exposure}};
         const nlohmann::ordered_json file = {{"Settings", settings}};
         std::string text =
             tar_member("printsettings",

@@ -57,7 +57,7 @@ class Goo : public Backend {
         check_range(job, range);
         check_resin_profile(resin_);
         layout_.emplace(profile_.image, job.bounds);
-        layer_height_ = job.layer_height;
+        layers_ = job.layers;
         range_ = range;
         if (resin_.preview) picture_ = job.picture;
         const std::string settings =
@@ -92,7 +92,7 @@ class Goo : public Backend {
         BigEndian out;
         out.u16(0);  // no pause
         out.f32(0);
-        out.f32((index + 1) * layer_height_);
+        out.f32(layers_.height(range_.first, layer.index() + 1));
         out.f32(resin_exposure(resin_, index));
         out.f32(0);  // light-off delay: replaced by the waits below
         put_waits(out);
@@ -166,8 +166,8 @@ class Goo : public Backend {
         const double x = image.width * image.pixel_x, y = image.height * image.pixel_y;
         out.f32(swapped ? y : x);
         out.f32(swapped ? x : y);
-        out.f32(range_.count() * layer_height_);
-        out.f32(layer_height_);
+        out.f32(layers_.height(range_.first, range_.last));
+        out.f32(layers_.greatest_height());
         out.f32(resin_.exposure);
         out.u8(1);   // waits are static
         out.f32(0);  // light-off delay
@@ -195,7 +195,7 @@ class Goo : public Backend {
     UnfinishedFile output_;
     std::optional<MaskLayout> layout_;
     std::function<Picture(int)> picture_;
-    double layer_height_ = 0;  ///< mm
+    LayerPlan layers_;
     LayerRange range_;
     double volume_ = 0;  ///< mm^3
 };

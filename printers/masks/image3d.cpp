@@ -12,6 +12,7 @@
 #include "printers/archive/package_3mf.h"
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
+#include "printers/common/layer_heights.h"
 #include "printers/masks/png_mask.h"
 #include "printers/masks/png_writer.h"
 
@@ -74,7 +75,7 @@ class Image3d : public Backend {
         profile_.image = grid_about(job.bounds, profile_.image);
         layout_.emplace(profile_.image, job.bounds);
         name_ = job.name;
-        layer_height_ = job.layer_height;
+        layer_height_ = equal_layer_height(job.layers, {0, range.last}, "an image stack in 3MF");
         range_ = range;
         with_supports_ = job.supports != nullptr;
         const std::string settings = "image3d " + describe_mask(profile_.image).dump();

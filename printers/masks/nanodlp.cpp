@@ -13,6 +13,7 @@
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/common/layer_areas.h"
+#include "printers/common/layer_heights.h"
 #include "printers/masks/png_mask.h"
 #include "printers/masks/png_writer.h"
 #include "printers/masks/resin.h"
@@ -93,7 +94,7 @@ class NanoDlp : public Backend {
                                          range.count(), max_layers));
         }
         name_ = job.name;
-        layer_height_ = job.layer_height;
+        layer_height_ = equal_layer_height(job.layers, range, "a NanoDLP archive");
         range_ = range;
         const std::string settings =
             fmt::format("nanodlp {} {} {} {}", mask_settings(profile_, job), profile_.name,

@@ -12,6 +12,7 @@
 #include "printers/archive/json_number.h"
 #include "printers/archive/stored_zip.h"
 #include "printers/archive/unfinished_file.h"
+#include "printers/common/layer_heights.h"
 #include "printers/common/thumbnail.h"
 #include "printers/masks/png_mask.h"
 #include "printers/masks/resin.h"
@@ -69,11 +70,13 @@ class Sl1 : public Backend {
                                          range.count(), max_sl1_layers));
         }
         folder_ = job_folder(job.name);
-        layer_height_ = job.layer_height;
+        check_layer_heights(LayerHeights::first, job.layers, range, "an SL1 archive");
+        first_height_ = job.layers.height(range.first);
+        layer_height_ = job.layers.height(range.last - 1);
         range_ = range;
         if (profile_.resin.preview) picture_ = job.picture;
         for (const std::string& note : job.notes) notes_ += (notes_.empty() ? "" : "; ") + one_line(note);
-        height_ = job.layer_count * job.layer_height;
+        height_ = job.layers.total();
         const std::string settings = "sl1 " + mask_settings(profile_, job) + " " + profile_.name + " " +
                                      describe_resin(profile_.resin);
         const int next = output_.begin({job.identity, settings, range}, resume);
@@ -125,7 +128,7 @@ class Sl1 : public Backend {
                 {"hollow", "0"},
                 {"jobDir", folder_},
                 {"layerHeight", format_number(layer_height_, 6)},
-                {"layerHeightFirst", format_number(layer_height_, 6)},
+                {"layerHeightFirst", format_number(first_height_, 6)},
                 {"materialName", one_line(r.material)},
                 {"numFade", std::to_string(r.fade_layers)},
                 {"numFast", std::to_string(range_.count())},
@@ -159,7 +162,7 @@ class Sl1 : public Backend {
                 {"gamma_correction",
                  image.antialiasing == Antialiasing::off ? "0" : format_number(image.gamma, 4)},
                 {"initial_exposure_time", format_number(r.first_exposure, 4)},
-                {"initial_layer_height", layer},
+                {"initial_layer_height", format_number(first_height_, 6)},
                 {"layer_height", layer},
                 {"material_notes", notes_},
                 {"max_print_height", format_number(height_, 6)},
@@ -176,7 +179,7 @@ class Sl1 : public Backend {
     std::optional<MaskLayout> layout_;
     std::function<Picture(int)> picture_;
     std::string folder_, notes_;
-    double layer_height_ = 0, height_ = 0;  ///< mm
+    double first_height_ = 0, layer_height_ = 0, height_ = 0;  ///< mm
     LayerRange range_;
     double volume_ = 0;  ///< mm^3
 };

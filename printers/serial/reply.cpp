@@ -27,7 +27,7 @@ std::optional<Number> leading_number(std::string_view text) {
 
 /// Parses the whole text as a non-negative number.
 template <typename Number>
-std::optional<Number> whole_number(std::string_view text) {
+std::optional<Number> parsed_whole(std::string_view text) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
@@ -65,7 +65,7 @@ void read_advanced(std::string_view words, Reply& reply) {
     while (!words.empty()) {
         const std::string_view word = words.substr(0, words.find(' '));
         words = trim_blanks(words.substr(word.size()));
-        const auto value = whole_number<std::int64_t>(word.substr(1));
+        const auto value = parsed_whole<std::int64_t>(word.substr(1));
         if (!value || *value > 1'000'000'000) return;
         if (word[0] == 'N') found.number = *value;
         if (word[0] == 'P') found.planner_free = static_cast<int>(*value);
@@ -129,7 +129,7 @@ Reply read_grbl(std::string_view line) {
     Reply reply;
     const auto numbered = [&](std::string_view front, ReplyKind kind) {
         if (!line.starts_with(front)) return false;
-        reply.number = whole_number<std::int64_t>(line.substr(front.size()));
+        reply.number = parsed_whole<std::int64_t>(line.substr(front.size()));
         if (reply.number) reply.kind = kind;
         return reply.number.has_value();
     };
@@ -148,7 +148,7 @@ Reply read_grbl(std::string_view line) {
         reply.text = dated ? version.substr(0, date) : version;
     } else if (line.starts_with("[OPT:") && line.back() == ']') {
         const std::string_view words = line.substr(0, line.size() - 1);
-        reply.number = whole_number<std::int64_t>(words.substr(words.rfind(',') + 1));
+        reply.number = parsed_whole<std::int64_t>(words.substr(words.rfind(',') + 1));
         if (reply.number) reply.kind = ReplyKind::grbl_options;
     }
     return reply;

@@ -33,7 +33,7 @@ LayerBelow NeighbourLayers::footing(int index, double pitch) const {
 }
 
 PlacedPolygons NeighbourLayers::core(int index, int below, int above) const {
-    if (index < below || index + above >= job_->layer_count) return {};
+    if (index < below || index + above >= job_->layers.count()) return {};
     Polygons common;
     bool first = true;
     for (int i = index - below; i <= index + above; ++i) {

@@ -149,7 +149,7 @@ class Cli : public Backend {
         if (!(cli_.cli_units >= 1e-6 && cli_.cli_units <= 1e4)) {
             throw InputError(fmt::format("cli_units = {} mm: must be 0.000001 to 10000", cli_.cli_units));
         }
-        double farthest = job.layer_count * job.layer_height;
+        double farthest = job.layers.total();
         for (const dvec3& corner : {job.bounds.lo, job.bounds.hi})
             farthest = std::max({farthest, std::abs(corner.x), std::abs(corner.y)});
         if (farthest / cli_.cli_units > max_units) {
@@ -161,7 +161,7 @@ class Cli : public Backend {
     }
 
     std::string start(const Job& job, LayerRange range) const {
-        const double bottom = range.first * job.layer_height, top = range.last * job.layer_height;
+        const double bottom = job.layers.bottom(range.first), top = job.layers.bottom(range.last);
         const auto mm = [](double v) { return format_number(v, grid_decimals); };
         const Box& b = job.bounds;
         std::string text = fmt::format("$$HEADERSTART\n$${}\n$$UNITS/{}\n$$VERSION/200\n",

@@ -47,7 +47,7 @@ Polygons moved_by_kerf(const Polygons& section, double kerf, CutPlan& plan) {
 /// Returns the outline of the layer above where it lies on this one.
 std::vector<ClipperLib::Path> next_outline(const Job& job, int index, const Polygons& section,
                                            double tolerance) {
-    if (index + 1 >= job.layer_count) return {};
+    if (index + 1 >= job.layers.count()) return {};
     const Polygons next = to_polygons(Layer(job, index + 1).contours(tolerance));
     std::vector<ClipperLib::Path> lines = rings_inside(next, offset_polygons(section, -score_inset));
     std::erase_if(lines, [](const auto& line) { return length_of(to_points(line)) < shortest_score; });

@@ -84,7 +84,7 @@ class Slice3mf : public Backend {
             throw InputError(fmt::format("package_layers = {}: must be 1 or more", package_layers_));
         name_ = job.name;
         bounds_ = job.bounds;
-        layer_height_ = job.layer_height;
+        layers_ = job.layers;
         range_ = range;
         with_supports_ = job.supports != nullptr;
         const std::string settings =
@@ -141,7 +141,7 @@ class Slice3mf : public Backend {
     static std::string part_path(int number) { return fmt::format("2D/slices{:05}.model", number); }
 
     /// Returns the height at which the stack begins, mm above the plate.
-    double bottom(int part = 0) const { return (range_.first + part * package_layers_) * layer_height_; }
+    double bottom(int part = 0) const { return layers_.bottom(range_.first + part * package_layers_); }
 
     std::string stack_start(int id, int part) const {
         return fmt::format("<s:slicestack id=\"{}\" zbottom=\"{}\">\n", id,
@@ -189,7 +189,7 @@ class Slice3mf : public Backend {
 
     /// Returns the bounding box of the job as the mesh that represents the slices.
     std::string object(int id, const char* type, int stack_id, const std::string& name) const {
-        const double top = range_.last * layer_height_;
+        const double top = layers_.bottom(range_.last);
         return fmt::format(
                    "<object id=\"{}\" type=\"{}\" name=\"{}\" s:slicestackid=\"{}\" "
                    "s:meshresolution=\"lowres\">\n",
@@ -225,7 +225,7 @@ class Slice3mf : public Backend {
     DeflatedZip zip_;
     std::string name_;
     Box bounds_;
-    double layer_height_ = 0;  ///< mm
+    LayerPlan layers_;
     LayerRange range_;
     bool with_supports_ = false;
     std::vector<DeflatedPiece> part_, supports_;  ///< slices of the package part that is being filled

@@ -27,11 +27,12 @@ struct Steps {
     int layers_at_once = 1;
 };
 
-/// `across` is the factor by which the job will be scaled in its layers' plane.
-Steps steps_of(const Recipe& recipe, double overhang, double pitch, double across) {
+/// `layer_height` is that of the print, mm; `across` is the factor by which the job will be scaled in its
+/// layers' plane.
+Steps steps_of(const Recipe& recipe, double layer_height, double overhang, double pitch, double across) {
     Steps steps;
     const double width = makes_beads(recipe.printer) ? recipe.printer.filament.line_width : steps.bead;
-    if (overhang == 0) overhang = printable_overhang(recipe.printer, recipe.layer_height);
+    if (overhang == 0) overhang = printable_overhang(recipe.printer, layer_height);
     steps.bead = width / across;
     steps.step = overhang / across;
     steps.pitch = (pitch > 0 ? pitch : std::max(overhang / 2, finest_rows)) / across;
@@ -53,11 +54,11 @@ auto with_section(const char* section, Survey survey) {
 
 }  // namespace
 
-HollowReport hollow_out(const Recipe& recipe, Job& designed) {
+HollowReport hollow_out(const Recipe& recipe, Job& designed, double layer_height) {
     const CavityRecipe& cavity = *recipe.cavity;
     const dvec3 scale = recipe.process ? recipe.process->scale : dvec3(1);
     const double most = std::max(scale.x, scale.y), least = std::min({scale.x, scale.y, scale.z});
-    const Steps steps = steps_of(recipe, cavity.overhang, cavity.pitch, most);
+    const Steps steps = steps_of(recipe, layer_height, cavity.overhang, cavity.pitch, most);
     HollowOptions options;
     options.wall = cavity.wall / least;
     options.step = steps.step;
@@ -95,7 +96,7 @@ std::string cavities_text(const HollowReport& cavities) {
 std::optional<ShieldSurvey> add_shield(const Recipe& recipe, Job& job, const ShieldWork& work) {
     if (!recipe.shield) return std::nullopt;
     const ShieldRecipe& shield = *recipe.shield;
-    const Steps steps = steps_of(recipe, shield.overhang, shield.pitch, 1);
+    const Steps steps = steps_of(recipe, job.layers.least_height(), shield.overhang, shield.pitch, 1);
     ShieldOptions options;
     options.gap = shield.gap;
     options.wall = shield.wall;

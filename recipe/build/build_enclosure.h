@@ -21,8 +21,9 @@ struct HollowReport {
 };
 
 /// Subtracts cavities from the designed job's part, after a survey of all layers. Lengths are as printed: the
-/// scale of [process] is taken into account. Throws InputError when the settings do not suit the part.
-HollowReport hollow_out(const Recipe& recipe, Job& designed);
+/// scale of [process] is taken into account; `layer_height` is the least of the print. Throws InputError when
+/// the settings do not suit the part.
+HollowReport hollow_out(const Recipe& recipe, Job& designed, double layer_height);
 
 nlohmann::ordered_json cavities_json(const HollowReport& cavities);
 

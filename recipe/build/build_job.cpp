@@ -20,25 +20,13 @@ namespace lamella {
 
 namespace {
 
-constexpr int max_layers = 10'000'000;
-
-int layers_of(double height, double layer_height, double lowest_plane) {
-    if (height / layer_height > max_layers) {
-        throw InputError(
-            fmt::format("layers.height / --layer-height: {} mm cuts a part of {} mm into more than {} "
-                        "layers; accepted: {} mm or more",
-                        layer_height, height, max_layers, height / max_layers));
-    }
-    return count_layers(height, layer_height, lowest_plane);
-}
-
-/// Cuts the designed part's bounds into layers.
-void set_layers(const Recipe& recipe, Job& job) {
-    job.layer_height = designed_layer_height(recipe);
-    // Masks that average several planes of a layer begin with the lowest of them.
-    const double lowest_plane = 0.5 / std::max(1, recipe.printer.image.sub_layers);
-    job.layer_count = layers_of(job.bounds.size().z * (recipe.layer_height / job.layer_height),
-                                recipe.layer_height, lowest_plane);
+/// Cuts the part into layers: the solid within its outer surface, as it will be scaled.
+void set_layers(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& built) {
+    Job outer = built.designed;
+    outer.part = built.outside;
+    built.layers = part_layers(recipe, make_scaled(recipe, outer, LayerPlan()),
+                               {optimizing.threads, {}, optimizing.cancel});
+    built.designed.layers = designed_layers(recipe, built.layers.plan);
 }
 
 /// The least that a graded number of the foam becomes in the part's box.
@@ -141,21 +129,21 @@ BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
     const Box designed_bounds = job.bounds;
     turn(recipe, optimizing, built, gradings);
     if (foam) built.foam = build_foam(*foam, foam_place(*foam, recipe, designed_bounds, built), gradings);
-    set_layers(recipe, job);
+    built.outside = built.body;
+    set_layers(recipe, optimizing, built);
     job.part = with_regions(
         fill_body(recipe, built, gradings,
                   {optimizing.plans, optimizing.threads, optimizing.cancel, optimizing.on_pattern}),
         built.body, recipe.foam || recipe.skin || recipe.optimize || recipe.elements, built.regions);
     if (built.pattern && built.pattern->elements) built.elements = std::move(built.pattern->elements);
-    built.outside = built.body;
     if (recipe.skin && recipe.skin->side != SkinSide::inside) {
         built.outside = make_union({built.body, job.part});
         job.bounds = built.outside->bounds();
-        set_layers(recipe, job);
+        set_layers(recipe, optimizing, built);
     }
     if (recipe.cavity) {
         built.before_cavities = job.part;
-        built.cavities = hollow_out(recipe, job);
+        built.cavities = hollow_out(recipe, job, built.layers.plan.least_height());
     }
     if (asks_for_dowels(recipe)) {
         built.dowels = place_dowels(recipe, job);
@@ -167,7 +155,7 @@ BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
         built.modulus = modulus_report(*built.foam->modulus, *built.body);
         job.notes = modulus_lines(*built.modulus);
     }
-    built.job = make_processed(recipe, job);
+    built.job = make_processed(recipe, job, built.layers.plan);
     return built;
 }
 
@@ -185,7 +173,7 @@ void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions opt
     built.islands = std::move(survey.report);
     if (survey.dropped->empty()) return;
     built.designed.part = make_without_boxes(built.designed.part, survey.dropped);
-    built.job = make_processed(recipe, built.designed);
+    built.job = make_processed(recipe, built.designed, built.layers.plan);
 }
 
 BuiltFoam build_foam_alone(const Recipe& recipe, const Box& region, std::int64_t repeats_after) {

@@ -16,6 +16,7 @@
 #include "recipe/build/modulus_report.h"
 #include "recipe/build/place_dowels.h"
 #include "recipe/build/place_drains.h"
+#include "recipe/layering/plan_layers.h"
 #include "recipe/recipe.h"
 #include "recipe/structure/optimize_part.h"
 
@@ -29,7 +30,8 @@ struct RepairReport {
 
 struct BuiltJob {
     Job job;                                 ///< the job to print
-    Job designed;                            ///< before [process]; its layers correspond to those of `job`
+    Job designed;                            ///< before [process]; its layers correspond to `layers`
+    PartLayers layers;                       ///< of the printed part, without a lift
     glm::dmat3 axes{1};                      ///< orthogonal: turn the part as it was designed into the job's
     FieldPtr body;                           ///< the part without foam and skin
     std::optional<OptimizedPart> optimized;  ///< empty unless the recipe optimises
@@ -59,7 +61,7 @@ struct BuiltJob {
 ///     const SupportStructures added = finish_job(recipe, built, {});
 ///     const auto backend = make_backend(recipe.printer, "part.sl1", false);
 ///     StreamOptions options;
-///     options.range = {0, built.job.layer_count};
+///     options.range = {0, built.job.layers.count()};
 ///     const StreamReport report = stream_layers(built.job, *backend, options);
 /// ```
 BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing = {});

@@ -42,10 +42,10 @@ void mend_outlines(Job& job, const RepairRecipe& repair) {
 void move_outlines(Job& job, const ProcessRecipe& process) {
     const double everywhere = process.xy_compensation, foot = process.elephant_foot;
     if (everywhere == 0 && foot == 0) return;
-    const double bed = job.z0(), height = job.layer_height;
+    const double bed = job.z0();
     const auto layers = static_cast<double>(process.elephant_foot_layers);
-    const auto by = [=](double z) {
-        const double layer = std::max(0.0, std::floor((z - bed) / height));
+    const auto by = [=, plan = job.layers](double z) {
+        const double layer = plan.layer_at(z - bed);
         return layer < layers ? everywhere - foot * (1 - layer / layers) : everywhere;
     };
     job.part = make_in_plane_offset(job.part, {by, {everywhere - foot, everywhere}}, outline_tolerance);
@@ -61,19 +61,19 @@ FieldPtr make_scaled(const Recipe& recipe, const Job& designed, const FieldPtr& 
     return job.part;
 }
 
-double designed_layer_height(const Recipe& recipe) {
-    return recipe.process ? recipe.layer_height / recipe.process->scale.z : recipe.layer_height;
+LayerPlan designed_layers(const Recipe& recipe, const LayerPlan& printed) {
+    return recipe.process ? printed.divided(recipe.process->scale.z) : printed;
 }
 
-Job make_scaled(const Recipe& recipe, const Job& designed) {
+Job make_scaled(const Recipe& recipe, const Job& designed, const LayerPlan& printed) {
     Job job = designed;
-    job.layer_height = recipe.layer_height;
+    job.layers = printed;
     if (recipe.process) scale_part(job, recipe.process->scale);
     return job;
 }
 
-Job make_processed(const Recipe& recipe, const Job& designed) {
-    Job job = make_scaled(recipe, designed);
+Job make_processed(const Recipe& recipe, const Job& designed, const LayerPlan& printed) {
+    Job job = make_scaled(recipe, designed, printed);
     if (recipe.repair) mend_outlines(job, *recipe.repair);
     if (recipe.process) move_outlines(job, *recipe.process);
     return job;

@@ -14,6 +14,7 @@
 #include "procedural/scaffold/scaffold_synthesis.h"
 #include "recipe/build/build_process.h"
 #include "recipe/identity.h"
+#include "recipe/layering/plan_layers.h"
 
 namespace lamella {
 
@@ -75,7 +76,7 @@ Printing printing(const Recipe& recipe, double layer_height) {
 }
 
 std::string plan_hash(const Recipe& recipe, const Job& job) {
-    const Printing p = printing(recipe, job.layer_height);
+    const Printing p = printing(recipe, job.layers.least_height());
     Fnv128 hash;
     hash.add(job.identity);
     hash.add(fmt::format("supports 1 {} {} {}", p.filament, p.width, p.overhang));
@@ -93,14 +94,15 @@ FieldPtr regions_of(const Recipe& recipe, const BuiltJob& built, RegionMake make
 
 ScaffoldShape shape_of(const Recipe& recipe, const Job& job) {
     const SupportProfile& s = recipe.printer.support;
-    const Printing p = printing(recipe, job.layer_height);
+    const double height = job.layers.least_height();
+    const Printing p = printing(recipe, height);
     ScaffoldShape shape;
     shape.bed = job.z0();
-    shape.layer_height = job.layer_height;
+    shape.layer_height = height;
     shape.bridges = recipe.support == SupportKind::bridges;
     shape.bridge = s.bridge;
     shape.reach = s.reach;
-    shape.lean = std::min(1.0, p.overhang / job.layer_height);
+    shape.lean = std::min(1.0, p.overhang / (p.filament ? job.layers.greatest_height() : height));
     shape.connector = s.connector;
     shape.longest_connector = s.longest_connector;
     shape.clearance = s.clearance;
@@ -119,7 +121,7 @@ ScaffoldShape shape_of(const Recipe& recipe, const Job& job) {
 /// A survey that takes several layers together finds points too low or too high by some of them.
 void settle(std::vector<SupportPoint>& points, const Job& job, int layers_at_once) {
     if (layers_at_once == 1) return;
-    const double h = job.layer_height;
+    const double h = job.layers.least_height();
     for (SupportPoint& point : points) {
         const auto solid_above = [&] { return job.part->value(point.at + dvec3(0, 0, h / 2)) < 0; };
         const auto solid_below = [&] { return job.part->value(point.at - dvec3(0, 0, h / 2)) < 0; };
@@ -133,7 +135,7 @@ void settle(std::vector<SupportPoint>& points, const Job& job, int layers_at_onc
 SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& surveyed, FieldPtr blocked,
                       const SupportOptions& options) {
     const SupportProfile& s = recipe.printer.support;
-    const Printing p = printing(recipe, surveyed.layer_height);
+    const Printing p = printing(recipe, surveyed.layers.least_height());
     OverhangSurveyOptions survey;
     survey.limits = {p.overhang * p.layers_at_once, p.width, s.spacing, s.free_stretch, s.own_bridge};
     survey.stability = StabilityLimits{};
@@ -150,9 +152,12 @@ SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& su
     survey.on_progress = options.on_progress;
     survey.cancel = options.cancel;
     const ScaffoldShape shape = shape_of(recipe, surveyed);
+    // Beads stand out by as much over a thin layer as over a thick one; resin's limit is a slope.
     Job coarse = surveyed;
-    coarse.layer_height *= p.layers_at_once;
-    coarse.layer_count = count_layers(coarse.bounds.size().z, coarse.layer_height);
+    if (!p.filament) {
+        const double height = surveyed.layers.least_height() * p.layers_at_once;
+        coarse.layers = equal_layers(coarse.bounds.size().z, height);
+    }
     SupportPlan plan;
     plan.survey = survey_overhangs(coarse, survey);
     settle(plan.survey.points, surveyed, p.layers_at_once);
@@ -162,17 +167,12 @@ SupportPlan make_plan(const Recipe& recipe, const BuiltJob& built, const Job& su
 }
 
 /// The bed comes to lie lower, by whole layers, so that the part is cut where it was.
-void lift(Job& job, int layers) {
-    job.bounds.lo.z -= layers * job.layer_height;
-    job.layer_count += layers;
+void lift(Job& job, const LayerPlan& below) {
+    job.bounds.lo.z -= below.total();
+    job.layers = job.layers.raised(below);
 }
 
 }  // namespace
-
-int lifted_layers(const Recipe& recipe, const Job& job) {
-    if (recipe.support == SupportKind::none) return 0;
-    return static_cast<int>(std::ceil(recipe.printer.support.lift / job.layer_height - 1e-9));
-}
 
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options) {
@@ -188,7 +188,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
         blocked = blocked ? make_union({blocked, deep}) : deep;
     }
     Job& job = built.job;
-    lift(job, lifted_layers(recipe, job));
+    lift(job, lift_layers(recipe));
     Job surveyed = job;
     surveyed.part = make_scaled(recipe, built.designed, outer);
 
@@ -210,7 +210,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     const auto beside = [&](const FieldPtr& part) {
         return make_difference(scaffold, make_union({part, under_bed}));
     };
-    job.supports = beside(make_processed(recipe, printed).part);
+    job.supports = beside(make_processed(recipe, printed, built.layers.plan).part);
     supports.before_offsets = beside(surveyed.part);
     const Box box = unite(job.bounds, scaffold->bounds());
     job.bounds = {{box.lo.x, box.lo.y, job.bounds.lo.z}, {box.hi.x, box.hi.y, job.bounds.hi.z}};
@@ -227,15 +227,15 @@ double support_volume(const Job& job) {
     band.along_pitch = band.across_pitch = pitch;
     band.count = static_cast<int>(box.size().y / pitch) + 1;
     band.hi = static_cast<int>(box.size().x / pitch) + 1;
-    double units = 0;
-    for (int i = 0; i < job.layer_count && job.plane(i) <= box.hi.z; ++i) {
+    double volume = 0;
+    for (int i = 0; i < job.layers.count() && job.plane(i) <= box.hi.z; ++i) {
         SliceContext context;
         Scratch scratch;
         const auto rows = scratch.rows();
         context.slice(*job.supports, job.plane(i)).runs(band, scratch, *rows);
-        units += static_cast<double>(rows->total_length());
+        volume += static_cast<double>(rows->total_length()) / run_unit * pitch * pitch * job.layers.height(i);
     }
-    return units / run_unit * pitch * pitch * job.layer_height;
+    return volume;
 }
 
 std::string supports_text(const BuiltSupports& supports) {

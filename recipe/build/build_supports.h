@@ -30,9 +30,6 @@ struct BuiltSupports {
 std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
                                           const SupportOptions& options);
 
-/// Returns the number of layers by which add_supports will raise the part: its lift, rounded up.
-int lifted_layers(const Recipe& recipe, const Job& job);
-
 /// Returns the material of the supports, mm^3: their runs, 0.2 mm apart, on every layer.
 double support_volume(const Job& job);
 

@@ -78,9 +78,9 @@ std::vector<dvec2> places_of(const CuttingProfile& cutting) {
 
 /// Returns the number of layers whose cutting planes the holes pass through.
 int layers_of(const Job& job, double height) {
-    if (height == 0) return job.layer_count;
+    if (height == 0) return job.layers.count();
     int count = 0;
-    while (count < job.layer_count && job.plane(count) - job.z0() < height) ++count;
+    while (count < job.layers.count() && job.plane(count) - job.z0() < height) ++count;
     return count;
 }
 
@@ -106,13 +106,13 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
             fmt::format("printer.dowel_height / --printer-dowel-height: {} mm does not reach the middle of "
                         "the first layer; "
                         "accepted: more than {} mm, or 0 for the whole part",
-                        cutting.dowel_height, job.layer_height / 2));
+                        cutting.dowel_height, job.layers.middle(0)));
     }
     holes.at = places_of(cutting);
     ClearSurvey survey(cutting.dowel_diameter / 2 + cutting.dowel_margin, recipe.printer.vector.tolerance,
                        holes.at);
     Job lower = job;
-    lower.layer_count = layers;
+    lower.layers = job.layers.lowest(layers);
     survey_layers(lower, survey, {});
     if (!holes.at.empty()) return holes;
     if (survey.closed() < 0) {
@@ -123,7 +123,7 @@ DowelHoles place_dowels(const Recipe& recipe, const Job& job) {
         const std::string why =
             survey.closed() >= 0
                 ? fmt::format("no place lies inside all layers up to layer {}, which begins at {:.4g} mm",
-                              survey.closed(), survey.closed() * job.layer_height)
+                              survey.closed(), job.layers.bottom(survey.closed()))
                 : fmt::format("the area common to all layers is too small for {} holes", cutting.dowels);
         throw InputError(fmt::format(
             "printer.dowels / --printer-dowels: {}, with holes of {} mm and a margin of {} mm; accepted: a "

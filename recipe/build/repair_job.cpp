@@ -44,13 +44,13 @@ void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, co
     std::vector<FieldPtr> solids{built.designed.part};
     for (const PieceJoin& join : report.joins->joins) solids.push_back(strut(join, radius));
     built.designed.part = make_union(std::move(solids));
-    built.job = make_processed(recipe, built.designed);
+    built.job = make_processed(recipe, built.designed, built.layers.plan);
 }
 
 /// Returns the findings of a check in the job before outlines are repaired.
 CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check check, double limit,
                          const RepairOptions& options) {
-    const Job job = make_scaled(recipe, built.designed);
+    const Job job = make_scaled(recipe, built.designed, built.layers.plan);
     PrintCheckOptions checked;
     checked.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     checked.limits.thickness = checked.limits.gap = limit;

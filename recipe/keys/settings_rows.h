@@ -66,6 +66,8 @@ void add_shield_settings(std::vector<Setting>& table);
 void add_process_settings(std::vector<Setting>& table);
 /// The rows of the [repair] section.
 void add_repair_settings(std::vector<Setting>& table);
+/// The rows of the [layers] section.
+void add_layers_settings(std::vector<Setting>& table);
 /// The rows of the [plate] section.
 void add_plate_settings(std::vector<Setting>& table);
 /// The rows of the [support] section.

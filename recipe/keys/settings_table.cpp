@@ -338,12 +338,6 @@ void add_foam(std::vector<Setting>& t) {
     add_stiffness_settings(t);
 }
 
-void add_layers(std::vector<Setting>& t) {
-    t.push_back(row<[](Recipe & r) -> auto& { return r.layer_height; }>(
-        "layers", "height", "--layer-height",
-        {.unit = "mm", .limits = {0.001, 10}, .fallback = "0.05", .help = "Height of a layer."}));
-}
-
 void add_output(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.output.beams; }>(
         "output", "beams", "--output-beams",
@@ -376,7 +370,7 @@ std::vector<Setting> make_table() {
     add_element_settings(table);
     add_elements_settings(table);
     add_cavity_settings(table);
-    add_layers(table);
+    add_layers_settings(table);
     add_process_settings(table);
     add_repair_settings(table);
     add_support_settings(table);

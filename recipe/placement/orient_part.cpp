@@ -59,7 +59,7 @@ double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions&
     solid.part.turn = dvec3(0);
     solid.fields = recipe.fields;
     solid.gradings = recipe.gradings;
-    solid.layer_height = recipe.layer_height;
+    solid.layers.height = recipe.layers.height;
     solid.printer = recipe.printer;
     solid.support = recipe.support == SupportKind::none ? SupportKind::pillars : recipe.support;
     BuiltJob built = build_job(solid, {.threads = options.threads, .cancel = options.cancel});
@@ -90,7 +90,7 @@ OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
     Gradings gradings(recipe);
     std::optional<MeshReport> mesh;
     const FieldPtr body = build_body(recipe, gradings, mesh, mirror);
-    const OrientationRules rules = rules_of(recipe.printer, recipe.layer_height);
+    const OrientationRules rules = rules_of(recipe.printer, recipe.layers.height);
     ThreadArena arena(options.threads);
     OrientReport report;
     arena.execute([&] {

@@ -30,7 +30,7 @@ CheckGrid grid() {
     grid.band.along_origin = grid.band.across_origin = -edge / 2 - pitch;
     grid.band.along_pitch = grid.band.across_pitch = pitch;
     grid.band.count = grid.band.hi = static_cast<int>(edge / pitch) + 4;
-    grid.layer_height = layer_height;
+    grid.layers = {layer_count, layer_height};
     return grid;
 }
 
@@ -65,7 +65,7 @@ CellLattice lattice(double reach) {
 
 /// Limits of resin printers.
 CheckContext context() {
-    CheckContext context{grid(), layer_count, {}, max_places};
+    CheckContext context{grid(), {}, max_places};
     for (const Check check : {Check::islands, Check::overhangs})
         context.limits.verdicts[static_cast<std::size_t>(check)] = Severity::fail;
     context.limits.overhang = layer_height;

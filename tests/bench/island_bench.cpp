@@ -26,7 +26,7 @@ Job koala_job(FieldPtr& body) {
     Job job;
     job.part = make_intersection({body, make_voronoi_foam(settings)});
     job.bounds = body->bounds();
-    job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+    job.layers = equal_layers(job.bounds.size().z, 0.05);
     return job;
 }
 
@@ -39,7 +39,7 @@ void island_survey(benchmark::State& state) {
     options.threads = static_cast<int>(state.range(1));
     IslandSurvey survey;
     for (auto _ : state) survey = survey_islands(job, body, options);
-    state.counters["layers"] = job.layer_count;
+    state.counters["layers"] = job.layers.count();
     state.counters["islands"] = static_cast<double>(survey.report.count);
     state.counters["island_mm3"] = survey.report.volume;
     state.counters["part_mm3"] = survey.report.part_volume;
@@ -69,7 +69,7 @@ void layers_without_islands(benchmark::State& state) {
     band.hi = static_cast<int>(size.x / 0.05);
     RunRows rows;
     for (auto _ : state) {
-        for (int layer = 0; layer < job.layer_count; layer += 20) Layer(job, layer).runs(band, rows);
+        for (int layer = 0; layer < job.layers.count(); layer += 20) Layer(job, layer).runs(band, rows);
         benchmark::DoNotOptimize(rows.runs().data());
     }
 }

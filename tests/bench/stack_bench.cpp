@@ -19,8 +19,7 @@ Job plate_job() {
     job.name = "plate";
     job.part = make_voronoi_foam(bench::plate_foam());
     job.bounds = {{0, 0, 0}, {192, 108, 19.2}};
-    job.layer_height = 0.05;
-    job.layer_count = layers;
+    job.layers = {layers, 0.05};
     job.identity = "stack_8k";
     return job;
 }

@@ -19,8 +19,7 @@ Job support_job(std::int64_t which) {
     job.part =
         make_mesh_field(which == 0 ? bench::wavy_ball(1e5) : close_mesh(read_mesh(path, {}).mesh, path));
     job.bounds = job.part->bounds();
-    job.layer_height = 0.2;
-    job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+    job.layers = equal_layers(job.bounds.size().z, 0.2);
     return job;
 }
 
@@ -42,14 +41,14 @@ class Outlines : public Backend {
 void support_slicing(benchmark::State& state) {
     const Job job = support_job(state.range(0));
     StreamOptions options;
-    options.range = {0, job.layer_count};
+    options.range = {0, job.layers.count()};
     options.threads = static_cast<int>(state.range(1));
     double volume = 0;
     for (auto _ : state) {
         Outlines outlines;
         volume = stream_layers(job, outlines, options).volume;
     }
-    state.counters["layers"] = job.layer_count;
+    state.counters["layers"] = job.layers.count();
     state.counters["mm3"] = volume;
 }
 BENCHMARK(support_slicing)->ArgsProduct({{0, 1}, {1, 2}})->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -62,7 +61,7 @@ void overhang_survey(benchmark::State& state) {
     if (state.range(2) == 0) options.stability.reset();
     OverhangSurvey survey;
     for (auto _ : state) survey = survey_overhangs(job, options);
-    state.counters["layers"] = job.layer_count;
+    state.counters["layers"] = job.layers.count();
     state.counters["points"] = static_cast<double>(survey.points.size());
     state.counters["hanging_mm"] = survey.hanging_length;
     state.counters["own_bridges"] = static_cast<double>(survey.own_bridges);

@@ -151,10 +151,9 @@ std::uint64_t hash_of(const FieldPtr& solid) {
     Job job;
     job.part = solid;
     job.bounds = solid->bounds();
-    job.layer_height = 2.3;
-    job.layer_count = count_layers(job.bounds.size().z, job.layer_height);
+    job.layers = equal_layers(job.bounds.size().z, 2.3);
     const dvec3 lo = job.bounds.lo, size = job.bounds.size();
-    for (int i = 0; i < job.layer_count; i += 2) {
+    for (int i = 0; i < job.layers.count(); i += 2) {
         const Layer layer(job, i);
         for (const Axis axis : {Axis::x, Axis::y}) {
             const bool row = axis == Axis::x;

@@ -33,8 +33,7 @@ Job box_job(dvec3 size, double layer_height) {
     Job job;
     job.bounds = {dvec3(0), size};
     job.part = make_box(job.bounds);
-    job.layer_height = layer_height;
-    job.layer_count = count_layers(size.z, layer_height);
+    job.layers = equal_layers(size.z, layer_height);
     job.identity = "box";
     return job;
 }
@@ -45,7 +44,7 @@ bool takes(const PrinterProfile& profile, dvec3 size) {
     const Job job = box_job(size, 0.2);
     const auto backend = make_backend(profile, folder / "out", false);
     try {
-        backend->open(job, {0, job.layer_count}, false);
+        backend->open(job, {0, job.layers.count()}, false);
     } catch (const InputError& error) {
         UNSCOPED_INFO(error.what());
         return false;

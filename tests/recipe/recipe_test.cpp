@@ -139,7 +139,7 @@ TEST_CASE("a recipe's values arrive in the recipe") {
     CHECK(recipe.foam->seed == 9223372036854775807);
     REQUIRE(recipe.skin);
     CHECK(recipe.skin->thickness.number() == 0.8);
-    CHECK(recipe.layer_height == 0.1);
+    CHECK(recipe.layers.height == 0.1);
     CHECK(recipe.printer.backend == "svg");
     CHECK(recipe.printer.image.pixel_x == 0.04);
     CHECK(recipe.printer.image.pixel_y == 0.04);
@@ -154,7 +154,7 @@ TEST_CASE("what a recipe leaves out has its default") {
     const Recipe recipe = read(sphere);
     CHECK_FALSE(recipe.foam);
     CHECK_FALSE(recipe.skin);
-    CHECK(recipe.layer_height == 0.05);
+    CHECK(recipe.layers.height == 0.05);
     CHECK(recipe.part.scale == 1);
     CHECK(recipe.part.name == "sphere");
     CHECK(recipe.printer.image.sub_rows == PrinterProfile{}.image.sub_rows);
@@ -227,7 +227,7 @@ TEST_CASE("a flag overrides the recipe's key") {
     draft.assign_flag(*find_setting("layers", "height"), "0.025");
     draft.assign_flag(*find_setting("printer", "pixel"), "0.07");
     const Recipe recipe = draft.finish();
-    CHECK(recipe.layer_height == 0.025);
+    CHECK(recipe.layers.height == 0.025);
     CHECK(recipe.printer.image.pixel_x == 0.07);
 }
 

@@ -254,6 +254,7 @@ _signatures: dict[str, tuple[object, tuple]] = {
     "job_build": (c_int32, (c_void_p, c_void_p, POINTER(BuildOptions), POINTER(c_void_p))),
     "job_destroy": (None, _one),
     "job_info_get": (c_int32, (c_void_p, c_void_p, POINTER(JobInfo))),
+    "job_layer_height": (c_int32, (c_void_p, c_void_p, c_int32, POINTER(c_double))),
     "job_layer_z": (c_int32, (c_void_p, c_void_p, c_int32, POINTER(c_double))),
     "job_values": (c_int32, (c_void_p, c_void_p, c_void_p, c_size_t, c_void_p)),
     "job_structure": (c_int32, (c_void_p, c_void_p, POINTER(AnalysisOptions), POINTER(Structure))),

@@ -57,8 +57,15 @@ class Job(Handle):
 
     @property
     def layer_height(self) -> float:
-        """mm"""
+        """Of the first layer, mm."""
         return self.info.layer_height
+
+    def height_of(self, layer: int) -> float:
+        """How high a layer is, mm."""
+        height = c_double()
+        with self._used() as pointer:
+            call(library.lamella_job_layer_height, pointer, layer, byref(height))
+        return height.value
 
     @property
     def has_supports(self) -> bool:

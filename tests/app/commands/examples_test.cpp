@@ -36,8 +36,7 @@ double solid_length(const BuiltJob& built, int layer) {
     SliceContext context;
     Scratch scratch;
     RunRows spans;
-    context.slice(*built.job.part, box.lo.z + (layer + 0.5) * built.job.layer_height)
-        .runs(band, scratch, spans);
+    context.slice(*built.job.part, built.job.plane(layer)).runs(band, scratch, spans);
     double length = 0;
     for (std::size_t line = 0; line < spans.lines(); ++line) {
         for (const Run& run : spans.line(line)) {
@@ -59,11 +58,11 @@ TEST_CASE("every example is a recipe whose layers hold material, but not everywh
         const Recipe recipe = draft.finish();
         const BuiltJob built = build_job(recipe);
         const Box& box = built.job.bounds;
-        CHECK(built.job.layer_count * recipe.layer_height ==
-              Approx(box.size().z).margin(recipe.layer_height));
+        CHECK(built.job.layers.count() * recipe.layers.height ==
+              Approx(box.size().z).margin(recipe.layers.height));
         const double whole = 64 * box.size().x;
         CHECK(solid_length(built, 0) <= whole);
-        const double middle = solid_length(built, built.job.layer_count / 2);
+        const double middle = solid_length(built, built.job.layers.count() / 2);
         CHECK(middle > 0);
         CHECK(middle < 0.9 * whole);
     }

@@ -33,7 +33,7 @@ StreamReport spread(const Folder& folder, const std::string& output, int size, i
     const BuiltJob built = build_job(recipe);
     const std::vector<Output> outputs{{folder / output, recipe.printer}};
     StreamOptions options;
-    options.range = {0, built.job.layer_count};
+    options.range = {0, built.job.layers.count()};
     options.threads = 1;
     CancelToken aborted;
     StreamOptions options_there = options;

@@ -19,8 +19,7 @@ Job step() {
     Job job;
     job.part = make_union({make_box({{-1, -1, 0}, {1, 1, 2}}), make_box({{-3, -2, 2}, {3, 2, 4}})});
     job.bounds = {{-3, -2, 0}, {3, 2, 4}};
-    job.layer_height = 0.5;
-    job.layer_count = 8;
+    job.layers = {8, 0.5};
     return job;
 }
 

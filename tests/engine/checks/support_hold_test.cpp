@@ -21,7 +21,7 @@ CheckGrid grid() {
     grid.band.along_pitch = grid.band.across_pitch = pitch;
     grid.band.count = row_count;
     grid.band.hi = columns;
-    grid.layer_height = height;
+    grid.layers = {1 << 20, height};
     return grid;
 }
 

@@ -19,8 +19,7 @@ Job sphere_job(int layers) {
     Job job;
     job.part = make_sphere({0, 0, 5}, 5);
     job.bounds = job.part->bounds();
-    job.layer_height = 10.0 / layers;
-    job.layer_count = layers;
+    job.layers = {layers, 10.0 / layers};
     return job;
 }
 

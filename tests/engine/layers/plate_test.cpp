@@ -17,8 +17,7 @@ Job job_of(FieldPtr part, double layer_height = 0.5) {
     Job job;
     job.bounds = part->bounds();
     job.part = std::move(part);
-    job.layer_height = layer_height;
-    job.layer_count = count_layers(job.bounds.size().z, layer_height);
+    job.layers = equal_layers(job.bounds.size().z, layer_height);
     job.identity = "job";
     return job;
 }
@@ -52,7 +51,7 @@ TEST_CASE("copies stand in rows with gaps, and none overlap", "[plate]") {
     CHECK(plate.bounds.lo == dvec3(3, 4, 5));
     CHECK(plate.bounds.size().x == Approx(22));
     CHECK(plate.bounds.size().y == Approx(4 * 5 + 3 * 2));
-    CHECK(plate.layer_count == 4);
+    CHECK(plate.layers.count() == 4);
     for (const int layer : {0, 3}) CHECK(area_of(plate, layer) == Approx(7 * 50).epsilon(1e-4));
     int inside = 0;
     for (int copy = 0; copy < 8; ++copy) {
@@ -77,7 +76,7 @@ TEST_CASE("parts of several heights stand on one bed, with their supports", "[pl
     const Job low = box({50, 50, 20}, {6, 3, 1});
     const Job plate = arrange_plate(std::vector<PlateItem>{{tall, 1}, {low, 2}}, 1, {infinity, infinity});
     CHECK(plate.z0() == -3);
-    CHECK(plate.layer_count == 20);
+    CHECK(plate.layers.count() == 20);
     CHECK(area_of(plate, 0) == Approx(16 + 2 * 18).epsilon(1e-4));
     CHECK(area_of(plate, 2) == Approx(16).epsilon(1e-4));
     CHECK(plate.supports);

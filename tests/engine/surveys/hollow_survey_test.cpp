@@ -57,7 +57,7 @@ std::vector<RunRows> layers_of(const RunBoxes& plan, int layers, int lines) {
 void check_printable(const Job& job, const HollowOptions& options, const HollowSurvey& survey) {
     const int at_once = options.layers_at_once;
     const auto lines = static_cast<int>(job.bounds.size().y / options.pitch) + 1;
-    const auto stack = layers_of(*survey.cavities, (job.layer_count + at_once - 1) / at_once + 1, lines);
+    const auto stack = layers_of(*survey.cavities, (job.layers.count() + at_once - 1) / at_once + 1, lines);
     REQUIRE(stack.back().runs().empty());
     const double unit = options.pitch / run_unit;
     for (std::size_t i = 0; i + 1 < stack.size(); ++i) {

@@ -10,8 +10,7 @@ inline Job job_of(FieldPtr part, const Box& bounds, double layer_height) {
     Job job;
     job.part = std::move(part);
     job.bounds = bounds;
-    job.layer_height = layer_height;
-    job.layer_count = count_layers(bounds.size().z, layer_height);
+    job.layers = equal_layers(bounds.size().z, layer_height);
     return job;
 }
 

@@ -106,7 +106,7 @@ std::vector<PlacedRun> all_runs(const Job& job, double pitch) {
     std::vector<PlacedRun> runs;
     const int n = static_cast<int>(job.bounds.size().x / pitch) + 1;
     const RowBand band{Axis::x, job.bounds.lo.x, pitch, job.bounds.lo.y, pitch, 0, n, 1, 0, n};
-    for (int layer = 0; layer < job.layer_count; ++layer) {
+    for (int layer = 0; layer < job.layers.count(); ++layer) {
         RunRows rows;
         Layer(job, layer).runs(band, rows);
         for (int r = 0; r < n; ++r) {

@@ -81,7 +81,7 @@ TEST_CASE("by brute force, all that hangs in random scenes is held, and nothing 
         const OverhangSurvey survey = survey_overhangs(job, options);
         points += survey.points.size();
         INFO("scene " << scene << ", " << survey.points.size() << " points");
-        for (int layer = 1; layer < job.layer_count; ++layer) {
+        for (int layer = 1; layer < job.layers.count(); ++layer) {
             const double z = layer * height;
             std::vector<dvec2> overhanging;  // by a bit less than the allowance, or more
             for (const Sampled& outline : outlines(job, layer, step)) {

@@ -149,8 +149,7 @@ inline Job make_job(Box bounds, FigureSolid::Figures figures, double layer_heigh
     job.name = "figures";
     job.part = std::make_shared<FigureSolid>(bounds, std::move(figures), std::move(holes));
     job.bounds = bounds;
-    job.layer_height = layer_height;
-    job.layer_count = static_cast<int>(std::lround(bounds.size().z / layer_height));
+    job.layers = {static_cast<int>(std::lround(bounds.size().z / layer_height)), layer_height};
     job.identity = "0123456789abcdef";
     return job;
 }
@@ -165,7 +164,7 @@ inline double run_layers(const Job& job, Backend& backend, LayerRange range, boo
         const Layer layer(job, i);
         const auto product = backend.render(layer);
         backend.write(layer, *product);
-        volume += product->area * job.layer_height;
+        volume += product->area * job.layers.height(i);
     }
     backend.finish();
     return volume;

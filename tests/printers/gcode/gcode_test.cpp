@@ -243,7 +243,7 @@ TEST_CASE("paths are not planned to their end for a layer that is not wanted any
     const TemporaryFolder folder;
     const Job job = forest();
     const auto backend = make_gcode(filament_printer(), folder / "out.gcode", false);
-    backend->open(job, {0, job.layer_count}, false);
+    backend->open(job, {0, job.layers.count()}, false);
     CancelToken token;
     CHECK_NOTHROW(backend->render(Layer(job, 3, &token)));
     token.cancel();

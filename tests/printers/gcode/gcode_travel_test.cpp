@@ -82,7 +82,7 @@ Reading read(const std::string& text) {
 
 std::string print(const Job& job, const PrinterProfile& profile) {
     const TemporaryFolder folder;
-    run_layers(job, *make_gcode(profile, folder / "out.gcode", false), {0, job.layer_count});
+    run_layers(job, *make_gcode(profile, folder / "out.gcode", false), {0, job.layers.count()});
     return read_text(folder / "out.gcode");
 }
 

@@ -64,7 +64,7 @@ bool covered(dvec2 p, const std::vector<Line>& lines) {
 
 std::vector<std::vector<Line>> print(const Job& job, const PrinterProfile& profile) {
     const TemporaryFolder folder;
-    run_layers(job, *make_gcode(profile, folder / "out.gcode", false), {0, job.layer_count});
+    run_layers(job, *make_gcode(profile, folder / "out.gcode", false), {0, job.layers.count()});
     const dvec3 center = job.bounds.center();
     return lines_of(read_text(folder / "out.gcode"), {center.x, center.y});
 }

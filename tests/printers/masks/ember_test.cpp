@@ -82,7 +82,7 @@ TEST_CASE("what an Ember cannot print is refused", "[ember]") {
     const TemporaryFolder folder;
     PrinterProfile profile = MachineProfiles().find("ember")->printer;
     Job job = two_cones();
-    job.layer_height = 0.0333;
+    job.layers = {12, 0.0333};
     CHECK_THROWS_WITH(make_ember(profile, folder / "a", false)->open(job, {0, 12}, false),
                       Catch::Contains("whole micrometres"));
     profile.image.width = 1920;

@@ -111,12 +111,12 @@ TEST_CASE("a package of sheets names every part of it", "[image3d]") {
 TEST_CASE("supports are an image and an object of their own", "[image3d]") {
     const TemporaryFolder folder;
     const Job job = supported_table();
-    run_layers(job, *make_image3d(printer(0.1), folder / "out.3mf", false), {0, job.layer_count});
+    run_layers(job, *make_image3d(printer(0.1), folder / "out.3mf", false), {0, job.layers.count()});
     auto files = package(folder / "out.3mf");
     const std::string model = files.at("3D/3dmodel.model");
     CHECK(count_of(model, "type=\"solidsupport\"") == 1);
     CHECK(count_of(model, "<item ") == 2);
-    CHECK(static_cast<int>(files.size()) == 2 * job.layer_count + 4);
+    CHECK(static_cast<int>(files.size()) == 2 * job.layers.count() + 4);
     // What is printed is the table; the scaffold is there by its name.
     VolumetricModel read(folder / "out.3mf");
     const FieldPtr table = read.built(), scaffold = read.object("figures supports");
@@ -125,14 +125,14 @@ TEST_CASE("supports are an image and an object of their own", "[image3d]") {
     const Box box = table->bounds();
     CHECK(volume_in(*table, box, 0.05) == Approx(table_area).epsilon(0.01));
     double volume = 0;
-    for (int i = 0; i < job.layer_count; ++i) volume += scaffold_area(job.plane(i)) * job.layer_height;
+    for (int i = 0; i < job.layers.count(); ++i) volume += scaffold_area(job.plane(i)) * job.layers.height(i);
     CHECK(volume_in(*scaffold, scaffold->bounds(), 0.05) == Approx(volume).epsilon(0.1));
 }
 
 TEST_CASE("a package of sheets that was stopped is continued byte for byte", "[image3d]") {
     const TemporaryFolder folder;
     const Job job = GENERATE(true, false) ? cone() : supported_table();
-    const int count = job.layer_count;
+    const int count = job.layers.count();
     run_layers(job, *make_image3d(printer(0.2), folder / "whole.3mf", false), {0, count});
     const int stop = GENERATE(0, 1, 8);
     run_layers(job, *make_image3d(printer(0.2), folder / "parts.3mf", false), {0, count}, false, stop);

@@ -24,8 +24,7 @@ Job foam_on_posts() {
     job.supports =
         make_union({make_cylinder({2, 2, 0}, {2, 2, 3}, 0.4), make_cylinder({7, 5, 0}, {7, 5, 3}, 0.4)});
     job.bounds = {{0, 0, 0}, {9, 7, 6}};
-    job.layer_height = 0.1;
-    job.layer_count = 60;
+    job.layers = {60, 0.1};
     return job;
 }
 

@@ -112,9 +112,9 @@ TEST_CASE("masks of discs have the area of discs", "[png_stack]") {
     PrinterProfile profile = small_display();
     profile.image.antialiasing = antialiasing;
     const Job job = cone();
-    run_layers(job, *make_png_stack(profile, folder / "out", false), {0, job.layer_count});
+    run_layers(job, *make_png_stack(profile, folder / "out", false), {0, job.layers.count()});
     const double tolerance = antialiasing == Antialiasing::off ? 0.02 : 0.003;
-    for (int i = 0; i < job.layer_count; ++i) {
+    for (int i = 0; i < job.layers.count(); ++i) {
         const double radius = 5.5 / (1 + job.plane(i) * 0.3);
         char name[32];
         std::snprintf(name, sizeof name, "out/%05d.png", i);
@@ -126,7 +126,7 @@ TEST_CASE("masks of discs have the area of discs", "[png_stack]") {
         }
         const auto product = [&] {
             auto backend = make_png_stack(profile, folder / "again", true);
-            backend->open(job, {0, job.layer_count}, true);
+            backend->open(job, {0, job.layers.count()}, true);
             return backend->render(Layer(job, i));
         }();
         CHECK(product->area == Approx(3.14159265358979 * radius * radius).epsilon(tolerance));
@@ -137,13 +137,13 @@ TEST_CASE("every image format holds the pixels of the PNG", "[png_stack]") {
     const TemporaryFolder folder;
     const Job job = cone();
     PrinterProfile profile = small_display();
-    run_layers(job, *make_png_stack(profile, folder / "png", false), {0, job.layer_count});
+    run_layers(job, *make_png_stack(profile, folder / "png", false), {0, job.layers.count()});
     const DecodedImage expected = decode_image(folder / "png/00001.png");
     for (const auto& [format, ending] :
          {std::pair{ImageFormat::tiff, "tif"}, {ImageFormat::bmp, "bmp"}, {ImageFormat::pgm, "pgm"}}) {
         INFO(ending);
         profile.image.format = format;
-        run_layers(job, *make_png_stack(profile, folder / ending, false), {0, job.layer_count});
+        run_layers(job, *make_png_stack(profile, folder / ending, false), {0, job.layers.count()});
         const auto input = OIIO::ImageInput::open(folder / (std::string(ending) + "/00001." + ending));
         REQUIRE(input);
         REQUIRE(input->spec().width == expected.width);

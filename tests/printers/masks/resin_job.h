@@ -41,9 +41,9 @@ inline std::vector<DecodedImage> stack_of(const Job& job, const PrinterProfile& 
     const TemporaryFolder folder;
     PrinterProfile plain = profile;
     plain.image.format = ImageFormat::png;
-    run_layers(job, *make_png_stack(plain, folder / "stack", false), {0, job.layer_count});
+    run_layers(job, *make_png_stack(plain, folder / "stack", false), {0, job.layers.count()});
     std::vector<DecodedImage> images;
-    for (int k = 0; k < job.layer_count; ++k) {
+    for (int k = 0; k < job.layers.count(); ++k) {
         const std::string number = std::to_string(100000 + k).substr(1);
         images.push_back(decode_image(folder / ("stack/" + number + ".png")));
     }

@@ -31,7 +31,7 @@ constexpr Written all_kinds[] = {
 std::string write_job(const TemporaryFolder& folder, const Written& kind, const Job& job,
                       const PrinterProfile& profile) {
     const std::string path = folder / ("job" + std::string(kind.ending));
-    run_layers(job, *make_backend(profile, path, true), {0, job.layer_count});
+    run_layers(job, *make_backend(profile, path, true), {0, job.layers.count()});
     return path;
 }
 

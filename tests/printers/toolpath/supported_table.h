@@ -49,14 +49,14 @@ inline Job supported_table() {
     const Box below{{-8, -2, 0}, {8, 2, 3}};
     job.supports = std::make_shared<FigureSolid>(below, scaffold_figures);
     job.bounds = Box{{-8, -3, 0}, {8, 3, 4}};
-    job.layer_count = 20;
+    job.layers = {20, 0.2};
     return job;
 }
 
 inline double scaffold_volume() {
     const Job job = supported_table();
     double sum = 0;
-    for (int i = 0; i < job.layer_count; ++i) sum += scaffold_area(job.plane(i)) * job.layer_height;
+    for (int i = 0; i < job.layers.count(); ++i) sum += scaffold_area(job.plane(i)) * job.layers.height(i);
     return sum;
 }
 

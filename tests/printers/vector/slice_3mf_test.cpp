@@ -194,7 +194,7 @@ TEST_CASE("supports in a 3MF package are an object of their own", "[3mf]") {
 TEST_CASE("a 3MF package that was stopped is continued byte for byte from its last part", "[3mf]") {
     const TemporaryFolder folder;
     const Job job = GENERATE(true, false) ? rings() : supported_table();
-    const int count = job.layer_count;
+    const int count = job.layers.count();
     run_layers(job, *make_slice_3mf(printer(3), folder / "whole.3mf", false), {0, count});
     const int stop = GENERATE(0, 2, 3, 8, 9);
     CAPTURE(stop, count);

@@ -50,8 +50,7 @@ IslandReport survey(const FieldPtr& body, const FieldPtr& foam, double pitch) {
     Job job;
     job.part = make_filled_body(body, foam, 0);
     job.bounds = body->bounds();
-    job.layer_height = pitch;
-    job.layer_count = count_layers(job.bounds.size().z, pitch);
+    job.layers = equal_layers(job.bounds.size().z, pitch);
     IslandSurveyOptions options;
     options.pitch = pitch;
     return survey_islands(job, body, options).report;

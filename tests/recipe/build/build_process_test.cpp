@@ -44,7 +44,7 @@ void check_widths(const Job& job, int index, double x, double y) {
 
 TEST_CASE("an elephant's foot is taken off the first layer alone unless told otherwise") {
     const Job job = built("[process]\nelephant_foot = 0.2\n").job;
-    REQUIRE(job.layer_count == 100);
+    REQUIRE(job.layers.count() == 100);
     check_widths(job, 0, 9.6, 9.6);
     check_widths(job, 1, 10, 10);
     check_widths(job, 99, 10, 10);
@@ -66,7 +66,7 @@ TEST_CASE("xy compensation moves every outline, and the bounds where it grows") 
     check_widths(large, 99, 10.3, 10.3);
     CHECK(large.bounds.lo == dvec3(-5.15, -5.15, -5));
     CHECK(large.bounds.hi == dvec3(5.15, 5.15, 5));
-    CHECK(large.layer_count == 100);
+    CHECK(large.layers.count() == 100);
     const Job small = built("[process]\nxy_compensation = -0.15\n").job;
     check_widths(small, 0, 9.7, 9.7);
     check_widths(small, 99, 9.7, 9.7);
@@ -80,7 +80,7 @@ TEST_CASE("a part is scaled about its middle from its lowest point, its skin wit
     CHECK(bounds.hi.y == Approx(4.5));
     CHECK(bounds.lo.z == -5);
     CHECK(bounds.hi.z == Approx(7));
-    CHECK(job.job.layer_count == 120);
+    CHECK(job.job.layers.count() == 120);
     check_widths(job.job, 60, 11, 9);
     const Field& part = *job.job.part;
     CHECK(part.value({5.5 - 1.09, 0, 1}) < 0);
@@ -100,7 +100,7 @@ TEST_CASE("outlines are moved by the distance as printed, whatever the scale") {
 TEST_CASE("a scaled part is cut where the designed one would be") {
     const std::string foam = "[foam]\ncell = 2\nbeam = 0.2\n";
     const BuiltJob scaled = built(foam + "[process]\nscale = [1.25, 1.25, 2]\n");
-    REQUIRE(scaled.job.layer_count == scaled.designed.layer_count);
+    REQUIRE(scaled.job.layers.count() == scaled.designed.layers.count());
     for (const int index : {0, 77, 199}) {
         const Layer printed(scaled.job, index), designed(scaled.designed, index);
         RunRows got, expected;
@@ -136,7 +136,7 @@ TEST_CASE("a skin outside makes the part larger and leaves the foam the whole bo
     const BuiltJob outside = built("[skin]\nthickness = 1\nside = \"outside\"\n");
     CHECK(outside.job.bounds.lo == dvec3(-6));
     CHECK(outside.job.bounds.hi == dvec3(6));
-    CHECK(outside.job.layer_count == 120);
+    CHECK(outside.job.layers.count() == 120);
     check_widths(outside.job, 0, 10 + 2 * std::sqrt(1 - 0.95 * 0.95), 10 + 2 * std::sqrt(1 - 0.95 * 0.95));
     check_widths(outside.job, 60, 12, 12);
     CHECK(outside.job.part->value({5.01, 0, 0}) < 0);
@@ -154,7 +154,7 @@ TEST_CASE("a skin outside makes the part larger and leaves the foam the whole bo
 TEST_CASE("settings of a process that change nothing leave the part as it is") {
     const BuiltJob plain = built(""), idle = built("[process]\nscale = [1, 1, 1]\nxy_compensation = 0\n");
     CHECK(idle.job.part == idle.designed.part);
-    CHECK(idle.job.layer_count == plain.job.layer_count);
+    CHECK(idle.job.layers.count() == plain.job.layers.count());
     CHECK(job_identity(recipe_of(cube)) !=
           job_identity(recipe_of(cube + "[process]\nelephant_foot = 0.2\n")));
 }

@@ -44,7 +44,7 @@ double area(const BuiltJob& job, double z) {
 
 double volume(const BuiltJob& job) {
     double sum = 0;
-    for (int layer = 0; layer < job.job.layer_count; ++layer)
+    for (int layer = 0; layer < job.job.layers.count(); ++layer)
         sum += area(job, job.job.bounds.lo.z + (layer + 0.5) * 0.1) * 0.1;
     return sum;
 }

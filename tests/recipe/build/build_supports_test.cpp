@@ -35,10 +35,10 @@ struct Walk {
 Walk walk(const Job& job) {
     Walk found;
     const RowBand band = band_over(grown(job.bounds, 3), 0.2);
-    const double volume = band.along_pitch * band.across_pitch * job.layer_height / run_unit;
+    const double volume = band.along_pitch * band.across_pitch * job.layers.height(0) / run_unit;
     // Run ends are rounded to a unit.
     const double lo = band.coordinate(job.bounds.lo.x) - 1, hi = band.coordinate(job.bounds.hi.x) + 1;
-    for (int layer = -8; layer < job.layer_count + 4; ++layer) {
+    for (int layer = -8; layer < job.layers.count() + 4; ++layer) {
         const RunRows part = runs_at(*job.part, job.plane(layer), band);
         const RunRows supports = runs_at(*job.supports, job.plane(layer), band);
         found.part += static_cast<double>(part.total_length()) * volume;
@@ -52,7 +52,7 @@ Walk walk(const Job& job) {
                 found.below += layer < 0;
                 found.outside += runs.front().begin < lo || runs.back().end > hi ||
                                  across < job.bounds.lo.y || across > job.bounds.hi.y ||
-                                 layer >= job.layer_count;
+                                 layer >= job.layers.count();
             }
         }
     }
@@ -104,7 +104,7 @@ bool same_plan(const SupportPlan& a, const SupportPlan& b) {
 /// Whether the parts of two jobs have the same runs on layers `shift` apart.
 bool same_part(const Job& a, const Job& b, int shift = 0) {
     const RowBand band = band_over(grown(a.bounds, 1), 0.2);
-    for (int layer = 0; layer < a.layer_count; ++layer) {
+    for (int layer = 0; layer < a.layers.count(); ++layer) {
         const RunRows one = runs_at(*a.part, a.plane(layer), band);
         const RunRows two = runs_at(*b.part, b.plane(layer + shift), band);
         if (!std::equal(one.runs().begin(), one.runs().end(), two.runs().begin(), two.runs().end()))
@@ -119,7 +119,7 @@ TEST_CASE("a job without [support] has no supports and is not changed") {
     const Supported s = supported(ball + filament);
     CHECK_FALSE(s.supports.has_value());
     CHECK_FALSE(s.job().supports);
-    CHECK(s.job().layer_count == 80);
+    CHECK(s.job().layers.count() == 80);
     CHECK(s.job().bounds.lo == dvec3(-8));
     CHECK_FALSE(supported(ball + filament + "[support]\nkind = \"none\"\ntip = 0.5\n").supports.has_value());
 }
@@ -168,10 +168,10 @@ TEST_CASE("a lift raises the part by whole layers, cut as before, on supports al
     const BoxPart part(table());
     const Supported flat = supported(part.recipe() + filament + "[support]\n");
     const Supported lifted = supported(part.recipe() + filament + "[support]\nlift = 3.1\n");
-    CHECK(lifted.job().layer_count == flat.job().layer_count + 16);
+    CHECK(lifted.job().layers.count() == flat.job().layers.count() + 16);
     CHECK(lifted.job().bounds.lo.z == Approx(-3.2));
     CHECK(lifted.job().bounds.hi.z == Approx(12));
-    for (int i = 0; i < flat.job().layer_count; ++i)
+    for (int i = 0; i < flat.job().layers.count(); ++i)
         CHECK(lifted.job().plane(i + 16) == Approx(flat.job().plane(i)).margin(1e-9));
     CHECK(same_part(flat.job(), lifted.job(), 16));
     check_apart(lifted.job());
@@ -306,7 +306,7 @@ TEST_CASE("supports end where outlines that are moved begin") {
         const Job& designed = s.built.designed;
         const RowBand band = band_over(grown(s.job().bounds, 1), 0.2);
         std::int64_t both = 0, before = 0, after = 0;
-        for (int i = 0; i < designed.layer_count; ++i) {
+        for (int i = 0; i < designed.layers.count(); ++i) {
             const RunRows solid = runs_at(*designed.part, s.job().plane(i), band);
             const RunRows shown = runs_at(*s.supports->before_offsets, s.job().plane(i), band);
             for (std::size_t l = 0; l < solid.lines(); ++l) both += shared(solid.line(l), shown.line(l));
@@ -382,7 +382,7 @@ TEST_CASE("a plan is found again by the same job alone") {
     CHECK(again.job().bounds.lo == first.job().bounds.lo);
     CHECK(again.job().bounds.hi == first.job().bounds.hi);
     const RowBand band = band_over(grown(first.job().bounds, 1), 0.2);
-    for (int i = 0; i < first.job().layer_count; ++i) {
+    for (int i = 0; i < first.job().layers.count(); ++i) {
         const RunRows a = runs_at(*first.job().supports, first.job().plane(i), band);
         const RunRows b = runs_at(*again.job().supports, again.job().plane(i), band);
         CHECK(std::equal(a.runs().begin(), a.runs().end(), b.runs().begin(), b.runs().end()));

@@ -28,7 +28,7 @@ TEST_CASE("the holes stand in every layer, round, clear of its border") {
     for (const dvec2& p : job.dowels->at) {
         CHECK(std::abs(p.x) <= 25 + 0.01);
         CHECK(std::abs(p.y) <= 15 + 0.01);
-        for (int i = 0; i < job.job.layer_count; ++i) {
+        for (int i = 0; i < job.job.layers.count(); ++i) {
             const double z = job.job.plane(i);
             CHECK(job.job.part->value({p.x, p.y, z}) > 1.9);
             for (const dvec2 side : {dvec2(1, 0), dvec2(-1, 0), dvec2(0, 1), dvec2(0, -1)}) {
@@ -38,7 +38,7 @@ TEST_CASE("the holes stand in every layer, round, clear of its border") {
             }
         }
     }
-    for (int i = 0; i < job.job.layer_count; ++i) {
+    for (int i = 0; i < job.job.layers.count(); ++i) {
         CHECK(Layer(job.job, i).contours(0.02).size() == static_cast<std::size_t>(count) + 1);
     }
 }
