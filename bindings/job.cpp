@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "bindings/handles.h"
-#include "engine/layers/plate.h"
 #include "recipe/build/finish_job.h"
 #include "recipe/output/job_picture.h"
-#include "recipe/printer_choice.h"
+#include "recipe/output/plated_job.h"
 #include "recipe/structure/structure_report.h"
 
 namespace lamella {
@@ -62,9 +61,9 @@ void make(const lamella_build_options& options, lamella_job& made) {
     const SupportStructures around = finish_job(recipe, made.built, finish);
     add_picture(recipe, made.built, around.supports, options.threads);
     made.job = std::move(made.built.job);
-    if (recipe.plate.copies == 1) return;
+    if (recipe.plate.copies == 1 && recipe.plate.number == 1) return;
     const PlateItem item{made.job, recipe.plate.copies};
-    made.job = arrange_plate({&item, 1}, recipe.plate.gap, plate_size(recipe.printer));
+    made.job = put_on_plates(recipe, {&item, 1}, {options.threads, {}, optimizing.cancel}).job;
 }
 
 const lamella_job& job_of(const lamella_job* job) { return wanted(job, "job"); }

@@ -107,20 +107,6 @@ std::vector<std::string> backend_words() {
     return words;
 }
 
-dvec2 plate_size(const PrinterProfile& printer) {
-    const ImageProfile& image = printer.image;
-    switch (find_backend(printer.backend).content) {
-        case LayerContent::pixels:
-            return dvec2(image.width * image.pixel_x, image.height * image.pixel_y) - 2 * image.margin;
-        case LayerContent::beads:
-            return {printer.filament.bed_x, printer.filament.bed_y};
-        case LayerContent::voxels:
-        case LayerContent::contours:
-            break;
-    }
-    return {infinity, infinity};
-}
-
 std::vector<std::string> output_endings(const BackendInfo& backend) {
     std::vector<std::string> endings;
     std::istringstream words(backend.endings);

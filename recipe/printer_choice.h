@@ -13,9 +13,6 @@ namespace lamella {
 /// Returns the names of all back-ends.
 std::vector<std::string> backend_words();
 
-/// Returns the printable size of the machine's plate, x and y in mm; infinite when it has no bounds.
-dvec2 plate_size(const PrinterProfile& printer);
-
 /// Returns the endings of a back-end's files, with their dots; the first is the default.
 std::vector<std::string> output_endings(const BackendInfo& backend);
 

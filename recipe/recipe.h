@@ -266,7 +266,9 @@ struct LayersRecipe {
 /// Copies of the part on one plate.
 struct PlateRecipe {
     int copies = 1;
-    double gap = 5;  ///< distance between neighbours, mm
+    double gap = 5;     ///< distance between neighbours, mm
+    bool turn = false;  ///< whether parts may be turned by right angles
+    int number = 1;     ///< the plate to make, where one is not enough
 };
 
 /// Outputs other than layers.

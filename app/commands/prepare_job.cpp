@@ -1,6 +1,8 @@
 // Runs surveys, builds supports and arranges plates before the first layer.
 #include "app/commands/prepare_job.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -9,13 +11,13 @@
 #include "app/reports/grading_report.h"
 #include "app/reports/island_report.h"
 #include "app/reports/job_report.h"
-#include "engine/layers/plate.h"
 #include "printers/registry.h"
 #include "procedural/elements/element_optimizer.h"
 #include "recipe/build/repair_job.h"
 #include "recipe/layer_range.h"
 #include "recipe/layering/plan_layers.h"
 #include "recipe/output/job_picture.h"
+#include "recipe/output/plated_job.h"
 #include "recipe/printer_choice.h"
 #include "recipe/read_recipe.h"
 #include "recipe/structure/structure_report.h"
@@ -90,7 +92,14 @@ void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>
         finish_with_progress(other, beside, options, cancel);
         items.push_back({beside.job, other.plate.copies});
     }
-    built.job = arrange_plate(items, recipe.plate.gap, plate_size(recipe.printer));
+    PlatedJob plated = put_on_plates(recipe, items, {options.threads, {}, &cancel});
+    built.job = std::move(plated.job);
+    if (plated.plates > 1 && !options.quiet) {
+        std::fputs(fmt::format("the parts need {} plates; this is number {}, and --plate N makes another\n",
+                               plated.plates, recipe.plate.number)
+                       .c_str(),
+                   stderr);
+    }
 }
 
 }  // namespace
@@ -164,7 +173,8 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     parse_layers(options.layers, built.job.layers.count() + lift_layers(recipe).count());
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
-    if (recipe.plate.copies > 1 || !others.empty()) fill_plate(recipe, built, others, options, cancel);
+    if (recipe.plate.copies > 1 || recipe.plate.number > 1 || !others.empty())
+        fill_plate(recipe, built, others, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layers.count());
     stream.threads = options.threads;

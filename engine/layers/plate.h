@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/layers/layer.h"
+#include "engine/layers/layer_stream.h"
 
 namespace lamella {
 
@@ -14,12 +14,20 @@ struct PlateItem {
     int copies = 1;
 };
 
-/// Returns one job with all parts side by side, their beds at one height. The parts stand in rows along x,
-/// beginning at the lower left. The row length is chosen so that they take up the least share of the
-/// machine's plate (`machine`: its size in x and y, mm; infinite if there is none, then the arrangement
-/// becomes about square). `gap` is the distance between the bounds of neighbours, mm. The first part keeps
-/// its place; a single part is returned as it is. Does not check whether all parts fit: the back-end does.
-/// Throws InputError when layer heights differ or there are no parts.
-Job arrange_plate(std::span<const PlateItem> items, double gap, dvec2 machine);
+struct PlateOptions : PassControl {
+    double gap = 5;           ///< between neighbours, mm
+    dvec2 machine{infinity};  ///< size of the machine's plate in x and y, mm; infinite if there is none
+    bool turns = false;       ///< whether parts may be turned by right angles
+};
+
+/// Returns the jobs of as many plates as it takes, each with its parts side by side, their beds at one
+/// height. A single part is returned as it is.
+///
+/// Where one plate has room for all in rows, they stand in rows along x, from the lower left on; rows are as
+/// long as takes up the least share of the plate, or about a square without a machine. Otherwise parts are
+/// nested by their outlines, as surveyed (outline_nesting.h), to a thousandth of the plate. Does not check
+/// heights: the back-end does. Throws InputError for a part that is larger than the plate, for layers that
+/// differ, and where there are no parts; Interrupted when cancelled.
+std::vector<Job> arrange_plates(std::span<const PlateItem> items, const PlateOptions& options);
 
 }  // namespace lamella

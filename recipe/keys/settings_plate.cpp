@@ -8,11 +8,17 @@ void add_plate_settings(std::vector<Setting>& t) {
         "plate", "copies", "--copies",
         {.limits = {1, 10000},
          .fallback = "1",
-         .help = "Number of copies of the part on the plate, in rows."}));
+         .help = "Number of copies of the part: in rows on one plate, or nested on several."}));
     t.push_back(row<[](Recipe & r) -> auto& {
         return r.plate.gap;
     }>("plate", "gap", "--plate-gap",
        {.unit = "mm", .limits = {0, 1000}, .fallback = "5", .help = "Gap between neighbours on the plate."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.plate.turn; }>(
+        "plate", "turn", "--plate-turn",
+        {.fallback = "false", .help = "Turn parts by right angles where they fill the plate better."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.plate.number; }>(
+        "plate", "number", "--plate",
+        {.limits = {1, 10000}, .fallback = "1", .help = "The plate to make, where the parts need several."}));
 }
 
 }  // namespace lamella

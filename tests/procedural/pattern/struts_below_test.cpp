@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/solids/primitives.h"
+#include "procedural/pattern/least_widths.h"
 #include "procedural/pattern/surface_pattern.h"
 #include "procedural/texture/body_sites.h"
 
