@@ -16,6 +16,14 @@
 
 namespace lamella {
 
+/// One of several parts of a job.
+struct JobObject {
+    std::string name;  ///< of its own on the plate
+    FieldPtr part;
+    FieldPtr supports;  ///< null for none
+    Rect covers{};      ///< what both cover of the bed, in the job's coordinates, mm
+};
+
 /// A print job: a solid and how it is cut into layers, each at its mid-height.
 struct Job {
     std::string name = "part";  ///< short name for file names and headers
@@ -26,6 +34,7 @@ struct Job {
     /// Draws the part with its supports, seen from the front, in a square of `size` pixels, for files that
     /// carry a preview. May be empty.
     std::function<Picture(int size)> picture{};
+    std::vector<JobObject> objects{};  ///< the parts that the job consists of; empty for a single one
     std::vector<std::string> notes{};  ///< lines of text for people, for files that carry comments
     std::string identity;  ///< hash of recipe and inputs; jobs of equal identity produce the same bytes
 

@@ -95,9 +95,13 @@ class PlateJob {
         };
         parts_.push_back(placed(job.part));
         if (job.supports) supports_.push_back(placed(job.supports));
-        const Rect rect = quarter_turned(standing.covers, standing.quarters);
-        plate_.bounds = unite(
-            plate_.bounds, Box{dvec3(rect.lo, job.bounds.lo.z) + by, dvec3(rect.hi, job.bounds.hi.z) + by});
+        const Rect covers = quarter_turned(standing.covers, standing.quarters);
+        plate_.objects.push_back({fmt::format("{}_{}", job.name, parts_.size()),
+                                  parts_.back(),
+                                  job.supports ? supports_.back() : nullptr,
+                                  {covers.lo + standing.by, covers.hi + standing.by}});
+        plate_.bounds = unite(plate_.bounds, Box{dvec3(covers.lo, job.bounds.lo.z) + by,
+                                                 dvec3(covers.hi, job.bounds.hi.z) + by});
         count(*standing.item);
     }
 

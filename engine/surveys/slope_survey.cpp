@@ -112,11 +112,12 @@ class SlopeSurveyor : public LayerPass {
 
     /// Returns the z of the unit normal; 1 where values do not tell it.
     double normal_z(dvec3 p, double apart) const {
+        const double reach = job_.layers.least_height();  // the surface is nearer: values are exact
         dvec3 slope;
         for (glm::length_t axis = 0; axis < 3; ++axis) {
             dvec3 step(0);
             step[axis] = apart;
-            slope[axis] = job_.part->value(p + step) - job_.part->value(p - step);
+            slope[axis] = job_.part->value_within(p + step, reach) - job_.part->value_within(p - step, reach);
         }
         const double length = glm::length(slope);
         return length > 0 && std::isfinite(length) ? slope.z / length : 1;

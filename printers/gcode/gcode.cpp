@@ -74,6 +74,7 @@ class Gcode : public Backend {
         range_ = range;
         const dvec3 center = job.bounds.center();
         shift_ = dvec2(filament_.bed_x, filament_.bed_y) * 0.5 - dvec2(center.x, center.y);
+        if (gcode_.label_objects) labels_ = ObjectLabels(job, gcode_.flavour, shift_);
         const std::string supports = supported_ ? fmt::format(" supports {}", profile_.support.speed) : "";
         const int next = output_->begin({job.identity, gcode_settings(profile_) + supports, range}, resume);
         if (const nlohmann::ordered_json state = output_->state(); !state.is_null()) {
@@ -102,6 +103,10 @@ class Gcode : public Backend {
         append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
         append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
         product->islands_left_out = paths.islands_left_out;
+        for (Bead& bead : paths.beads) {
+            if (bead.role != Role::skirt)
+                bead.object = labels_.object_at({bead.points[bead.points.size() / 2], layer.z()});
+        }
         if (paths.beads.empty()) {
             product->area = product->support_area = 0;  // sections too small for a bead
         } else {
@@ -224,7 +229,7 @@ class Gcode : public Backend {
         product.slowed = slow_to_rate(moves, gcode_);
         product.seconds = seconds_of(moves, product.first, gcode_);
         product.last = planned.position();
-        GcodeText text(profile_);
+        GcodeText text(profile_, &labels_);
         text.fan(fan(layer.index()), gcode_.bridge_fan);
         text.moves(moves, product.first, beads);
         product.text = text.text();
@@ -311,6 +316,7 @@ class Gcode : public Backend {
         for (const char* mode : {"G21", "G90", "M83", "M107"}) text.line(mode);
         if (sets_acceleration(gcode_) && has_travel_acceleration(gcode_.flavour))
             text.line(travel_acceleration_line(travel_acceleration(gcode_)));
+        text.lines(labels_.definitions());
         if (gcode_.prime_line) prime(text);
         return text.text();
     }
@@ -396,6 +402,7 @@ class Gcode : public Backend {
     std::unique_ptr<GcodeOutput> output_;
     std::optional<NeighbourLayers> neighbours_;  // set by open
     LayerPlan layers_;
+    ObjectLabels labels_;
     LayerRange range_;
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};

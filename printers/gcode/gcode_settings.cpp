@@ -126,6 +126,7 @@ std::string gcode_settings(const PrinterProfile& profile) {
            fmt::format(" motion {} {} {} {} {} {} {} {} prime {}", g.acceleration, g.wall_acceleration,
                        g.travel_acceleration, g.first_layer_acceleration, g.junction_deviation,
                        g.planner_blocks, g.lines_per_second, g.arcs, g.prime_line) +
+           (g.label_objects ? "" : " no labels") +
            fmt::format(" travel {} {} {} wipe {} hop {} {}", g.travel_inside, g.retract_from,
                        g.retract_inside_from, g.wipe, g.z_hop, g.z_hop_from) +
            fmt::format(" paths {} {} {} {} {} {} {} {}", t.walls, t.top_layers, t.bottom_layers,

@@ -15,6 +15,23 @@ namespace {
 
 using Kind = GcodeMove::Kind;
 
+/// Returns the part of the plate that each move belongs to. Moves between beads of one part are its own,
+/// those on the way to another belong to none.
+std::vector<int> objects_of(std::span<const GcodeMove> moves, std::span<const Bead> beads) {
+    std::vector<int> before(moves.size(), -1);
+    int last = -1;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        if (moves[i].bead >= 0) last = beads[static_cast<std::size_t>(moves[i].bead)].object;
+        before[i] = last;
+    }
+    int next = -1;
+    for (std::size_t i = moves.size(); i-- > 0;) {
+        if (moves[i].bead >= 0) next = before[i];
+        if (before[i] != next) before[i] = -1;
+    }
+    return before;
+}
+
 double on_grid(double coordinate) { return std::round(coordinate * 1000) / 1000; }
 
 }  // namespace
@@ -105,12 +122,19 @@ void GcodeText::move(const GcodeMove& move, dvec2 from) {
 }
 
 void GcodeText::moves(std::span<const GcodeMove> moves, dvec2 position, std::span<const Bead> beads) {
-    for (const GcodeMove& m : moves) {
+    const std::vector<int> objects =
+        labels_ == nullptr ? std::vector<int>(moves.size(), -1) : objects_of(moves, beads);
+    int object = -1;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const GcodeMove& m = moves[i];
+        if (objects[i] != object) lines(labels_->change(object, objects[i]));
+        object = objects[i];
         if (m.bead >= 0) announce(beads[static_cast<std::size_t>(m.bead)], m.width);
         acceleration(m);
         move(m, position);
         position = m.to;
     }
+    if (object >= 0) lines(labels_->change(object, -1));
 }
 
 }  // namespace lamella

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "printers/gcode/gcode_moves.h"
+#include "printers/gcode/object_labels.h"
 
 namespace lamella {
 
@@ -18,7 +19,9 @@ std::string duration_text(double seconds);
 /// A text of G-code to which lines are appended.
 class GcodeText {
   public:
-    explicit GcodeText(const PrinterProfile& profile) : profile_(profile) {}
+    /// `labels` (may be null) say which part of a plate beads belong to.
+    explicit GcodeText(const PrinterProfile& profile, const ObjectLabels* labels = nullptr)
+        : profile_(profile), labels_(labels) {}
 
     void line(std::string_view text) { (text_ += text) += '\n'; }
     /// Appends lines that already end in a line feed.
@@ -43,6 +46,7 @@ class GcodeText {
     void speed(double mm_per_second);
 
     const PrinterProfile& profile_;
+    const ObjectLabels* labels_;
     std::string text_;
     double filament_ = 0;
     double speed_ = 0;         // of the last F word, mm/s

@@ -27,6 +27,7 @@ struct Bead {
     Role role = Role::external_perimeter;
     bool closed = false;           ///< the last point is joined to the first
     int island = 0;                ///< index of the island; beads of one island follow each other
+    int object = -1;               ///< index of the part on the plate; -1: none
     std::vector<double> widths{};  ///< width at each point, mm, if it varies; otherwise empty
     bool hangs = false;            ///< nothing supports it from below
     double flow = 1;  ///< extruded volume relative to the cross-section times the length; > 1 fills the round

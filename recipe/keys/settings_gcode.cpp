@@ -182,6 +182,11 @@ void add_motion(std::vector<Setting>& t) {
     add_gcode_row<&G::arcs>(
         t, "arcs", "--printer-arcs",
         {.help = "Write arcs (G2, G3) for points that lie on an arc within the tolerance."});
+    add_gcode_row<&G::label_objects>(
+        t, "label_objects", "--printer-label-objects",
+        {.help =
+             "Say which of several parts on a plate the lines belong to, so that one can be cancelled (M486, "
+             "EXCLUDE_OBJECT)."});
     add_gcode_row<&G::thumbnails>(t, "thumbnails", "--printer-thumbnails",
                                   {.help = "Put pictures of the part into the file, for hosts and displays; "
                                            "they are drawn before the first layer."});
