@@ -12,6 +12,7 @@
 #include "app/console/progress.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "printers/common/layer_heights.h"
 
 namespace lamella {
 
@@ -79,11 +80,14 @@ AreaSummary measure_areas(const JobFile& job, int threads, bool quiet) {
     summary.lowest_layer = static_cast<int>(lowest - areas.begin());
     summary.highest_layer = static_cast<int>(highest - areas.begin());
     summary.mean = std::accumulate(areas.begin(), areas.end(), 0.0) / job.layers() * pixel;
+    for (int i = 0; i < std::min(job.layers(), facts.heights.count()); ++i)
+        summary.volume += areas[static_cast<std::size_t>(i)] * pixel * facts.heights.height(i);
     summary.empty_layers = static_cast<int>(std::ranges::count(areas, 0.0));
     return summary;
 }
 
 double mask_volume(const JobFacts& facts, const AreaSummary& areas) {
+    if (!areas.in_pixels && facts.heights.count() > 0) return areas.volume;
     if (areas.in_pixels || !facts.layer_height) return -1;
     return areas.mean * facts.layers * *facts.layer_height;
 }
@@ -102,6 +106,7 @@ Json job_json(const std::string& path, const JobFacts& facts, const AreaSummary&
     add_text("program", facts.program);
     json["layers"] = facts.layers;
     add("layer_height_mm", facts.layer_height);
+    if (facts.heights.count() > 0) json["layer_height_mm"] = layer_heights_json(facts.heights);
     json["width_px"] = facts.width;
     json["height_px"] = facts.height;
     add("pixel_x_mm", facts.pixel_x);
@@ -132,6 +137,8 @@ std::string job_text(const JobFacts& facts, const AreaSummary& areas) {
         text += "printer   " + facts.machine + (both ? ", " : "") + facts.material + "\n";
     }
     text += fmt::format("layers    {}", facts.layers);
+    if (facts.heights.count() > 0)
+        text += fmt::format(" of {}, {:.7g} mm high", facts.heights.heights_text(), facts.heights.total());
     if (facts.layer_height)
         text += fmt::format(" of {:.7g} mm, {:.7g} mm high", *facts.layer_height,
                             *facts.layer_height * facts.layers);

@@ -12,6 +12,7 @@ namespace lamella {
 /// pixel counts by its grey value.
 struct AreaSummary {
     double lowest = 0, highest = 0, mean = 0;
+    double volume = 0;  ///< areas times heights, where heights of layers differ
     int lowest_layer = 0, highest_layer = 0;
     int empty_layers = 0;
     bool in_pixels = false;

@@ -1,7 +1,9 @@
 // GOO files (vendor's specification V1.2, 2023): a header of fixed size, run-length coded layers, a footer.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -223,11 +225,17 @@ class GooFile : public JobFile {
     /// Locates the layers, which follow each other, each with the size of its code.
     void find_layers() {
         places_.reserve(static_cast<std::size_t>(facts_.layers));
+        std::vector<EqualLayers> heights;
+        double below = 0;
         std::uint64_t at = content_;
         for (int k = 0; k < facts_.layers; ++k) {
             const std::string bytes = read(in_, at, layer_header_bytes, k);
             if (std::string_view(bytes).substr(layer_header_bytes - 6, 2) != "\r\n")
                 reject(k, "its description does not end where it should");
+            const double top = BigEndianReader(std::string_view(bytes).substr(6)).real();
+            constexpr double grains = 1e4;  // in a mm; positions have single precision
+            heights.push_back({1, std::round((top - below) * grains) / grains});
+            below = top;
             const std::uint32_t size = BigEndianReader(std::string_view(bytes).substr(66)).number(4);
             at += layer_header_bytes;
             if (size > size_ - at) reject(k, "it goes beyond the end of the file, which is cut off");
@@ -236,6 +244,14 @@ class GooFile : public JobFile {
             if (read(in_, at, 2, k) != "\r\n") reject(k, "its code does not end where it should");
             at += 2;
         }
+        const auto is_height = [](const EqualLayers& layer) {
+            return layer.height > 0 && layer.height < 100;
+        };
+        if (std::ranges::all_of(heights, is_height)) {
+            const LayerPlan plan(heights);
+            if (!plan.equal()) facts_.heights = plan;
+        }
+        if (facts_.heights.count() > 0) facts_.layer_height.reset();
         const bool whole = size_ - at >= end_bytes &&
                            read(in_, at + 3, goo_file_magic.size(), facts_.layers) == goo_file_magic;
         if (!whole) reject("its end is missing; the file is cut off");

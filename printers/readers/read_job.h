@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/layers/layer_plan.h"
+
 namespace lamella {
 
 /// Metadata stated by a job's file; a value that is not stated is empty.
@@ -22,6 +24,7 @@ struct JobFacts {
     std::optional<double> pixel_x;         ///< distance between columns of a mask, mm
     std::optional<double> pixel_y;         ///< distance between rows of a mask, mm
     std::optional<double> layer_height;    ///< mm
+    LayerPlan heights;                     ///< of layers that differ, instead of layer_height; else no layers
     std::optional<double> exposure;        ///< exposure of a layer, s
     std::optional<double> first_exposure;  ///< exposure of the first layers, s
     std::optional<int> first_layers;       ///< number of first layers

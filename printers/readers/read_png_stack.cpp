@@ -1,6 +1,7 @@
 // Folders of masks with a job.json that describes them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -21,6 +22,24 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t max_description_bytes = std::uintmax_t{1} << 26U,
                          max_mask_bytes = std::uintmax_t{1} << 30U;  // bytes
+
+/// Returns the plan of layers that differ, as [count, height] for each run of equal ones; no layers for
+/// others.
+LayerPlan heights_of(const Json& job) {
+    if (!job.contains("layer_height") || !job["layer_height"].is_array()) return {};
+    constexpr double highest = 1000, most_layers = 10'000'000;
+    std::vector<EqualLayers> runs;
+    double layers = 0;
+    for (const Json& run : job["layer_height"]) {
+        if (!run.is_array() || run.size() != 2 || !run[0].is_number_unsigned() || !run[1].is_number())
+            return {};
+        const double count = run[0].get<double>(), height = run[1].get<double>();
+        layers += count;
+        if (!(height > 0 && height < highest) || layers > most_layers) return {};
+        runs.push_back({static_cast<int>(count), height});
+    }
+    return LayerPlan(runs);
+}
 
 std::string read_bounded(const fs::path& path, std::uintmax_t most, const std::string& where) {
     std::error_code error;
@@ -98,6 +117,10 @@ class PngStackFile : public JobFile {
         if (!first || !last || *first >= *last) reject("first_layer and last_layer are missing or no range");
         first_ = *first;
         facts_.layers = *last - *first;
+        const LayerPlan all = heights_of(job);
+        std::vector<EqualLayers> these;
+        for (int k = *first; k < std::min(*last, all.count()); ++k) these.push_back({1, all.height(k)});
+        if (*last <= all.count()) facts_.heights = LayerPlan(these);
         std::error_code error;
         for (int k = *first; k < *last; ++k) {
             const std::string name = fmt::format("{:05}{}", k, ending_);

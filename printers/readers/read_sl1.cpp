@@ -55,6 +55,11 @@ class Sl1File : public JobFile {
         facts_.material = text_of(machine, "materialName");
         facts_.program = text_of(machine, "prusaSlicerVersion");
         facts_.layer_height = positive(machine, "layerHeight");
+        const auto first = positive(machine, "layerHeightFirst");
+        if (first && facts_.layer_height && *first != *facts_.layer_height && facts_.layers > 1) {
+            facts_.heights = LayerPlan({{1, *first}, {facts_.layers - 1, *facts_.layer_height}});
+            facts_.layer_height.reset();
+        }
         facts_.exposure = positive(machine, "expTime");
         facts_.first_exposure = positive(machine, "expTimeFirst");
         facts_.fade_layers = count(machine, "numFade");

@@ -11,6 +11,7 @@
 #include "printers/masks/goo.h"
 #include "printers/masks/png_stack.h"
 #include "printers/masks/sl1.h"
+#include "printers/readers/read_job.h"
 #include "printers/registry.h"
 #include "printers/vector/cli.h"
 #include "printers/vector/slice_3mf.h"
@@ -126,6 +127,7 @@ TEST_CASE("contours and masks are told with their heights", "[layers]") {
             at += 66 + 4 + word_at(at + 66) + 2;
         }
         check_tops(found);
+        CHECK(open_job(folder / "a.goo")->facts().heights == varied);
     }
     SECTION("slices in 3MF") {
         run_layers(frustum(), *make_slice_3mf(machine("powder-bed"), folder / "a.3mf", false), {0, 10});
@@ -142,6 +144,9 @@ TEST_CASE("contours and masks are told with their heights", "[layers]") {
         run_layers(frustum(), *make_png_stack(profile, folder / "png", false), {0, 10});
         const auto json = nlohmann::json::parse(read_text(folder / "png/job.json"));
         CHECK(json["layer_height"] == nlohmann::json{{1, 0.3}, {3, 0.2}, {4, 0.1}, {2, 0.25}});
+        CHECK(open_job(folder / "png")->facts().heights == varied);
+        run_layers(frustum(), *make_png_stack(profile, folder / "some", false), {2, 9});
+        CHECK(open_job(folder / "some")->facts().heights == LayerPlan({{2, 0.2}, {4, 0.1}, {1, 0.25}}));
     }
     SECTION("SL1, whose first layer may differ") {
         const LayerPlan first({{1, 0.1}, {34, 0.05}});
@@ -151,6 +156,7 @@ TEST_CASE("contours and masks are told with their heights", "[layers]") {
             if (name == "config.ini") config = text;
         CHECK(values_after(config, "layerHeight = ") == std::vector<double>{0.05});
         CHECK(values_after(config, "layerHeightFirst = ") == std::vector<double>{0.1});
+        CHECK(open_job(folder / "a.sl1")->facts().heights == first);
     }
 }
 
