@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/error.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/runs/row_sets.h"
 
@@ -148,7 +149,11 @@ SlopeProfile survey_slopes(const FieldPtr& solid, const Box& bounds, const Slope
     job.bounds = bounds;
     job.layers = {static_cast<int>(std::ceil(bounds.size().z / options.step)), options.step};
     SlopeSurveyor surveyor(job, options.pitch);
-    survey_layers(job, surveyor, options);
+    try {
+        survey_layers(job, surveyor, options);
+    } catch (const Interrupted&) {
+        throw Interrupted("stopped before the heights of layers were known");
+    }
     return surveyor.take();
 }
 
