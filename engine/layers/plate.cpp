@@ -167,11 +167,12 @@ Rect covered(const PlateOutline& outline, const Job& job) {
     return intersect(grown(rect, outline.pitch), job.bounds.rect());
 }
 
-void check_sizes(std::span<const PlateItem> items, const PlateOptions& options) {
+/// Turned outlines are known to a pixel of `pitch` mm.
+void check_sizes(std::span<const PlateItem> items, const PlateOptions& options, double pitch) {
     for (const PlateItem& item : items) {
         const dvec2 size(item.job.bounds.size()), plate = options.machine;
         const bool fits = size.x <= plate.x && size.y <= plate.y;
-        if (fits || (options.turns && size.y <= plate.x && size.x <= plate.y)) continue;
+        if (fits || (options.turns && size.y + pitch <= plate.x && size.x + pitch <= plate.y)) continue;
         throw InputError(
             fmt::format("{} is {:.2f} x {:.2f} mm, but the plate has room for {:.2f} x {:.2f} mm",
                         item.job.name, size.x, size.y, plate.x, plate.y));
@@ -180,15 +181,17 @@ void check_sizes(std::span<const PlateItem> items, const PlateOptions& options) 
 
 std::vector<Job> nested_plates(std::span<const PlateItem> items, const PlateOptions& options) {
     constexpr double pixels = 1000;  // along the plate
-    check_sizes(items, options);
     // A part as deep as the plate has as many rows as the plate.
     const double rows =
         std::ceil(pixels * options.machine.y / std::max(options.machine.x, options.machine.y));
     const double pitch = options.machine.y / rows;
+    check_sizes(items, options, pitch);
     std::vector<PlateOutline> outlines;
+    std::vector<Rect> covers;
     std::vector<NestShape> shapes;
     for (const PlateItem& item : items) {
         outlines.push_back(survey_outline(item.job, pitch, options));
+        covers.push_back(covered(outlines.back(), item.job));
         NestShape& shape = shapes.emplace_back(NestShape{{}, item.copies});
         for (int quarters = 0; quarters < (options.turns ? 4 : 1); ++quarters) {
             const bool is_upright = quarters % 2 == 0;
@@ -214,9 +217,8 @@ std::vector<Job> nested_plates(std::span<const PlateItem> items, const PlateOpti
                          static_cast<double>(outline.rows.lines()));
         const Rect whole{outline.origin, outline.origin + size * pitch};
         const dvec2 at = origin + dvec2(place.x, place.y * run_unit) * (pitch / run_unit);
-        plates[static_cast<std::size_t>(place.plate)].add({&items[place.shape], quarters,
-                                                           at - quarter_turned(whole, quarters).lo,
-                                                           covered(outline, items[place.shape].job)});
+        plates[static_cast<std::size_t>(place.plate)].add(
+            {&items[place.shape], quarters, at - quarter_turned(whole, quarters).lo, covers[place.shape]});
     }
     std::vector<Job> jobs;
     for (PlateJob& plate : plates) {

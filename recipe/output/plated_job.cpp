@@ -13,7 +13,7 @@ PlatedJob put_on_plates(const Recipe& recipe, std::span<const PlateItem> items, 
     options.threads = control.threads;
     options.cancel = control.cancel;
     options.gap = recipe.plate.gap;
-    options.machine = dvec2(build_volume_limits(recipe.printer, recipe.layers.height));
+    options.machine = dvec2(build_volume_limits(recipe.printer, items.front().job.layers.height(0)));
     options.turns = recipe.plate.turn;
     std::vector<Job> plates = arrange_plates(items, options);
     const auto count = static_cast<int>(plates.size());

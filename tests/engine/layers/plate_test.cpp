@@ -97,6 +97,7 @@ TEST_CASE("rows are as long as it takes to fit the machine", "[plate]") {
     CHECK(size_on({21, 3}) == dvec2(21, 3));
     CHECK(size_on({43, 1}) == dvec2(43, 1));
     CHECK(size_on({10, 7}) == dvec2(10, 7));
+    CHECK_THROWS_WITH(size_on({5, 100}), Catch::Contains("10.00 x 1.00 mm"));
 }
 
 TEST_CASE("parts of several heights stand on one bed, with their supports", "[plate]") {
