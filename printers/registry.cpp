@@ -210,7 +210,8 @@ Process process_of(const PrinterProfile& profile) {
 
 void check_layer_heights(const PrinterProfile& profile, const LayerPlan& layers) {
     const BackendInfo& backend = find_backend(profile.backend);
-    const bool cuts = process_of(profile) == Process::cutting;
+    const bool cuts =
+        cuts_sheets(profile) || (makes_beads(profile) && process_of(profile) == Process::cutting);
     check_layer_heights(cuts ? LayerHeights::equal : backend.layer_heights, layers, {0, layers.count()},
                         cuts ? "a sheet of material" : backend.name);
 }

@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
 #include "printers/archive/json_number.h"
+#include "printers/common/layer_heights.h"
 #include "printers/gcode/gcode_flavour.h"
 #include "printers/gcode/gcode_moves.h"
 #include "printers/gcode/gcode_script.h"
@@ -148,6 +149,7 @@ class LaserGcode : public Backend {
         check_range(job, range);
         check_laser_profile(profile_);
         check_able(job);
+        check_layer_heights(LayerHeights::equal, job.layers, range, "a sheet of material");
         job_ = job;
         range_ = range;
         shift_ = dvec2(cut_allowance(profile_.cutting)) - dvec2(job.bounds.lo.x, job.bounds.lo.y);

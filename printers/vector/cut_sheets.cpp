@@ -9,6 +9,7 @@
 #include "engine/base/number_format.h"
 #include "printers/archive/unfinished_file.h"
 #include "printers/archive/unfinished_folder.h"
+#include "printers/common/layer_heights.h"
 #include "printers/vector/cut_notes.h"
 #include "printers/vector/cut_plan.h"
 #include "printers/vector/sheet_nesting.h"
@@ -83,6 +84,7 @@ class CutBackend : public Backend {
   protected:
     JobStamp prepare(const Job& job, LayerRange range) {
         check_range(job, range);
+        check_layer_heights(LayerHeights::equal, job.layers, range, "a sheet of material");
         if (job.supports) {
             throw InputError(
                 "supports are not cut out of sheets; accepted: support.kind = \"none\", or another kind "

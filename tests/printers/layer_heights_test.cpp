@@ -171,7 +171,15 @@ TEST_CASE("formats that know one height refuse several", "[layers]") {
                           Catch::Contains("accepted: layers.height alone"));
         CHECK_NOTHROW(check_layer_heights(profile, LayerPlan(35, 0.05)));
     }
-    CHECK_THROWS_AS(check_layer_heights(machine("laser-k40"), first), InputError);
+    PrinterProfile kerf = machine("laser-k40");
+    CHECK_NOTHROW(check_layer_heights(kerf, first));  // outlines with their heights, for any use
+    kerf.cutting.kerf = 0.1;
+    for (const PrinterProfile& profile : {kerf, machine("grbl-laser")}) {
+        CHECK_THROWS_AS(check_layer_heights(profile, first), InputError);
+        const std::string path = folder / (profile.backend == kerf.backend ? "sheets" : "cut.nc");
+        CHECK_THROWS_WITH(make_backend(profile, path, false)->open(frustum(), {0, 10}, false),
+                          Catch::Contains("a sheet of material has layers of one height"));
+    }
     CHECK_THROWS_WITH(
         make_sl1(machine("prusa-sl1s"), folder / "a.sl1", false)->open(frustum(), {0, 10}, false),
         Catch::Contains("accepted: layers.height and layers.first"));
