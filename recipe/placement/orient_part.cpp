@@ -51,7 +51,17 @@ OrientationScore score_of(OrientGoal goal) {
     return [](const OrientationFigures& f) { return f.support_volume; };
 }
 
-/// Returns the material of supports of the solid body, mm^3.
+/// Plans the supports of the first orientations, and sorts these by the material.
+void plan_first(const Recipe& recipe, const OrientOptions& options, std::vector<Orientation>& best) {
+    const auto planned = std::span(best).first(std::min(options.plan, best.size()));
+    for (Orientation& orientation : planned)
+        orientation.planned = planned_supports(recipe, orientation.lay_on, options);
+    std::ranges::stable_sort(planned, {},
+                             [](const Orientation& orientation) { return *orientation.planned; });
+}
+
+}  // namespace
+
 double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions& options) {
     Recipe solid;
     solid.part = recipe.part;
@@ -70,17 +80,6 @@ double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions&
     add_supports(solid, built, planning);
     return support_volume(built.job);
 }
-
-/// Plans the supports of the first orientations, and sorts these by the material.
-void plan_first(const Recipe& recipe, const OrientOptions& options, std::vector<Orientation>& best) {
-    const auto planned = std::span(best).first(std::min(options.plan, best.size()));
-    for (Orientation& orientation : planned)
-        orientation.planned = planned_supports(recipe, orientation.lay_on, options);
-    std::ranges::stable_sort(planned, {},
-                             [](const Orientation& orientation) { return *orientation.planned; });
-}
-
-}  // namespace
 
 OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
     const Recipe recipe = with_known_placement(given);

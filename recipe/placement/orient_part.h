@@ -44,4 +44,8 @@ struct OrientReport {
 /// cancelled.
 OrientReport orient_part(const Recipe& recipe, const OrientOptions& options);
 
+/// Returns the material of the supports that are planned for the solid body when it is laid on the bed with
+/// this direction down, mm^3. Throws as orient_part does.
+double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions& options);
+
 }  // namespace lamella
